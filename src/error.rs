@@ -1,0 +1,77 @@
+//! What can go wrong anywhere.
+//!
+//! Each module has an error of its own, whose sentence names the offender and whose fields carry the
+//! numbers a caller needs next. [`Error`] holds any of them; [`Error::kind`] sorts them into the few
+//! classes that a program can act upon, [`Error::index`] is the offending node, triangle, row or byte.
+
+use crate::control::Cancelled;
+use crate::mesh::{MeshError, ReadError};
+
+/// The class of an error: what a program can act upon without reading the sentence.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ErrorKind {
+    /// An argument is out of its range, or contradicts another.
+    InvalidArgument,
+    /// A number is NaN or infinite.
+    NotFinite,
+    /// An index is out of range.
+    Index,
+    /// The mesh is not connected as the call needs it.
+    Topology,
+    /// The geometry is degenerate: zero lengths, areas or ranges.
+    Degenerate,
+    /// A parameter lies outside the domain.
+    Outside,
+    /// The data do not determine the result.
+    Singular,
+    /// The call does not apply to this family of surface.
+    WrongKind,
+    /// The caller's array is too short.
+    BufferTooSmall,
+    /// The result would exceed a limit.
+    TooLarge,
+    /// A file cannot be opened, read or written.
+    File,
+    /// The content of a file or buffer is not what it claims to be.
+    Format,
+    /// A record or buffer was made by a newer version.
+    Version,
+    /// The progress callback asked to stop.
+    Cancelled,
+    /// Memory could not be had.
+    OutOfMemory,
+}
+
+/// Any error of the library.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Error {
+    /// A mesh is not one.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// A mesh file cannot be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// The progress callback asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+impl Error {
+    /// The class of the error.
+    pub fn kind(&self) -> ErrorKind {
+        match self {
+            Self::Mesh(error) => error.kind(),
+            Self::Read(error) => error.kind(),
+            Self::Cancelled(_) => ErrorKind::Cancelled,
+        }
+    }
+
+    /// The offending node, triangle, row, value or byte, counted from 0.
+    pub fn index(&self) -> Option<usize> {
+        match self {
+            Self::Mesh(error) => error.index(),
+            Self::Read(error) => error.index(),
+            Self::Cancelled(_) => None,
+        }
+    }
+}

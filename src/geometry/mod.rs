@@ -1,0 +1,7 @@
+//! Points, boxes and exact predicates.
+
+mod bounds;
+mod orientation;
+
+pub use bounds::Bounds;
+pub use orientation::{Orientation, orientation};

@@ -1,0 +1,21 @@
+//! Smooth spline surfaces from triangle meshes, rows of points and fields on nodes.
+//!
+//! The tree is the architecture; arrows run downwards only, a module knows what stands above it:
+//!
+//! * [`error`], [`control`]: what can go wrong; threads, progress and cancelling.
+//! * [`geometry`]: boxes, exact predicates.
+//! * [`linalg`]: banded and sparse systems.
+//! * [`mesh`]: triangle meshes, their topology and files.
+//! * [`parameterize`]: where a mesh gets its (u,v) from.
+
+#![deny(unsafe_code)]
+
+pub mod control;
+pub mod error;
+pub mod geometry;
+pub mod linalg;
+pub mod mesh;
+pub mod parameterize;
+
+pub use control::Control;
+pub use error::{Error, ErrorKind};

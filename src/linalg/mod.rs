@@ -1,0 +1,1 @@
+//! Banded and sparse systems: sprs holds and multiplies, faer factors.
