@@ -5,7 +5,11 @@
 //! classes that a program can act upon, [`Error::index`] is the offending node, triangle, row or byte.
 
 use crate::control::Cancelled;
+use crate::knots::KnotError;
 use crate::mesh::{MeshError, ReadError};
+use crate::surface::TrimError;
+use crate::surface::evaluate::EvalError;
+use crate::surface::tensor::TensorError;
 
 /// The class of an error: what a program can act upon without reading the sentence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,6 +55,18 @@ pub enum Error {
     /// A mesh file cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
+    /// Knots are not a knot vector.
+    #[error(transparent)]
+    Knots(#[from] KnotError),
+    /// A tensor surface is not one.
+    #[error(transparent)]
+    Tensor(#[from] TensorError),
+    /// Points cannot be evaluated.
+    #[error(transparent)]
+    Eval(#[from] EvalError),
+    /// A trim is not one.
+    #[error(transparent)]
+    Trim(#[from] TrimError),
     /// The progress callback asked to stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
@@ -62,6 +78,10 @@ impl Error {
         match self {
             Self::Mesh(error) => error.kind(),
             Self::Read(error) => error.kind(),
+            Self::Knots(error) => error.kind(),
+            Self::Tensor(error) => error.kind(),
+            Self::Eval(error) => error.kind(),
+            Self::Trim(error) => error.kind(),
             Self::Cancelled(_) => ErrorKind::Cancelled,
         }
     }
@@ -71,6 +91,10 @@ impl Error {
         match self {
             Self::Mesh(error) => error.index(),
             Self::Read(error) => error.index(),
+            Self::Knots(error) => error.index(),
+            Self::Tensor(error) => error.index(),
+            Self::Eval(error) => error.index(),
+            Self::Trim(error) => error.index(),
             Self::Cancelled(_) => None,
         }
     }
