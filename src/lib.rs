@@ -13,6 +13,7 @@
 pub mod basis;
 pub mod control;
 pub mod error;
+pub mod fit;
 pub mod geometry;
 pub mod hermite;
 pub mod knots;

@@ -1,6 +1,6 @@
 //! The one measure of error: on the finished surface, through its public evaluation.
 
-use crate::control::Control;
+use crate::control::Pool;
 use crate::surface::Surface;
 use glam::DVec2;
 use rayon::prelude::*;
@@ -24,10 +24,10 @@ pub struct DataErrors {
 const CHUNK: usize = 1024;
 
 /// Euclidean distances between the surface at `uv` and the rows of `values`.
-pub fn data_errors(surface: &dyn Surface, uv: &[DVec2], values: &[f64], control: &Control) -> DataErrors {
+pub fn data_errors(surface: &dyn Surface, uv: &[DVec2], values: &[f64], pool: &Pool) -> DataErrors {
     let dim = surface.dim();
     let mut each = vec![0.0; uv.len()];
-    control.run(|| {
+    pool.run(|| {
         each.par_chunks_mut(CHUNK).zip(uv.par_chunks(CHUNK)).zip(values.par_chunks(CHUNK * dim)).for_each(
             |((each, uv), values)| {
                 let mut rows = vec![0.0; uv.len() * dim];

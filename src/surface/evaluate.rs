@@ -2,7 +2,7 @@
 
 use super::differential::{curvatures, normal};
 use super::{Domain, Surface, derivative_rows};
-use crate::control::Control;
+use crate::control::Pool;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -148,7 +148,7 @@ pub fn evaluate(
     out: &mut [f64],
     out_stride: usize,
     flags: Option<&mut [u8]>,
-    control: &Control,
+    pool: &Pool,
 ) -> Result<usize, EvalError> {
     let width = quantity.width(surface.dim());
     check_quantity(surface, quantity)?;
@@ -164,14 +164,14 @@ pub fn evaluate(
         let uv: Vec<DVec2> = (first..points.count.min(first + CHUNK)).map(|i| points.get(i)).collect();
         eval_piece(surface, quantity, &uv, rule, out, out_stride, flags)
     };
-    if control.thread_count() == 1 || points.count <= CHUNK {
+    if pool.thread_count() == 1 || points.count <= CHUNK {
         let outs = out.chunks_mut(CHUNK * out_stride);
         if wants_flags {
             return Ok(outs.zip(flags.chunks_mut(CHUNK)).enumerate().map(|(k, (o, f))| piece(k, o, f)).sum());
         }
         return Ok(outs.enumerate().map(|(k, o)| piece(k, o, &mut [])).sum());
     }
-    Ok(control.run(|| {
+    Ok(pool.run(|| {
         let outs = out.par_chunks_mut(CHUNK * out_stride).enumerate();
         if wants_flags {
             return outs.zip(flags.par_chunks_mut(CHUNK)).map(|((k, o), f)| piece(k, o, f)).sum();
