@@ -6,7 +6,7 @@
 
 use crate::control::Cancelled;
 use crate::knots::KnotError;
-use crate::mesh::{MeshError, ReadError};
+use crate::mesh::{CutError, MeshError, ReadError};
 use crate::surface::TrimError;
 use crate::surface::evaluate::EvalError;
 use crate::surface::tensor::TensorError;
@@ -67,6 +67,9 @@ pub enum Error {
     /// A trim is not one.
     #[error(transparent)]
     Trim(#[from] TrimError),
+    /// A mesh cannot be cut as asked.
+    #[error(transparent)]
+    Cut(#[from] CutError),
     /// The progress callback asked to stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
@@ -75,27 +78,24 @@ pub enum Error {
 impl Error {
     /// The class of the error.
     pub fn kind(&self) -> ErrorKind {
-        match self {
-            Self::Mesh(error) => error.kind(),
-            Self::Read(error) => error.kind(),
-            Self::Knots(error) => error.kind(),
-            Self::Tensor(error) => error.kind(),
-            Self::Eval(error) => error.kind(),
-            Self::Trim(error) => error.kind(),
-            Self::Cancelled(_) => ErrorKind::Cancelled,
-        }
+        self.kind_and_index().0
     }
 
     /// The offending node, triangle, row, value or byte, counted from 0.
     pub fn index(&self) -> Option<usize> {
+        self.kind_and_index().1
+    }
+
+    fn kind_and_index(&self) -> (ErrorKind, Option<usize>) {
         match self {
-            Self::Mesh(error) => error.index(),
-            Self::Read(error) => error.index(),
-            Self::Knots(error) => error.index(),
-            Self::Tensor(error) => error.index(),
-            Self::Eval(error) => error.index(),
-            Self::Trim(error) => error.index(),
-            Self::Cancelled(_) => None,
+            Self::Mesh(error) => (error.kind(), error.index()),
+            Self::Read(error) => (error.kind(), error.index()),
+            Self::Knots(error) => (error.kind(), error.index()),
+            Self::Tensor(error) => (error.kind(), error.index()),
+            Self::Eval(error) => (error.kind(), error.index()),
+            Self::Trim(error) => (error.kind(), error.index()),
+            Self::Cut(error) => (error.kind(), error.index()),
+            Self::Cancelled(_) => (ErrorKind::Cancelled, None),
         }
     }
 }
