@@ -2,5 +2,7 @@
 
 mod cholesky;
 pub mod dissection;
+mod general;
 
 pub use cholesky::{Cholesky, NotPositiveDefinite, SymbolicCholesky};
+pub use general::{Entries, Singular};

@@ -3,6 +3,7 @@
 //! Unknown `(i, j)` meets `(i + a, j + b)` for `|a|, |b| <= 3`: a stencil of 49, of which the lower
 //! triangle keeps `a = 0, b = 0..=3` and `a = 1..=3, b = -3..=3`.
 
+use super::Energy;
 use super::grid::UniformBasis;
 use crate::control::Pool;
 use crate::linalg::dissection::grid_order;
@@ -16,16 +17,6 @@ use std::ops::Range;
 const REACH: usize = 3;
 /// Entries kept for each unknown: offsets 0 to 3 along u times offsets -3 to 3 along v.
 const STENCIL: usize = 4 * 7;
-
-/// Which second derivatives cost energy.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Energy {
-    /// Elastic beams along the knot lines: `x_ss` on lines of constant v, `x_tt` on lines of constant u.
-    #[default]
-    Beam,
-    /// An elastic plate: `x_ss^2 + 2 x_st^2 + x_tt^2` over the cells.
-    Plate,
-}
 
 /// The data of a fit: parameters, rows of values, and weights.
 #[derive(Debug, Clone, Copy)]
@@ -173,7 +164,7 @@ impl NormalEquations {
     /// The lower triangle of `N^T N + weight * energy`.
     fn with_energy(&self, weight: f64, energy: Energy) -> CsMat<f64> {
         let (count_u, count_v) = (self.basis.u.len(), self.basis.v.len());
-        let terms = energy_terms(&self.basis, energy);
+        let terms = energy.terms(&self.basis.u, &self.basis.v);
         let n = count_u * count_v;
         let mut starts = Vec::with_capacity(n + 1);
         let mut rows = Vec::with_capacity(n * 25);
@@ -183,7 +174,7 @@ impl NormalEquations {
             for j in 0..count_v {
                 for a in 0..=REACH.min(count_u - 1 - i) {
                     for jj in neighbours(j, a, count_v) {
-                        let bend: f64 = terms.iter().map(|(w, u, v)| w * u[i][a] * v.get(j, jj)).sum();
+                        let bend: f64 = terms.iter().map(|t| t.weight * t.u.rows[i][a] * t.v.get(j, jj)).sum();
                         let stencil = &self.matrix[(i * count_v + j) * STENCIL..];
                         rows.push((i + a) * count_v + jj);
                         values.push(stencil[7 * a + REACH + jj - j] + weight * bend);
@@ -200,23 +191,6 @@ impl NormalEquations {
 fn neighbours(j: usize, a: usize, count: usize) -> Range<usize> {
     let begin = if a == 0 { j } else { j.saturating_sub(REACH) };
     begin..(j + REACH + 1).min(count)
-}
-
-type Term<'a> = (f64, Vec<[f64; 4]>, super::grid::Banded4);
-
-/// The energy as a sum of products of one-dimensional matrices.
-fn energy_terms(basis: &TensorBasis, energy: Energy) -> Vec<Term<'static>> {
-    let (u, v) = (&basis.u, &basis.v);
-    match energy {
-        Energy::Beam => {
-            vec![(1.0, u.gram(2).rows, v.knot_sum()), (1.0, u.knot_sum().rows, v.gram(2))]
-        }
-        Energy::Plate => vec![
-            (1.0, u.gram(2).rows, v.gram(0)),
-            (2.0, u.gram(1).rows, v.gram(1)),
-            (1.0, u.gram(0).rows, v.gram(2)),
-        ],
-    }
 }
 
 fn assemble_strip(basis: &TensorBasis, samples: &Samples, by_cell: &ByCell, cell_u: usize) -> Strip {
