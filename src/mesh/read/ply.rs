@@ -237,11 +237,11 @@ impl<const BIG_ENDIAN: bool> Source for Binary<'_, BIG_ENDIAN> {
 
 fn read_body(source: &mut impl Source, elements: &[Element]) -> Result<Soup, ReadError> {
     let mut soup = Soup::default();
-    let point_count =
-        elements.iter().find(|element| element.name == "vertex").map_or(0, |vertex| vertex.count);
+    let rows = || elements.iter().filter(|element| !element.properties.is_empty());
+    let point_count = rows().find(|element| element.name == "vertex").map_or(0, |vertex| vertex.count);
     let mut has_points = false;
     let mut has_faces = false;
-    for element in elements.iter().filter(|element| !element.properties.is_empty()) {
+    for element in rows() {
         source.check_room(element.count, element)?;
         match element.name.as_str() {
             "vertex" if !has_points => {

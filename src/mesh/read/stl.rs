@@ -21,9 +21,7 @@ pub(super) fn is_binary(bytes: &[u8]) -> bool {
 pub(super) fn read(bytes: &[u8]) -> Result<Soup, ReadError> {
     let start = bytes.trim_ascii_start();
     let is_solid = start.len() >= 5 && start[..5].eq_ignore_ascii_case(b"solid");
-    // a text says `facet` or `endsolid` on its second line
-    let second = start.splitn(2, |&byte| byte == b'\n').nth(1).unwrap_or_default().trim_ascii_start();
-    let is_text = is_solid && second.first().is_none_or(u8::is_ascii_alphabetic);
+    let is_text = is_solid && !bytes.iter().take(512).any(|&byte| byte == 0);
     if is_text && !is_binary(bytes) { read_text(bytes) } else { read_binary(bytes) }
 }
 
