@@ -1,0 +1,305 @@
+//! The elimination tree of a symmetric pattern: which rows every block of pivots fills.
+//!
+//! J. W. H. Liu, "The role of elimination trees in sparse factorization", SIAM J. Matrix Anal.
+//! Appl. 11 (1990), 134-172; merging of small blocks after C. Ashcraft, R. Grimes, "The influence
+//! of relaxed supernode partitions on the multifrontal method", ACM TOMS 15 (1989), 291-309.
+//!
+//! Eliminating a column fills its later rows into its parent, the first of them. Columns with the
+//! same rows are a *supernode*, one dense block; small supernodes are merged with their parent
+//! when few zeros come in. Supernodes are numbered children before parents, heaviest child first.
+
+use super::ordering::Graph;
+use std::ops::Range;
+
+/// A block of pivots with the same rows below.
+#[derive(Debug, Clone)]
+pub(super) struct Supernode {
+    /// The pivots, in elimination order.
+    pub columns: Range<usize>,
+    /// Where its rows below the pivots stand in [`EliminationTree::rows`].
+    pub rows: Range<usize>,
+    /// Supernode that receives its update; none for a root.
+    pub parent: Option<usize>,
+    /// First supernode of its subtree, which is `first_descendant..=self`.
+    pub first_descendant: usize,
+    /// Multiplications of its subtree, roughly.
+    pub work: f64,
+}
+
+impl Supernode {
+    /// Order of the dense front: pivots and rows below.
+    pub fn front_size(&self) -> usize {
+        self.columns.len() + self.rows.len()
+    }
+}
+
+/// What elimination in a given order will fill.
+#[derive(Debug, Clone)]
+pub(super) struct EliminationTree {
+    /// `order[k]` is the node eliminated k-th.
+    pub order: Vec<u32>,
+    /// `position[node]` is its place in `order`.
+    pub position: Vec<u32>,
+    /// Children before parents.
+    pub supernodes: Vec<Supernode>,
+    /// Rows below the pivots of all supernodes, as positions, ascending in each.
+    pub rows: Vec<u32>,
+    /// Children of each supernode, ascending (heaviest first).
+    pub children: Vec<Vec<u32>>,
+}
+
+const NONE: u32 = u32::MAX;
+
+impl EliminationTree {
+    /// Analyses elimination in (nearly) the given order; equivalent orders fill the same.
+    pub fn new(graph: &Graph, order: &[u32]) -> Self {
+        let (order, parents) = postordered(graph, order);
+        let position = inverse(&order);
+        let blocks = fundamental_supernodes(graph, &order, &position, &parents);
+        let merged_into = merge_small(&blocks);
+        assemble(&order, blocks, &merged_into)
+    }
+}
+
+fn inverse(order: &[u32]) -> Vec<u32> {
+    let mut position = vec![0; order.len()];
+    for (k, &node) in order.iter().enumerate() {
+        position[node as usize] = k as u32;
+    }
+    position
+}
+
+/// The order rearranged so that every subtree is contiguous, with the parent of each position.
+fn postordered(graph: &Graph, order: &[u32]) -> (Vec<u32>, Vec<u32>) {
+    let parents = elimination_parents(graph, order);
+    let post = postorder(&parents, |_| 0.0);
+    let rank = inverse(&post);
+    let new_order = post.iter().map(|&k| order[k as usize]).collect();
+    let new_parents = post
+        .iter()
+        .map(|&k| match parents[k as usize] {
+            NONE => NONE,
+            parent => rank[parent as usize],
+        })
+        .collect();
+    (new_order, new_parents)
+}
+
+/// Liu's algorithm: parent of each position, with path compression.
+fn elimination_parents(graph: &Graph, order: &[u32]) -> Vec<u32> {
+    let position = inverse(order);
+    let mut parents = vec![NONE; order.len()];
+    let mut ancestors = vec![NONE; order.len()];
+    for (k, &node) in order.iter().enumerate() {
+        for &neighbour in graph.neighbours(node as usize) {
+            let mut below = position[neighbour as usize] as usize;
+            while below < k {
+                let next = std::mem::replace(&mut ancestors[below], k as u32);
+                if next == NONE {
+                    parents[below] = k as u32;
+                    break;
+                }
+                below = next as usize;
+            }
+        }
+    }
+    parents
+}
+
+/// Children before parents; of siblings the heaviest first, then the smaller index.
+fn postorder(parents: &[u32], weight: impl Fn(u32) -> f64) -> Vec<u32> {
+    let mut children = vec![Vec::new(); parents.len()];
+    let mut roots = Vec::new();
+    for (k, &parent) in parents.iter().enumerate() {
+        match parent {
+            NONE => roots.push(k as u32),
+            _ => children[parent as usize].push(k as u32),
+        }
+    }
+    let mut post = Vec::with_capacity(parents.len());
+    let by_weight = |list: &mut Vec<u32>| list.sort_by(|&a, &b| weight(b).total_cmp(&weight(a)));
+    by_weight(&mut roots);
+    // visited parents first and last child first, then turned round
+    let mut stack = roots;
+    while let Some(k) = stack.pop() {
+        post.push(k);
+        by_weight(&mut children[k as usize]);
+        stack.append(&mut children[k as usize]);
+    }
+    post.reverse();
+    post
+}
+
+/// A supernode before merging; rows as positions, unsorted.
+struct Block {
+    columns: Range<usize>,
+    rows: Vec<u32>,
+    parent: u32,
+}
+
+/// Joins consecutive columns whose rows are those of the column before, less itself.
+fn fundamental_supernodes(graph: &Graph, order: &[u32], position: &[u32], parents: &[u32]) -> Vec<Block> {
+    let n = order.len();
+    let mut child_count = vec![0_u32; n];
+    for &parent in parents.iter().filter(|&&parent| parent != NONE) {
+        child_count[parent as usize] += 1;
+    }
+    let later = |k: usize| {
+        let neighbours = graph.neighbours(order[k] as usize).iter();
+        neighbours.map(|&node| position[node as usize]).filter(move |&p| p as usize > k)
+    };
+    let mut blocks: Vec<Block> = Vec::new();
+    let mut block_of = vec![NONE; n];
+    let mut pending = vec![Vec::new(); n]; // blocks whose update goes to this column first
+    let mut mark = vec![NONE; n]; // last block that has this row
+    for k in 0..n {
+        let current = (blocks.len() as u32).wrapping_sub(1);
+        let continues = k > 0
+            && parents[k - 1] as usize == k
+            && child_count[k] == 1
+            && later(k).all(|row| mark[row as usize] == current);
+        if !continues {
+            close(&mut blocks, parents, &mut pending);
+            let id = blocks.len() as u32;
+            let mut rows = Vec::new();
+            let filled = pending[k].iter().flat_map(|&child: &u32| blocks[child as usize].rows.iter().copied());
+            for row in later(k).chain(filled).filter(|&row| row as usize > k) {
+                if std::mem::replace(&mut mark[row as usize], id) != id {
+                    rows.push(row);
+                }
+            }
+            blocks.push(Block { columns: k..k, rows, parent: NONE });
+        }
+        let id = blocks.len() - 1;
+        blocks[id].columns.end = k + 1;
+        block_of[k] = id as u32;
+    }
+    close(&mut blocks, parents, &mut pending);
+    for block in blocks.iter_mut().filter(|block| block.parent != NONE) {
+        block.parent = block_of[block.parent as usize];
+    }
+    blocks
+}
+
+/// The last block is complete: keeps the rows below it and announces it to its parent column.
+fn close(blocks: &mut [Block], parents: &[u32], pending: &mut [Vec<u32>]) {
+    let id = blocks.len() as u32;
+    let Some(block) = blocks.last_mut() else { return };
+    let end = block.columns.end;
+    block.rows.retain(|&row| row as usize >= end);
+    block.parent = parents[end - 1];
+    if block.parent != NONE {
+        pending[block.parent as usize].push(id - 1);
+    }
+}
+
+/// Merged blocks of at most so many columns may hold this share of zeros; more would cost
+/// arithmetic, fewer leave fronts so small that their bookkeeping costs more than they do.
+const ZERO_SHARE: [(usize, f64); 4] = [(4, 1.0), (16, 0.5), (48, 0.1), (usize::MAX, 0.03)];
+
+/// For each block the block it is merged into: itself, or its parent.
+fn merge_small(blocks: &[Block]) -> Vec<u32> {
+    let mut merged_into: Vec<u32> = (0..blocks.len() as u32).collect();
+    let mut columns: Vec<usize> = blocks.iter().map(|block| block.columns.len()).collect();
+    let mut zeros = vec![0.0; blocks.len()];
+    // children come before parents, so a child's own children are settled when its turn comes
+    for (id, block) in blocks.iter().enumerate().filter(|(_, block)| block.parent != NONE) {
+        let parent = block.parent as usize;
+        let (own, above) = (columns[id], columns[parent] + blocks[parent].rows.len());
+        let brought_in = (own * (above - block.rows.len())) as f64;
+        let zeros_after = zeros[id] + zeros[parent] + brought_in;
+        let width = own + columns[parent];
+        let height = blocks[parent].rows.len();
+        let entries = (width * (width + 1) / 2 + width * height) as f64;
+        let allowed = ZERO_SHARE.iter().find(|&&(limit, _)| width <= limit).map_or(0.0, |&(_, share)| share);
+        if zeros_after <= allowed * entries {
+            merged_into[id] = parent as u32;
+            columns[parent] = width;
+            zeros[parent] = zeros_after;
+        }
+    }
+    merged_into
+}
+
+/// Numbers the merged supernodes, heaviest child first, and translates columns and rows.
+fn assemble(order: &[u32], blocks: Vec<Block>, merged_into: &[u32]) -> EliminationTree {
+    let mut top: Vec<u32> = merged_into.to_vec();
+    for id in (0..blocks.len()).rev() {
+        top[id] = top[top[id] as usize];
+    }
+    let mut members = vec![Vec::new(); blocks.len()];
+    for (id, &block) in top.iter().enumerate() {
+        members[block as usize].push(id as u32);
+    }
+    let tops: Vec<u32> = (0..blocks.len() as u32).filter(|&id| top[id as usize] == id).collect();
+    let index_of: Vec<u32> = {
+        let mut index_of = vec![NONE; blocks.len()];
+        tops.iter().enumerate().for_each(|(index, &id)| index_of[id as usize] = index as u32);
+        index_of
+    };
+    let parents: Vec<u32> = tops
+        .iter()
+        .map(|&id| match blocks[id as usize].parent {
+            NONE => NONE,
+            parent => index_of[top[parent as usize] as usize],
+        })
+        .collect();
+    let width = |index: usize| -> usize {
+        members[tops[index] as usize].iter().map(|&id| blocks[id as usize].columns.len()).sum()
+    };
+    let mut work: Vec<f64> =
+        (0..tops.len()).map(|index| front_work(width(index), blocks[tops[index] as usize].rows.len())).collect();
+    for index in 0..tops.len() {
+        if parents[index] != NONE {
+            work[parents[index] as usize] += work[index];
+        }
+    }
+    let post = postorder(&parents, |index| work[index as usize]);
+
+    let mut new_order = Vec::with_capacity(order.len());
+    let mut supernodes: Vec<Supernode> = Vec::with_capacity(post.len());
+    let rank = inverse(&post);
+    for &index in &post {
+        let start = new_order.len();
+        for &id in &members[tops[index as usize] as usize] {
+            new_order.extend_from_slice(&order[blocks[id as usize].columns.clone()]);
+        }
+        let parent = parents[index as usize];
+        supernodes.push(Supernode {
+            columns: start..new_order.len(),
+            rows: 0..0,
+            parent: (parent != NONE).then(|| rank[parent as usize] as usize),
+            first_descendant: supernodes.len(),
+            work: work[index as usize],
+        });
+    }
+    let position = inverse(&new_order);
+    let mut rows = Vec::new();
+    for (supernode, &index) in supernodes.iter_mut().zip(&post) {
+        let start = rows.len();
+        let old = blocks[tops[index as usize] as usize].rows.iter();
+        rows.extend(old.map(|&row| position[order[row as usize] as usize]));
+        rows[start..].sort_unstable();
+        supernode.rows = start..rows.len();
+    }
+    let children = link_children(&mut supernodes);
+    EliminationTree { order: new_order, position, supernodes, rows, children }
+}
+
+/// Multiplications of one front with `width` pivots and `height` rows below.
+fn front_work(width: usize, height: usize) -> f64 {
+    let (width, height) = (width as f64, height as f64);
+    width * (width * width / 3.0 + width * height + height * height) + 50.0 * (width + height)
+}
+
+fn link_children(supernodes: &mut [Supernode]) -> Vec<Vec<u32>> {
+    let mut children = vec![Vec::new(); supernodes.len()];
+    for s in 0..supernodes.len() {
+        if let Some(parent) = supernodes[s].parent {
+            children[parent].push(s as u32);
+            let first = supernodes[s].first_descendant;
+            supernodes[parent].first_descendant = supernodes[parent].first_descendant.min(first);
+        }
+    }
+    children
+}
