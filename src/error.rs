@@ -5,7 +5,7 @@
 //! classes that a program can act upon, [`Error::index`] is the offending node, triangle, row or byte.
 
 use crate::control::Cancelled;
-use crate::mesh::{MeshError, ReadError};
+use crate::mesh::{CutError, MeshError, ReadError};
 
 /// The class of an error: what a program can act upon without reading the sentence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,6 +51,9 @@ pub enum Error {
     /// A mesh file cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
+    /// A mesh cannot be cut as asked.
+    #[error(transparent)]
+    Cut(#[from] CutError),
     /// The progress callback asked to stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
@@ -62,6 +65,7 @@ impl Error {
         match self {
             Self::Mesh(error) => error.kind(),
             Self::Read(error) => error.kind(),
+            Self::Cut(error) => error.kind(),
             Self::Cancelled(_) => ErrorKind::Cancelled,
         }
     }
@@ -71,6 +75,7 @@ impl Error {
         match self {
             Self::Mesh(error) => error.index(),
             Self::Read(error) => error.index(),
+            Self::Cut(error) => error.index(),
             Self::Cancelled(_) => None,
         }
     }
