@@ -6,6 +6,7 @@
 
 use crate::control::Cancelled;
 use crate::mesh::{CutError, MeshError, ReadError};
+use crate::parameterize::ParameterizeError;
 
 /// The class of an error: what a program can act upon without reading the sentence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,6 +55,9 @@ pub enum Error {
     /// A mesh cannot be cut as asked.
     #[error(transparent)]
     Cut(#[from] CutError),
+    /// A mesh cannot be parameterized.
+    #[error(transparent)]
+    Parameterize(#[from] ParameterizeError),
     /// The progress callback asked to stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
@@ -66,6 +70,7 @@ impl Error {
             Self::Mesh(error) => error.kind(),
             Self::Read(error) => error.kind(),
             Self::Cut(error) => error.kind(),
+            Self::Parameterize(error) => error.kind(),
             Self::Cancelled(_) => ErrorKind::Cancelled,
         }
     }
@@ -76,6 +81,7 @@ impl Error {
             Self::Mesh(error) => error.index(),
             Self::Read(error) => error.index(),
             Self::Cut(error) => error.index(),
+            Self::Parameterize(error) => error.index(),
             Self::Cancelled(_) => None,
         }
     }
