@@ -55,9 +55,9 @@ impl EliminationTree {
     pub fn new(graph: &Graph, order: &[u32]) -> Self {
         let (order, parents) = postordered(graph, order);
         let position = inverse(&order);
-        let blocks = fundamental_supernodes(graph, &order, &position, &parents);
+        let (blocks, rows) = fundamental_supernodes(graph, &order, &position, &parents);
         let merged_into = merge_small(&blocks);
-        assemble(&order, blocks, &merged_into)
+        assemble(&order, &blocks, &rows, &merged_into)
     }
 }
 
@@ -106,39 +106,73 @@ fn elimination_parents(graph: &Graph, order: &[u32]) -> Vec<u32> {
     parents
 }
 
+/// Lists by owner in one array: children by parent, members by block.
+struct Lists {
+    starts: Vec<u32>,
+    items: Vec<u32>,
+}
+
+impl Lists {
+    /// Items are the indices of `owners`, ascending in each list; owner [`NONE`] is list `count`.
+    fn by_owner(owners: &[u32], count: usize) -> Self {
+        let list = |owner: u32| if owner == NONE { count } else { owner as usize };
+        let mut starts = vec![0_u32; count + 2];
+        owners.iter().for_each(|&owner| starts[list(owner) + 1] += 1);
+        for i in 0..=count {
+            starts[i + 1] += starts[i];
+        }
+        let mut next = starts.clone();
+        let mut items = vec![0; owners.len()];
+        for (item, &owner) in owners.iter().enumerate() {
+            let place = &mut next[list(owner)];
+            items[*place as usize] = item as u32;
+            *place += 1;
+        }
+        Self { starts, items }
+    }
+
+    fn of(&self, owner: usize) -> &[u32] {
+        &self.items[self.starts[owner] as usize..self.starts[owner + 1] as usize]
+    }
+}
+
 /// Children before parents; of siblings the heaviest first, then the smaller index.
 fn postorder(parents: &[u32], weight: impl Fn(u32) -> f64) -> Vec<u32> {
-    let mut children = vec![Vec::new(); parents.len()];
-    let mut roots = Vec::new();
-    for (k, &parent) in parents.iter().enumerate() {
-        match parent {
-            NONE => roots.push(k as u32),
-            _ => children[parent as usize].push(k as u32),
-        }
-    }
+    let children = Lists::by_owner(parents, parents.len());
     let mut post = Vec::with_capacity(parents.len());
-    let by_weight = |list: &mut Vec<u32>| list.sort_by(|&a, &b| weight(b).total_cmp(&weight(a)));
-    by_weight(&mut roots);
     // visited parents first and last child first, then turned round
-    let mut stack = roots;
+    let mut stack = Vec::new();
+    let push = |stack: &mut Vec<u32>, owner: usize| {
+        let start = stack.len();
+        stack.extend_from_slice(children.of(owner));
+        stack[start..].sort_by(|&a, &b| weight(b).total_cmp(&weight(a)));
+    };
+    push(&mut stack, parents.len());
     while let Some(k) = stack.pop() {
         post.push(k);
-        by_weight(&mut children[k as usize]);
-        stack.append(&mut children[k as usize]);
+        push(&mut stack, k as usize);
     }
     post.reverse();
     post
 }
 
-/// A supernode before merging; rows as positions, unsorted.
+/// A supernode before merging.
 struct Block {
     columns: Range<usize>,
-    rows: Vec<u32>,
+    /// Its rows below the pivots, as a range of the common array; unsorted.
+    rows: Range<usize>,
+    /// The parent block; while blocks are being found, the parent column.
     parent: u32,
 }
 
-/// Joins consecutive columns whose rows are those of the column before, less itself.
-fn fundamental_supernodes(graph: &Graph, order: &[u32], position: &[u32], parents: &[u32]) -> Vec<Block> {
+/// Joins consecutive columns whose rows are those of the column before, less itself. Returns the
+/// blocks and their rows, as positions.
+fn fundamental_supernodes(
+    graph: &Graph,
+    order: &[u32],
+    position: &[u32],
+    parents: &[u32],
+) -> (Vec<Block>, Vec<u32>) {
     let n = order.len();
     let mut child_count = vec![0_u32; n];
     for &parent in parents.iter().filter(|&&parent| parent != NONE) {
@@ -149,9 +183,11 @@ fn fundamental_supernodes(graph: &Graph, order: &[u32], position: &[u32], parent
         neighbours.map(|&node| position[node as usize]).filter(move |&p| p as usize > k)
     };
     let mut blocks: Vec<Block> = Vec::new();
+    let mut rows: Vec<u32> = Vec::new();
     let mut block_of = vec![NONE; n];
-    let mut pending = vec![Vec::new(); n]; // blocks whose update goes to this column first
     let mut mark = vec![NONE; n]; // last block that has this row
+    // blocks whose update goes to a column first, as a chain: the last of them, then the one before
+    let (mut last_sender, mut sender_before) = (vec![NONE; n], Vec::new());
     for k in 0..n {
         let current = (blocks.len() as u32).wrapping_sub(1);
         let continues = k > 0
@@ -159,43 +195,61 @@ fn fundamental_supernodes(graph: &Graph, order: &[u32], position: &[u32], parent
             && child_count[k] == 1
             && later(k).all(|row| mark[row as usize] == current);
         if !continues {
-            close(&mut blocks, parents, &mut pending);
-            let id = blocks.len() as u32;
-            let mut rows = Vec::new();
-            let filled = pending[k].iter().flat_map(|&child: &u32| blocks[child as usize].rows.iter().copied());
-            for row in later(k).chain(filled).filter(|&row| row as usize > k) {
-                if std::mem::replace(&mut mark[row as usize], id) != id {
+            if let Some(block) = blocks.last_mut() {
+                close(block, &mut rows, parents);
+                let previous = match block.parent {
+                    NONE => NONE,
+                    parent => std::mem::replace(&mut last_sender[parent as usize], current),
+                };
+                sender_before.push(previous);
+            }
+            let (id, start) = (blocks.len() as u32, rows.len());
+            let mut enter = |row: u32, rows: &mut Vec<u32>| {
+                if row as usize > k && std::mem::replace(&mut mark[row as usize], id) != id {
                     rows.push(row);
                 }
+            };
+            later(k).for_each(|row| enter(row, &mut rows));
+            let mut sender = last_sender[k];
+            while sender != NONE {
+                for at in blocks[sender as usize].rows.clone() {
+                    enter(rows[at], &mut rows);
+                }
+                sender = sender_before[sender as usize];
             }
-            blocks.push(Block { columns: k..k, rows, parent: NONE });
+            blocks.push(Block { columns: k..k, rows: start..rows.len(), parent: NONE });
         }
         let id = blocks.len() - 1;
         blocks[id].columns.end = k + 1;
         block_of[k] = id as u32;
     }
-    close(&mut blocks, parents, &mut pending);
+    if let Some(block) = blocks.last_mut() {
+        close(block, &mut rows, parents);
+    }
     for block in blocks.iter_mut().filter(|block| block.parent != NONE) {
         block.parent = block_of[block.parent as usize];
     }
-    blocks
+    (blocks, rows)
 }
 
-/// The last block is complete: keeps the rows below it and announces it to its parent column.
-fn close(blocks: &mut [Block], parents: &[u32], pending: &mut [Vec<u32>]) {
-    let id = blocks.len() as u32;
-    let Some(block) = blocks.last_mut() else { return };
+/// The last block is complete: only rows below its columns remain.
+fn close(block: &mut Block, rows: &mut Vec<u32>, parents: &[u32]) {
     let end = block.columns.end;
-    block.rows.retain(|&row| row as usize >= end);
-    block.parent = parents[end - 1];
-    if block.parent != NONE {
-        pending[block.parent as usize].push(id - 1);
+    let mut kept = block.rows.start;
+    for at in block.rows.clone() {
+        if rows[at] as usize >= end {
+            rows[kept] = rows[at];
+            kept += 1;
+        }
     }
+    rows.truncate(kept);
+    block.rows.end = kept;
+    block.parent = parents[end - 1];
 }
 
 /// Merged blocks of at most so many columns may hold this share of zeros; more would cost
 /// arithmetic, fewer leave fronts so small that their bookkeeping costs more than they do.
-const ZERO_SHARE: [(usize, f64); 4] = [(4, 1.0), (16, 0.5), (48, 0.1), (usize::MAX, 0.03)];
+const ZERO_SHARE: [(usize, f64); 4] = [(4, 1.0), (16, 0.3), (48, 0.1), (usize::MAX, 0.03)];
 
 /// For each block the block it is merged into: itself, or its parent.
 fn merge_small(blocks: &[Block]) -> Vec<u32> {
@@ -222,46 +276,29 @@ fn merge_small(blocks: &[Block]) -> Vec<u32> {
 }
 
 /// Numbers the merged supernodes, heaviest child first, and translates columns and rows.
-fn assemble(order: &[u32], blocks: Vec<Block>, merged_into: &[u32]) -> EliminationTree {
+fn assemble(order: &[u32], blocks: &[Block], block_rows: &[u32], merged_into: &[u32]) -> EliminationTree {
     let mut top: Vec<u32> = merged_into.to_vec();
     for id in (0..blocks.len()).rev() {
         top[id] = top[top[id] as usize];
     }
-    let mut members = vec![Vec::new(); blocks.len()];
-    for (id, &block) in top.iter().enumerate() {
-        members[block as usize].push(id as u32);
-    }
+    let members = Lists::by_owner(&top, blocks.len());
     let tops: Vec<u32> = (0..blocks.len() as u32).filter(|&id| top[id as usize] == id).collect();
-    let index_of: Vec<u32> = {
-        let mut index_of = vec![NONE; blocks.len()];
-        tops.iter().enumerate().for_each(|(index, &id)| index_of[id as usize] = index as u32);
-        index_of
+    let mut index_of = vec![NONE; blocks.len()];
+    tops.iter().enumerate().for_each(|(index, &id)| index_of[id as usize] = index as u32);
+    let parent_of = |&id: &u32| match blocks[id as usize].parent {
+        NONE => NONE,
+        parent => index_of[top[parent as usize] as usize],
     };
-    let parents: Vec<u32> = tops
-        .iter()
-        .map(|&id| match blocks[id as usize].parent {
-            NONE => NONE,
-            parent => index_of[top[parent as usize] as usize],
-        })
-        .collect();
-    let width = |index: usize| -> usize {
-        members[tops[index] as usize].iter().map(|&id| blocks[id as usize].columns.len()).sum()
-    };
-    let mut work: Vec<f64> =
-        (0..tops.len()).map(|index| front_work(width(index), blocks[tops[index] as usize].rows.len())).collect();
-    for index in 0..tops.len() {
-        if parents[index] != NONE {
-            work[parents[index] as usize] += work[index];
-        }
-    }
+    let parents: Vec<u32> = tops.iter().map(parent_of).collect();
+    let work = subtree_work(blocks, &members, &tops, &parents);
     let post = postorder(&parents, |index| work[index as usize]);
+    let rank = inverse(&post);
 
     let mut new_order = Vec::with_capacity(order.len());
     let mut supernodes: Vec<Supernode> = Vec::with_capacity(post.len());
-    let rank = inverse(&post);
     for &index in &post {
         let start = new_order.len();
-        for &id in &members[tops[index as usize] as usize] {
+        for &id in members.of(tops[index as usize] as usize) {
             new_order.extend_from_slice(&order[blocks[id as usize].columns.clone()]);
         }
         let parent = parents[index as usize];
@@ -277,13 +314,28 @@ fn assemble(order: &[u32], blocks: Vec<Block>, merged_into: &[u32]) -> Eliminati
     let mut rows = Vec::new();
     for (supernode, &index) in supernodes.iter_mut().zip(&post) {
         let start = rows.len();
-        let old = blocks[tops[index as usize] as usize].rows.iter();
-        rows.extend(old.map(|&row| position[order[row as usize] as usize]));
+        let old = &block_rows[blocks[tops[index as usize] as usize].rows.clone()];
+        rows.extend(old.iter().map(|&row| position[order[row as usize] as usize]));
         rows[start..].sort_unstable();
         supernode.rows = start..rows.len();
     }
     let children = link_children(&mut supernodes);
     EliminationTree { order: new_order, position, supernodes, rows, children }
+}
+
+/// Work of each merged supernode with everything below it.
+fn subtree_work(blocks: &[Block], members: &Lists, tops: &[u32], parents: &[u32]) -> Vec<f64> {
+    let own = |&id: &u32| {
+        let width: usize = members.of(id as usize).iter().map(|&id| blocks[id as usize].columns.len()).sum();
+        front_work(width, blocks[id as usize].rows.len())
+    };
+    let mut work: Vec<f64> = tops.iter().map(own).collect();
+    for index in 0..tops.len() {
+        if parents[index] != NONE {
+            work[parents[index] as usize] += work[index];
+        }
+    }
+    work
 }
 
 /// Multiplications of one front with `width` pivots and `height` rows below.

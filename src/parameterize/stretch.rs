@@ -54,7 +54,7 @@ impl TriangleStretch {
     }
 }
 
-/// Of the matrix with these two columns; no squares of large numbers.
+/// Of the matrix with these two columns.
 fn singular_values(x: DVec3, y: DVec3) -> (f64, f64) {
     let a = x.length();
     if !(a.is_finite() && y.is_finite()) {
@@ -66,7 +66,8 @@ fn singular_values(x: DVec3, y: DVec3) -> (f64, f64) {
     let unit = x / a;
     let b = unit.dot(y);
     let c = (y - unit * b).length();
-    let (sum, difference) = ((a + c).hypot(b), (a - c).hypot(b));
+    let length = |x: f64| (x * x + b * b).sqrt();
+    let (sum, difference) = (length(a + c), length(a - c));
     ((sum + difference) / 2.0, (sum - difference).abs() / 2.0)
 }
 
