@@ -96,8 +96,9 @@ pub struct SymbolicLu {
     entry_count: usize,
 }
 
-/// Splitting finer than this share of the whole would not balance two dozen threads any better.
-const SPLIT_SHARE: f64 = 1.0 / 256.0;
+/// Splitting finer than this share of the whole costs a stack of updates for each piece and balances
+/// a dozen threads no better.
+const SPLIT_SHARE: f64 = 1.0 / 64.0;
 /// A subtree of fewer multiplications is done before another thread has picked it up.
 const LEAST_SPLIT_WORK: f64 = 1e6;
 
@@ -204,7 +205,7 @@ impl SymbolicLu {
         };
         let next = heavy.last().map_or(self.tree.supernodes[node].first_descendant, |&last| last + 1);
         let (done, _) = panels.split_at_mut(self.panel_starts[next] - base);
-        let mut stack: Vec<f64> = Vec::new();
+        let mut stack: Vec<f64> = Vec::with_capacity(self.stack_size(&heavy, next..root + 1));
         for update in self.factor_siblings(&heavy, done, values)? {
             stack.extend(update);
         }
@@ -251,6 +252,18 @@ impl SymbolicLu {
         stack.copy_within(top.., bottom);
         stack.truncate(bottom + height * height);
         Ok(())
+    }
+
+    /// The longest the stack of updates gets while these supernodes are factored one by one.
+    fn stack_size(&self, done: &[usize], todo: std::ops::Range<usize>) -> usize {
+        let square = |s: usize| self.tree.supernodes[s].rows.len().pow(2);
+        let mut size: usize = done.iter().map(|&s| square(s)).sum();
+        let mut largest = size;
+        for s in todo {
+            largest = largest.max(size + square(s));
+            size = size + square(s) - self.children_length(s);
+        }
+        largest
     }
 
     fn children_length(&self, s: usize) -> usize {

@@ -1,7 +1,18 @@
 //! Cutting meshes: removing faces, splitting components, opening along paths of edges.
+//!
+//! A path opens a mesh by splitting the fans of its nodes: the cut edges part the triangles around a node
+//! into sectors, the first keeps the node, each further one gets a copy.
+//! ```text
+//!   a closed fan with one cut edge stays whole (the path ends inside the mesh),
+//!   with two or more it falls into as many sectors;
+//!   an open fan (on the boundary) falls into one sector more than it has cut edges.
+//! ```
+//! Parameters and fields go with their nodes.
 
-use super::{Mesh, MeshError};
+use super::{Field, HalfEdge, Mesh, MeshError};
 use crate::error::ErrorKind;
+use std::cmp::{Ordering, Reverse};
+use std::collections::BinaryHeap;
 
 /// A mesh cannot be cut as asked.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -9,6 +20,52 @@ pub enum CutError {
     /// What is left is no mesh.
     #[error(transparent)]
     Mesh(#[from] MeshError),
+    /// A triangle to remove does not exist.
+    #[error("there is no triangle {triangle}, the mesh has {count}")]
+    NoSuchTriangle {
+        /// The triangle given.
+        triangle: u32,
+        /// Triangles of the mesh.
+        count: usize,
+    },
+    /// A node does not exist.
+    #[error("there is no node {node}, the mesh has {count}")]
+    NoSuchNode {
+        /// The node given.
+        node: u32,
+        /// Nodes of the mesh.
+        count: usize,
+    },
+    /// A path needs two nodes.
+    #[error("a path needs two nodes, this one has {node_count}")]
+    PathTooShort {
+        /// Nodes of the path.
+        node_count: usize,
+    },
+    /// Two nodes of a path that follow each other have no common edge.
+    #[error("nodes {from} and {to} of the path have no common edge")]
+    NotAnEdge {
+        /// The first of the two.
+        from: u32,
+        /// The second.
+        to: u32,
+    },
+    /// The path opens nothing: it is a single edge with both ends inside, or runs along the boundary.
+    #[error("the path from node {from} to node {to} opens nothing")]
+    NothingOpened {
+        /// Its first node.
+        from: u32,
+        /// Its last node.
+        to: u32,
+    },
+    /// No path of edges joins two nodes.
+    #[error("no path of edges joins nodes {from} and {to}")]
+    NotConnected {
+        /// Where the path should begin.
+        from: u32,
+        /// Where it should end.
+        to: u32,
+    },
 }
 
 impl CutError {
@@ -16,13 +73,23 @@ impl CutError {
     pub fn kind(&self) -> ErrorKind {
         match self {
             Self::Mesh(error) => error.kind(),
+            Self::NoSuchTriangle { .. } | Self::NoSuchNode { .. } => ErrorKind::Index,
+            Self::PathTooShort { .. } => ErrorKind::InvalidArgument,
+            Self::NotAnEdge { .. } | Self::NothingOpened { .. } | Self::NotConnected { .. } => {
+                ErrorKind::Topology
+            }
         }
     }
 
-    /// The offender.
+    /// The offending triangle, or node: the first of a pair.
     pub fn index(&self) -> Option<usize> {
-        match self {
-            Self::Mesh(error) => error.index(),
+        match *self {
+            Self::Mesh(ref error) => error.index(),
+            Self::NoSuchTriangle { triangle, .. } => Some(triangle as usize),
+            Self::NoSuchNode { node, .. } => Some(node as usize),
+            Self::PathTooShort { .. } => None,
+            Self::NotAnEdge { from, .. } | Self::NothingOpened { from, .. } => Some(from as usize),
+            Self::NotConnected { from, .. } => Some(from as usize),
         }
     }
 }
@@ -32,6 +99,174 @@ impl CutError {
 pub struct Piece {
     /// The mesh.
     pub mesh: Mesh,
-    /// The old number of each of its nodes.
+    /// By node of this mesh, the node of the other that it was.
     pub nodes: Vec<u32>,
+}
+
+impl Mesh {
+    /// The mesh without some of its triangles, and without the nodes that no triangle needs any more.
+    pub fn remove_triangles(&self, triangles: &[u32]) -> Result<Piece, CutError> {
+        let count = self.triangles.len();
+        let mut keeps = vec![true; count];
+        for &triangle in triangles {
+            match keeps.get_mut(triangle as usize) {
+                Some(keep) => *keep = false,
+                None => return Err(CutError::NoSuchTriangle { triangle, count }),
+            }
+        }
+        let kept = self.triangles.iter().zip(keeps).filter(|&(_, keep)| keep).map(|(&triangle, _)| triangle);
+        self.compacted(kept.collect())
+    }
+
+    /// Each part that hangs together by edges as a mesh of its own, in the order of their first triangles.
+    pub fn split_components(&self) -> Result<Vec<Piece>, CutError> {
+        let (labels, count) = self.topology.components();
+        let mut parts = vec![Vec::new(); count];
+        for (&triangle, label) in self.triangles.iter().zip(labels) {
+            parts[label as usize].push(triangle);
+        }
+        parts.into_iter().map(|triangles| self.compacted(triangles)).collect()
+    }
+
+    /// Opens the mesh along a path of edges, given by its nodes in order.
+    ///
+    /// Nodes inside the path are doubled, and so are its ends on the boundary; ends inside the mesh are not.
+    /// A closed path, whose last node is its first, separates what it surrounds. Edges on the boundary are
+    /// open already. Triangles keep their numbers and old nodes theirs; copies come after them.
+    pub fn cut_along(&self, path: &[u32]) -> Result<Piece, CutError> {
+        let (&[from, ..], &[_, .., to]) = (path, path) else {
+            return Err(CutError::PathTooShort { node_count: path.len() });
+        };
+        path.iter().try_for_each(|&node| self.check_node(node))?;
+        let mut cut = vec![false; 3 * self.triangles.len()];
+        for pair in path.windows(2) {
+            let edge = self.edge_between(pair[0], pair[1]);
+            let edge = edge.ok_or(CutError::NotAnEdge { from: pair[0], to: pair[1] })?;
+            if let Some(twin) = self.topology.twin(edge) {
+                cut[edge.index()] = true;
+                cut[twin.index()] = true;
+            }
+        }
+
+        let mut triangles = self.triangles.clone();
+        let mut nodes: Vec<u32> = (0..self.points.len() as u32).collect();
+        let mut split_nodes = path.to_vec();
+        split_nodes.sort_unstable();
+        split_nodes.dedup();
+        for node in split_nodes {
+            for start in self.topology.fans(node) {
+                for sector in self.sectors(start, &cut).into_iter().skip(1) {
+                    for half_edge in sector {
+                        triangles[half_edge.triangle()][half_edge.corner()] = nodes.len() as u32;
+                    }
+                    nodes.push(node);
+                }
+            }
+        }
+        if nodes.len() == self.points.len() {
+            return Err(CutError::NothingOpened { from, to });
+        }
+        self.piece(triangles, nodes)
+    }
+
+    /// The shortest path along edges, by length; of equally short ones always the same.
+    pub fn shortest_path(&self, from: u32, to: u32) -> Result<Vec<u32>, CutError> {
+        self.check_node(from)?;
+        self.check_node(to)?;
+        let mut lengths = vec![f64::INFINITY; self.points.len()];
+        let mut before = vec![from; self.points.len()];
+        let mut heap = BinaryHeap::from([Reverse(Reached { length: 0.0, node: from })]);
+        lengths[from as usize] = 0.0;
+        while let Some(Reverse(Reached { length, node })) = heap.pop() {
+            if node == to {
+                let back =
+                    std::iter::successors(Some(to), |&node| (node != from).then(|| before[node as usize]));
+                let mut path: Vec<u32> = back.collect();
+                path.reverse();
+                return Ok(path);
+            }
+            if length > lengths[node as usize] {
+                continue; // a shorter way was found since
+            }
+            for next in self.neighbours(node) {
+                let further = length + self.points[node as usize].distance(self.points[next as usize]);
+                if further < lengths[next as usize] {
+                    lengths[next as usize] = further;
+                    before[next as usize] = node;
+                    heap.push(Reverse(Reached { length: further, node: next }));
+                }
+            }
+        }
+        Err(CutError::NotConnected { from, to })
+    }
+
+    fn check_node(&self, node: u32) -> Result<(), CutError> {
+        let count = self.points.len();
+        if (node as usize) < count { Ok(()) } else { Err(CutError::NoSuchNode { node, count }) }
+    }
+
+    /// The half-edges of a fan, parted at the cut edges.
+    fn sectors(&self, start: HalfEdge, cut: &[bool]) -> Vec<Vec<HalfEdge>> {
+        let mut sectors: Vec<Vec<HalfEdge>> = vec![Vec::new()];
+        for half_edge in self.topology.fan_from(start) {
+            match sectors.last_mut() {
+                Some(sector) if half_edge == start || !cut[half_edge.index()] => sector.push(half_edge),
+                _ => sectors.push(vec![half_edge]),
+            }
+        }
+        // a closed fan goes on from its last sector into the first, unless it begins at a cut
+        let is_closed = self.topology.twin(start).is_some();
+        if is_closed && !cut[start.index()] && sectors.len() > 1 {
+            let last = sectors.pop().unwrap_or_default();
+            sectors[0].extend(last);
+        }
+        sectors
+    }
+
+    /// The mesh of some triangles and only their nodes.
+    fn compacted(&self, mut triangles: Vec<[u32; 3]>) -> Result<Piece, CutError> {
+        let mut new = vec![u32::MAX; self.points.len()];
+        triangles.iter().flatten().for_each(|&node| new[node as usize] = 0);
+        let nodes: Vec<u32> = (0..new.len() as u32).filter(|&node| new[node as usize] == 0).collect();
+        nodes.iter().enumerate().for_each(|(i, &node)| new[node as usize] = i as u32);
+        triangles.iter_mut().flatten().for_each(|node| *node = new[*node as usize]);
+        self.piece(triangles, nodes)
+    }
+
+    /// A mesh whose node i is the node `nodes[i]` of this one.
+    fn piece(&self, triangles: Vec<[u32; 3]>, nodes: Vec<u32>) -> Result<Piece, CutError> {
+        let points = nodes.iter().map(|&node| self.points[node as usize]).collect();
+        let mut mesh = Mesh::new(points, triangles).map_err(|error| match error {
+            MeshError::NoPoints => MeshError::NoTriangles, // the nodes went with the triangles
+            error => error,
+        })?;
+        mesh.parameters = self.parameters().map(|uv| nodes.iter().map(|&node| uv[node as usize]).collect());
+        let fields = self.fields.iter().map(|field| Field {
+            name: field.name.clone(),
+            values: nodes.iter().map(|&node| field.values[node as usize]).collect(),
+        });
+        mesh.fields = fields.collect();
+        Ok(Piece { mesh, nodes })
+    }
+}
+
+/// A node in the queue of a shortest path.
+#[derive(PartialEq)]
+struct Reached {
+    length: f64,
+    node: u32,
+}
+
+impl Eq for Reached {}
+
+impl Ord for Reached {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.length.total_cmp(&other.length).then(self.node.cmp(&other.node))
+    }
+}
+
+impl PartialOrd for Reached {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
 }

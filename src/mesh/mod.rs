@@ -127,15 +127,13 @@ impl Mesh {
         // the numbers that the caller has for nodes and triangles; none while they are ours
         let mut numbers = None;
 
+        check_indices(&points, &mut triangles, options.index_base)?;
         if let Some(distance) = weld {
-            check_indices(&points, &mut triangles, options.index_base)?;
             let firsts = weld::weld(&points, distance);
             numbers = apply_weld(&firsts, &mut points, &mut triangles, &mut repairs);
             if triangles.is_empty() {
                 return Err(MeshError::NothingLeft { distance });
             }
-        } else {
-            check_indices(&points, &mut triangles, options.index_base)?;
         }
         let told = |error: MeshError| match &numbers {
             Some((nodes, kept)) => error.renumbered(nodes, kept),
