@@ -5,8 +5,10 @@
 //! classes that a program can act upon, [`Error::index`] is the offending node, triangle, row or byte.
 
 use crate::control::Cancelled;
+use crate::fit::tessellation::FitError;
 use crate::knots::KnotError;
 use crate::mesh::{CutError, MeshError, ReadError};
+use crate::parameterize::ParameterizeError;
 use crate::surface::TrimError;
 use crate::surface::evaluate::EvalError;
 use crate::surface::tensor::TensorError;
@@ -55,6 +57,12 @@ pub enum Error {
     /// A mesh file cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
+    /// A mesh cannot be parameterized.
+    #[error(transparent)]
+    Parameterize(#[from] ParameterizeError),
+    /// A fit is not possible.
+    #[error(transparent)]
+    Fit(#[from] FitError),
     /// Knots are not a knot vector.
     #[error(transparent)]
     Knots(#[from] KnotError),
@@ -90,6 +98,8 @@ impl Error {
         match self {
             Self::Mesh(error) => (error.kind(), error.index()),
             Self::Read(error) => (error.kind(), error.index()),
+            Self::Parameterize(error) => (error.kind(), error.index()),
+            Self::Fit(error) => (error.kind(), error.index()),
             Self::Knots(error) => (error.kind(), error.index()),
             Self::Tensor(error) => (error.kind(), error.index()),
             Self::Eval(error) => (error.kind(), error.index()),

@@ -1,1 +1,352 @@
-//! Parameters for meshes of disk topology.
+//! Where a mesh gets its (u,v) from.
+//!
+//! W. Tutte, "How to draw a graph" (1963); M. Floater, "Mean value coordinates" (2003);
+//! S. Yoshizawa et al., "A fast and simple stretch-minimizing mesh parameterization" (2004). What was
+//! measured and decided stands in `theory/parameterization.md`, what is done with given parameters
+//! in `theory/ferguson.md` 6.
+//!
+//! [`parameterize`] maps a disk, possibly with holes, onto a circle or a square with bulged sides:
+//! fans close the holes, every interior node becomes the weighted mean of its neighbours, and the
+//! weights are divided by the stretch found until the stretch no longer falls. With mean value
+//! weights and a convex border no triangle flips, at any step. [`regularize`] evens out parameters
+//! that came with the mesh. [`stretch`] measures any map.
+//!
+//! Closed meshes, handles and several components are refused: they need cuts first. A node without
+//! triangles keeps the parameters given with the mesh and is refused if there are none.
+
+mod border;
+mod error;
+mod options;
+mod patch;
+mod regularize;
+mod stretch;
+mod system;
+mod weights;
+
+pub use error::ParameterizeError;
+pub use options::{Border, Method, ParameterizeOptions};
+pub use regularize::{
+    Boundary, RegularizeOptions, RegularizeReport, Regularization, RegularizeWhen, regularize,
+};
+pub use stretch::{StretchMeasure, stretch};
+
+use crate::Control;
+use crate::geometry::{Orientation, orientation};
+use crate::mesh::Mesh;
+use border::BorderLine;
+use glam::DVec2;
+use patch::{Holes, Patch};
+use std::time::Instant;
+use stretch::PatchStretch;
+use system::MapSystem;
+
+/// The (u,v) of each node of a mesh.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameterization {
+    /// By node.
+    pub uv: Vec<DVec2>,
+    /// How good the map is and what it took.
+    pub report: ParameterizeReport,
+}
+
+/// How good a map is and what it took.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ParameterizeReport {
+    /// Triangles turned over against the rest, by the exact sign of their area: folds of the map.
+    pub flipped_triangles: usize,
+    /// Triangles of exactly zero parameter area.
+    pub degenerate_triangles: usize,
+    /// L2, Linf and area ratio of all triangles of the mesh.
+    pub stretch: StretchMeasure,
+    /// The border that was taken.
+    pub border: Border,
+    /// Whether the border slid with the stretch.
+    pub border_slid: bool,
+    /// Factorizations of the linear system, all candidates together.
+    pub solves: usize,
+    /// Stretch steps that improved the map returned.
+    pub steps: usize,
+    /// Wall time.
+    pub seconds: f64,
+    /// Everything worth knowing.
+    pub remarks: Remarks,
+}
+
+/// A set of things worth knowing about a map.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Remarks(u32);
+
+impl Remarks {
+    /// Triangles are flipped or have no parameter area.
+    pub const FOLDED: Self = Self(1);
+    /// Holes were closed by fans while the map was computed.
+    pub const HOLES_FILLED: Self = Self(2);
+    /// Triangles without area in space were left out of the weights.
+    pub const ZERO_AREA: Self = Self(4);
+    /// The L2 stretch is above [`HIGH_STRETCH`]. After stretch steps to the end one chart does not
+    /// suit this shape, cut it into several; after fewer, allow more of them.
+    pub const HIGH_STRETCH: Self = Self(8);
+
+    /// Whether all of `other` is in this set.
+    pub const fn contains(self, other: Self) -> bool {
+        self.0 & other.0 == other.0
+    }
+
+    /// The bits, for an exported report.
+    pub const fn bits(self) -> u32 {
+        self.0
+    }
+
+    fn insert_if(&mut self, remark: Self, holds: bool) {
+        self.0 |= if holds { remark.0 } else { 0 };
+    }
+}
+
+/// L2 stretch above which cutting the shape is suggested: heads end at 1.6, an airliner at 7.7.
+pub const HIGH_STRETCH: f64 = 3.0;
+
+/// A step must lower the stretch by this share for the next to be as long.
+const LEAST_GAIN: f64 = 0.005;
+/// Shortest step: halving on brings nothing measurable.
+const LEAST_ETA: f64 = 1.0 / 8.0;
+
+/// Maps a disk, possibly with holes, into the plane.
+pub fn parameterize(
+    mesh: &Mesh,
+    options: &ParameterizeOptions,
+    control: &mut Control,
+) -> Result<Parameterization, ParameterizeError> {
+    parameterize_weighted(mesh, options, None, control)
+}
+
+/// The same, with more parameter area where `node_weights` are large: they multiply the stretch
+/// that steps work against (`parameterization.md` 5, error-driven map). One positive number a node.
+pub fn parameterize_weighted(
+    mesh: &Mesh,
+    options: &ParameterizeOptions,
+    node_weights: Option<&[f64]>,
+    control: &mut Control,
+) -> Result<Parameterization, ParameterizeError> {
+    let start = Instant::now();
+    options.check()?;
+    check_node_weights(mesh, node_weights)?;
+    patch::check_disk(mesh)?;
+    let given = start_values(mesh, options)?;
+    let zero_area = zero_area_count(mesh)?;
+
+    let patch = Patch::new(mesh, holes(options));
+    let lines = border::candidates(mesh, options)?;
+    let first_weights = weights::weights(&patch, options.method)?;
+    control.report(0.0, f64::NAN)?;
+    let mut system = MapSystem::new(&patch, first_weights.clone(), control)?;
+    let mut first_maps = Vec::new();
+    for line in &lines {
+        let mut uv = given.clone();
+        uv.resize(patch.points.len(), DVec2::ZERO);
+        line.place(&mut uv);
+        system.solve(&mut uv, control);
+        first_maps.push(uv);
+    }
+    let mut best: Option<Map> = None;
+    let count = lines.len() as f64;
+    for (i, (line, uv)) in lines.into_iter().zip(first_maps).enumerate() {
+        let mut stage = Stage { control: &mut *control, from: i as f64 / count, to: (i + 1) as f64 / count };
+        let map = Map::new(&patch, line, first_weights.clone(), uv, node_weights);
+        let map = lower_stretch(map, &mut system, options, node_weights, &mut stage)?;
+        best = Some(match best {
+            Some(best) if (best.folded, best.measure.l2) <= (map.folded, map.measure.l2) => best,
+            _ => map,
+        });
+    }
+    let best = best.expect("there is at least one border");
+    let mut report = best.report(mesh, system.factor_count);
+    report.remarks.insert_if(Remarks::HOLES_FILLED, patch.points.len() > patch.mesh_node_count);
+    report.remarks.insert_if(Remarks::ZERO_AREA, zero_area > 0);
+    report.seconds = start.elapsed().as_secs_f64();
+    let mut uv = best.uv;
+    uv.truncate(patch.mesh_node_count);
+    Ok(Parameterization { uv, report })
+}
+
+/// A map with what the next step starts from.
+struct Map {
+    line: BorderLine,
+    weights: Vec<f64>,
+    uv: Vec<DVec2>,
+    /// What steps work against: the triangles that can move, fans included.
+    stretch: PatchStretch,
+    /// What counts in the end: the triangles of the mesh.
+    measure: StretchMeasure,
+    /// Triangles of the mesh that are not counter-clockwise.
+    folded: usize,
+    steps: usize,
+}
+
+impl Map {
+    fn new(
+        patch: &Patch,
+        line: BorderLine,
+        weights: Vec<f64>,
+        uv: Vec<DVec2>,
+        node_weights: Option<&[f64]>,
+    ) -> Self {
+        let stretch = PatchStretch::new(patch, &uv, node_weights);
+        let triangles = &patch.triangles[..patch.mesh_triangle_count];
+        let measure = stretch::stretch(&patch.points, triangles, &uv);
+        let is_folded = |t: &&[u32; 3]| triangle_orientation(&uv, t) != Orientation::Positive;
+        let folded = triangles.iter().filter(is_folded).count();
+        Self { line, weights, uv, stretch, measure, folded, steps: 0 }
+    }
+
+    /// The stretch that steps lower.
+    fn l2(&self) -> f64 {
+        self.stretch.measure.l2
+    }
+
+    fn report(&self, mesh: &Mesh, solves: usize) -> ParameterizeReport {
+        let (flipped_triangles, degenerate_triangles) = folds(mesh.triangles(), &self.uv);
+        let mut remarks = Remarks::default();
+        remarks.insert_if(Remarks::FOLDED, flipped_triangles + degenerate_triangles > 0);
+        remarks.insert_if(Remarks::HIGH_STRETCH, self.measure.l2 > HIGH_STRETCH);
+        ParameterizeReport {
+            flipped_triangles,
+            degenerate_triangles,
+            stretch: self.measure,
+            border: self.line.kind,
+            border_slid: self.line.slide > 0.0,
+            solves,
+            steps: self.steps,
+            seconds: 0.0,
+            remarks,
+        }
+    }
+}
+
+/// A part of the whole progress.
+struct Stage<'c, 'a> {
+    control: &'c mut Control<'a>,
+    from: f64,
+    to: f64,
+}
+
+impl Stage<'_, '_> {
+    /// Steps are not known beforehand: each takes a fifth of what is left.
+    fn report(&mut self, steps_done: usize, l2: f64) -> Result<(), ParameterizeError> {
+        let done = 1.0 - 0.8_f64.powi(steps_done as i32);
+        Ok(self.control.report(self.from + done * (self.to - self.from), l2)?)
+    }
+}
+
+/// Divides the weights by the stretch of the neighbours until that no longer helps (section 3).
+fn lower_stretch(
+    mut map: Map,
+    system: &mut MapSystem,
+    options: &ParameterizeOptions,
+    node_weights: Option<&[f64]>,
+    stage: &mut Stage,
+) -> Result<Map, ParameterizeError> {
+    let patch = system.patch();
+    let mut eta = 1.0;
+    let mut steps = 0;
+    while eta >= LEAST_ETA && steps < options.stretch_steps && !patch.nodes.is_empty() {
+        stage.report(steps, map.l2())?;
+        steps += 1;
+        let s = map.stretch.of_nodes(patch, node_weights, options.rings);
+        let next = next_map(&map, &s, eta, system, node_weights, stage.control)?;
+        let enough = next.folded <= map.folded && next.l2() < (1.0 - LEAST_GAIN) * map.l2();
+        if (next.folded, next.l2()) < (map.folded, map.l2()) {
+            map = Map { steps: map.steps + 1, ..next };
+        }
+        if !enough {
+            eta /= 2.0;
+        }
+    }
+    Ok(map)
+}
+
+fn next_map(
+    map: &Map,
+    s: &[f64],
+    eta: f64,
+    system: &mut MapSystem,
+    node_weights: Option<&[f64]>,
+    control: &Control,
+) -> Result<Map, ParameterizeError> {
+    let patch = system.patch();
+    let divisors: Vec<f64> = s.iter().map(|s| s.powf(eta)).collect();
+    let mut weights = map.weights.clone();
+    for (weight, &neighbour) in weights.iter_mut().zip(&patch.neighbours.nodes) {
+        *weight /= divisors[neighbour as usize];
+    }
+    weights::scale_rows(patch, &mut weights)?;
+    let line = map.line.slid(s, eta);
+    let mut uv = map.uv.clone();
+    line.place(&mut uv);
+    system.set_weights(weights.clone(), control)?;
+    system.solve(&mut uv, control);
+    Ok(Map::new(patch, line, weights, uv, node_weights))
+}
+
+fn triangle_orientation(uv: &[DVec2], triangle: &[u32; 3]) -> Orientation {
+    let [a, b, c] = triangle.map(|node| uv[node as usize]);
+    orientation(a, b, c)
+}
+
+/// Triangles turned against the rest, and triangles without area, both exact. A mirrored map, most
+/// of whose triangles are clockwise, is not folded for that.
+pub fn folds(triangles: &[[u32; 3]], uv: &[DVec2]) -> (usize, usize) {
+    let (mut positive, mut negative) = (0, 0);
+    for triangle in triangles {
+        match triangle_orientation(uv, triangle) {
+            Orientation::Positive => positive += 1,
+            Orientation::Negative => negative += 1,
+            Orientation::Zero => {}
+        }
+    }
+    (positive.min(negative), triangles.len() - positive - negative)
+}
+
+fn holes(options: &ParameterizeOptions) -> Holes {
+    match (options.border, options.fill_holes) {
+        (Border::Kept, _) => Holes::Fixed,
+        (_, true) => Holes::Filled,
+        (_, false) => Holes::Open,
+    }
+}
+
+/// The parameters that nodes have before the map: those given, else zeros.
+fn start_values(mesh: &Mesh, options: &ParameterizeOptions) -> Result<Vec<DVec2>, ParameterizeError> {
+    match mesh.parameters() {
+        Some(given) => Ok(given.to_vec()),
+        None if options.border == Border::Kept => Err(ParameterizeError::NoParameters),
+        None => match mesh.unused_nodes().first() {
+            Some(&node) => Err(ParameterizeError::Unused { node: node as usize }),
+            None => Ok(vec![DVec2::ZERO; mesh.points().len()]),
+        },
+    }
+}
+
+fn check_node_weights(mesh: &Mesh, node_weights: Option<&[f64]>) -> Result<(), ParameterizeError> {
+    let Some(given) = node_weights else { return Ok(()) };
+    let count = mesh.points().len();
+    let is_bad = |weight: &f64| !(*weight > 0.0 && weight.is_finite());
+    match given.iter().position(is_bad).or((given.len() != count).then_some(given.len().min(count))) {
+        Some(index) => Err(ParameterizeError::NodeWeight { index }),
+        None => Ok(()),
+    }
+}
+
+fn zero_area_count(mesh: &Mesh) -> Result<usize, ParameterizeError> {
+    let has_area = |triangle: &&[u32; 3]| {
+        let [a, b, c] = triangle.map(|node| mesh.points()[node as usize]);
+        (b - a).cross(c - a).length() > 0.0
+    };
+    let count = mesh.triangles().len();
+    match count - mesh.triangles().iter().filter(has_area).count() {
+        zero if zero == count => Err(ParameterizeError::ZeroArea { count }),
+        zero => Ok(zero),
+    }
+}
+
+#[cfg(test)]
+mod tests;

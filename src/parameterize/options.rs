@@ -1,0 +1,131 @@
+//! What can be chosen about a map.
+
+use super::ParameterizeError;
+
+/// Which weights an interior node gives its neighbours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Method {
+    /// Mean value coordinates: always positive, so no triangle flips over a convex border.
+    #[default]
+    MeanValue,
+    /// Cotangents: the conformal map of a flat sheet. Obtuse angles make weights negative, and
+    /// triangles may then flip (`parameterization.md` 4: three on a mannequin's head); the report
+    /// counts them.
+    Harmonic,
+}
+
+/// Where the longest boundary loop goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Border {
+    /// The one of circle, square by turns and square by arc with the least L2 stretch.
+    #[default]
+    Auto,
+    /// The circle inscribed in the unit square, spaced by chord length.
+    Circle,
+    /// The unit square with corners at the four sharpest turns of the loop.
+    SquareByTurns,
+    /// The unit square with corners at each quarter of the loop's length.
+    SquareByArc,
+    /// The unit square with these nodes of the loop at (0,0), (1,0), (1,1), (0,1), in loop order.
+    Corners([u32; 4]),
+    /// All boundary nodes, those of holes too, keep the parameters given with the mesh.
+    Kept,
+}
+
+/// How a mesh gets its parameters: `parameterization.md` 9.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ParameterizeOptions {
+    /// Weights of the first map. Default: mean value.
+    pub method: Method,
+    /// Where the border goes. Default: auto.
+    pub border: Border,
+    /// Most stretch steps after the first map: 0 for none, `usize::MAX` until it stops improving.
+    /// Default: until it stops improving.
+    pub stretch_steps: usize,
+    /// Sweeps that smooth the logarithm of the stretch before each step. Default 0.
+    pub rings: usize,
+    /// Outward bulge of a square's sides, in sides: keeps triangles between nodes of one side open.
+    /// Default: [`ParameterizeOptions::DEFAULT_BULGE`]; at most 0.5.
+    pub bulge: f64,
+    /// Whether holes are closed by fans of triangles while the map is computed. Default: yes;
+    /// without them a hole becomes a convex polygon and nodes with two neighbours collapse.
+    pub fill_holes: bool,
+    /// How far border nodes slide with the stretch, 0 (default) to 1. With [`Border::Auto`] a sliding
+    /// circle is then one more candidate beside the three that do not slide.
+    pub boundary_slide: f64,
+}
+
+impl Default for ParameterizeOptions {
+    fn default() -> Self {
+        Self::TENSOR
+    }
+}
+
+impl ParameterizeOptions {
+    /// Sagitta of a bulged side. Less than 1e-3 leaves ears so thin that the fit sees folds; more
+    /// than 0.1 wastes domain outside the data.
+    pub const DEFAULT_BULGE: f64 = 0.02;
+
+    /// For tensor surfaces: least stretch, since their cells cannot adapt.
+    pub const TENSOR: Self = Self {
+        method: Method::MeanValue,
+        border: Border::Auto,
+        stretch_steps: usize::MAX,
+        rings: 0,
+        bulge: Self::DEFAULT_BULGE,
+        fill_holes: true,
+        boundary_slide: 0.0,
+    };
+
+    /// For PHT surfaces: one smoothed step, since quadtrees absorb scale but not anisotropy.
+    pub const PHT: Self = Self { stretch_steps: 1, rings: 30, ..Self::TENSOR };
+
+    /// The mean value map alone.
+    pub const MEAN_VALUE: Self = Self { stretch_steps: 0, ..Self::TENSOR };
+
+    /// The harmonic map alone.
+    pub const HARMONIC: Self = Self { method: Method::Harmonic, ..Self::MEAN_VALUE };
+
+    /// The same with other weights.
+    pub const fn with_method(self, method: Method) -> Self {
+        Self { method, ..self }
+    }
+
+    /// The same with another border.
+    pub const fn with_border(self, border: Border) -> Self {
+        Self { border, ..self }
+    }
+
+    /// The same with another limit of stretch steps.
+    pub const fn with_stretch_steps(self, stretch_steps: usize) -> Self {
+        Self { stretch_steps, ..self }
+    }
+
+    /// The same with another number of smoothing sweeps.
+    pub const fn with_rings(self, rings: usize) -> Self {
+        Self { rings, ..self }
+    }
+
+    /// The same with another bulge.
+    pub const fn with_bulge(self, bulge: f64) -> Self {
+        Self { bulge, ..self }
+    }
+
+    /// The same with or without fans in holes.
+    pub const fn with_fill_holes(self, fill_holes: bool) -> Self {
+        Self { fill_holes, ..self }
+    }
+
+    /// The same with sliding border nodes.
+    pub const fn with_boundary_slide(self, boundary_slide: f64) -> Self {
+        Self { boundary_slide, ..self }
+    }
+
+    pub(super) fn check(&self) -> Result<(), ParameterizeError> {
+        let ranged = [("bulge", self.bulge, 0.5, "0 to 0.5"), ("boundary_slide", self.boundary_slide, 1.0, "0 to 1")];
+        match ranged.iter().find(|(_, value, limit, _)| !(0.0..=*limit).contains(value)) {
+            Some(&(name, value, _, allowed)) => Err(ParameterizeError::Option { name, value, allowed }),
+            None => Ok(()),
+        }
+    }
+}

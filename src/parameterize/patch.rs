@@ -1,0 +1,162 @@
+//! The mesh as the map sees it: holes closed by fans, neighbours listed, fixed nodes known.
+//!
+//! `parameterization.md` 2.1: every loop but the border gets one node at its centroid and a fan of
+//! triangles. Weights and stretch use the fans; they are never returned.
+
+use super::ParameterizeError;
+use crate::mesh::Mesh;
+use glam::DVec3;
+
+/// No unknown: the node is fixed.
+pub(super) const FIXED: u32 = u32::MAX;
+
+/// Who is next to whom; the neighbours of each node ascend. A *slot* is an index into `nodes`.
+#[derive(Debug, Clone)]
+pub(super) struct Neighbours {
+    pub starts: Vec<u32>,
+    pub nodes: Vec<u32>,
+}
+
+impl Neighbours {
+    /// From half-edges and the reverses of those without a partner.
+    fn new(node_count: usize, triangles: &[[u32; 3]], open_edges: &[(u32, u32)]) -> Self {
+        let half_edges = || {
+            let inner = triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
+            inner.chain(open_edges.iter().map(|&(a, b)| (b, a)))
+        };
+        let mut starts = vec![0_u32; node_count + 1];
+        half_edges().for_each(|(a, _)| starts[a as usize + 1] += 1);
+        for i in 0..node_count {
+            starts[i + 1] += starts[i];
+        }
+        let mut next = starts.clone();
+        let mut nodes = vec![0; starts[node_count] as usize];
+        for (a, b) in half_edges() {
+            nodes[next[a as usize] as usize] = b;
+            next[a as usize] += 1;
+        }
+        let mut neighbours = Self { starts, nodes };
+        (0..node_count).for_each(|i| {
+            let slots = neighbours.slots(i);
+            neighbours.nodes[slots].sort_unstable();
+        });
+        neighbours
+    }
+
+    pub fn slots(&self, node: usize) -> std::ops::Range<usize> {
+        self.starts[node] as usize..self.starts[node + 1] as usize
+    }
+
+    pub fn of(&self, node: usize) -> &[u32] {
+        &self.nodes[self.slots(node)]
+    }
+
+    /// The slot of `to` in the list of `from`; they are neighbours.
+    pub fn slot(&self, from: u32, to: u32) -> usize {
+        let list = self.of(from as usize);
+        let place = match list.len() {
+            0..=16 => list.iter().position(|&node| node == to).unwrap_or(0),
+            _ => list.partition_point(|&node| node < to),
+        };
+        self.starts[from as usize] as usize + place
+    }
+}
+
+/// A disk of triangles with its fixed nodes.
+#[derive(Debug, Clone)]
+pub(super) struct Patch {
+    /// Nodes of the mesh, then one for each filled hole.
+    pub points: Vec<DVec3>,
+    /// Triangles of the mesh, then the fans.
+    pub triangles: Vec<[u32; 3]>,
+    /// Nodes and triangles that belong to the mesh.
+    pub mesh_node_count: usize,
+    pub mesh_triangle_count: usize,
+    pub neighbours: Neighbours,
+    /// The number of each node among the unknowns, or [`FIXED`].
+    pub unknown: Vec<u32>,
+    /// The node of each unknown.
+    pub nodes: Vec<u32>,
+}
+
+/// What happens at the boundary loops.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Holes {
+    /// The longest loop is fixed, fans close the others.
+    Filled,
+    /// The longest loop is fixed, the others are free.
+    Open,
+    /// All loops are fixed.
+    Fixed,
+}
+
+impl Patch {
+    pub fn new(mesh: &Mesh, holes: Holes) -> Self {
+        let (mut points, mut triangles) = (mesh.points().to_vec(), mesh.triangles().to_vec());
+        let loops = mesh.loops();
+        let inner = loops.get(1..).unwrap_or_default();
+        let (open, fixed) = match holes {
+            Holes::Filled => {
+                inner.iter().for_each(|hole| fill(hole, &mut points, &mut triangles));
+                (&loops[..loops.len() - inner.len()], &loops[..loops.len() - inner.len()])
+            }
+            Holes::Open => (loops, &loops[..loops.len() - inner.len()]),
+            Holes::Fixed => (loops, loops),
+        };
+        let open_edges: Vec<(u32, u32)> = open.iter().flat_map(|nodes| edges(nodes)).collect();
+        let neighbours = Neighbours::new(points.len(), &triangles, &open_edges);
+        let mut is_fixed: Vec<bool> = (0..points.len()).map(|i| neighbours.slots(i).is_empty()).collect();
+        fixed.iter().flatten().for_each(|&node| is_fixed[node as usize] = true);
+        let nodes: Vec<u32> = (0..points.len() as u32).filter(|&i| !is_fixed[i as usize]).collect();
+        let mut unknown = vec![FIXED; points.len()];
+        nodes.iter().enumerate().for_each(|(k, &node)| unknown[node as usize] = k as u32);
+        Self {
+            mesh_node_count: mesh.points().len(),
+            mesh_triangle_count: mesh.triangles().len(),
+            points,
+            triangles,
+            neighbours,
+            unknown,
+            nodes,
+        }
+    }
+
+    pub fn is_fixed(&self, node: u32) -> bool {
+        self.unknown[node as usize] == FIXED
+    }
+
+    /// Whether a map can change the triangle's shape.
+    pub fn is_movable(&self, triangle: &[u32; 3]) -> bool {
+        !triangle.iter().all(|&node| self.is_fixed(node))
+    }
+}
+
+/// A loop's edges, closing one last.
+pub(super) fn edges(nodes: &[u32]) -> impl Iterator<Item = (u32, u32)> + '_ {
+    nodes.iter().copied().zip(nodes.iter().copied().cycle().skip(1))
+}
+
+// The loop runs with the mesh on its left, so the fan takes its edges the other way.
+fn fill(hole: &[u32], points: &mut Vec<DVec3>, triangles: &mut Vec<[u32; 3]>) {
+    let centre = points.len() as u32;
+    let sum: DVec3 = hole.iter().map(|&node| points[node as usize]).sum();
+    points.push(sum / hole.len() as f64);
+    triangles.extend(edges(hole).map(|(a, b)| [b, a, centre]));
+}
+
+/// Refuses what is no disk, naming what is in the way.
+pub(super) fn check_disk(mesh: &Mesh) -> Result<(), ParameterizeError> {
+    if mesh.loops().is_empty() {
+        return Err(ParameterizeError::Closed);
+    }
+    if mesh.component_count() > 1 {
+        return Err(ParameterizeError::Components { count: mesh.component_count() });
+    }
+    if let Some(&node) = mesh.pinched_nodes().first() {
+        return Err(ParameterizeError::Pinched { node: node as usize });
+    }
+    match mesh.genus() {
+        0 => Ok(()),
+        genus => Err(ParameterizeError::Genus { genus }),
+    }
+}
