@@ -1,9 +1,11 @@
 //! Errors between the nodes, and the part of them that flat facets explain.
 
 use super::Problem;
+use super::grid::UniformGrid;
 use crate::control::Pool;
 use crate::fit::errors::data_errors;
 use crate::mesh::Mesh;
+use crate::surface::Trims;
 use crate::surface::tensor::TensorSurface;
 use glam::{DVec2, DVec3};
 
@@ -27,7 +29,7 @@ impl Problem<'_> {
         let (uv, values) = interior_samples(mesh, &self.uv, self.values, self.dim);
         let errors = data_errors(surface, &uv, &values, pool).each;
         // a field has no facets in space: what lies between its nodes is unknown altogether
-        let sagittas = if self.dim == 3 { triangle_sagittas(mesh) } else { vec![0.0; errors.len() / 4] };
+        let sagittas = if self.is_shape { triangle_sagittas(mesh) } else { vec![0.0; errors.len() / 4] };
         let mut result = InteriorErrors::default();
         for (errors, &sagitta) in errors.chunks_exact(4).zip(&sagittas) {
             let max = errors.iter().copied().fold(0.0, f64::max);
@@ -36,6 +38,24 @@ impl Problem<'_> {
             result.max_excess = result.max_excess.max(max - sagitta);
         }
         result
+    }
+}
+
+impl Problem<'_> {
+    /// Cells without data inside the loops of the mesh, or inside the box of scattered data: there the surface
+    /// is smooth guesswork.
+    pub fn empty_cell_count(&self, grid: &[UniformGrid; 2], trims: &Trims) -> usize {
+        let cells_v = grid[1].count - 1;
+        let mut is_empty = vec![true; (grid[0].count - 1) * cells_v];
+        for uv in &self.uv {
+            is_empty[grid[0].locate(uv.x).0 * cells_v + grid[1].locate(uv.y).0] = false;
+        }
+        let is_inside = |cell: usize| {
+            let middle = |grid: &UniformGrid, k: usize| grid.knot(k) + grid.step / 2.0;
+            let uv = DVec2::new(middle(&grid[0], cell / cells_v), middle(&grid[1], cell % cells_v));
+            self.data_box.contains(uv) && trims.contains(uv)
+        };
+        is_empty.iter().enumerate().filter(|&(cell, &empty)| empty && is_inside(cell)).count()
     }
 }
 
@@ -57,21 +77,27 @@ fn interior_samples(mesh: &Mesh, uv: &[DVec2], values: &[f64], dim: usize) -> (V
 
 /// The height of the shape above each facet. A chord of length l whose end normals enclose the angle a belongs
 /// to an arc of height `l/2 tan(a/4)`; the middle of an equilateral triangle on a sphere lies 4/3 as high as
-/// the middle of its edges.
+/// the middle of its edges. Normals are rough at borders and on uneven triangles, so each facet takes the
+/// largest height among the edges at its nodes.
 fn triangle_sagittas(mesh: &Mesh) -> Vec<f64> {
     let normals = node_normals(mesh);
-    let height = |a: u32, b: u32| {
-        let (a, b) = (a as usize, b as usize);
-        let angle = normals[a].angle_between(normals[b]);
-        let angle = if angle.is_finite() { angle } else { 0.0 };
-        mesh.points()[a].distance(mesh.points()[b]) / 2.0 * (angle / 4.0).tan()
-    };
-    let triangles = mesh.triangles().iter();
-    triangles.map(|&[a, b, c]| 4.0 / 3.0 * height(a, b).max(height(b, c)).max(height(c, a))).collect()
+    let mut heights = vec![0.0_f64; normals.len()];
+    for &[a, b, c] in mesh.triangles() {
+        for (a, b) in [(a, b), (b, c), (c, a)] {
+            let (a, b) = (a as usize, b as usize);
+            let angle = normals[a].angle_between(normals[b]);
+            let angle = if angle.is_finite() { angle } else { 0.0 };
+            let height = mesh.points()[a].distance(mesh.points()[b]) / 2.0 * (angle / 4.0).tan();
+            heights[a] = heights[a].max(height);
+            heights[b] = heights[b].max(height);
+        }
+    }
+    let highest = |nodes: &[u32; 3]| nodes.iter().map(|&n| heights[n as usize]).fold(0.0, f64::max);
+    mesh.triangles().iter().map(|nodes| 4.0 / 3.0 * highest(nodes)).collect()
 }
 
 /// Sums of the area vectors of the triangles at each node.
-fn node_normals(mesh: &Mesh) -> Vec<DVec3> {
+pub fn node_normals(mesh: &Mesh) -> Vec<DVec3> {
     let points = mesh.points();
     let mut normals = vec![DVec3::ZERO; points.len()];
     for triangle in mesh.triangles() {

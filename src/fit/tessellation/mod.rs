@@ -16,6 +16,7 @@ mod grid;
 mod interior;
 mod normal_equations;
 mod refine;
+mod samples;
 mod single_grid;
 
 pub use energy::Energy;
@@ -29,7 +30,7 @@ use crate::parameterize::{
     ParameterizeError, ParameterizeOptions, ParameterizeReport, RegularizeOptions, parameterize, regularize,
 };
 use crate::surface::tensor::TensorSurface;
-use crate::surface::{Domain, Region, Surface, Trims};
+use crate::surface::{Domain, Region, Trims};
 use glam::DVec2;
 use std::time::Instant;
 
@@ -109,7 +110,7 @@ impl Default for TensorOptions<'_> {
             fixed_grid: None,
             correction_sweeps: 0,
             regularize: Regularize::default(),
-            parameterize: ParameterizeOptions::tensor(),
+            parameterize: ParameterizeOptions::TENSOR,
             weights: None,
             measure_distance: false,
         }
@@ -232,7 +233,7 @@ pub struct TensorFit {
 /// Fits the shape of a mesh. Without parameters the mesh is parameterized first.
 pub fn fit_mesh(mesh: &Mesh, options: &TensorOptions, control: &mut Control) -> Result<TensorFit, FitError> {
     let values: Vec<f64> = mesh.points().iter().flat_map(|p| p.to_array()).collect();
-    fit_on_mesh(mesh, &values, 3, options, control)
+    fit_on_mesh(mesh, &values, 3, true, options, control)
 }
 
 /// Fits values on the nodes of a mesh, `dim` numbers a node, over the same parameters as its shape.
@@ -243,7 +244,7 @@ pub fn fit_field(
     options: &TensorOptions,
     control: &mut Control,
 ) -> Result<TensorFit, FitError> {
-    fit_on_mesh(mesh, values, dim, options, control)
+    fit_on_mesh(mesh, values, dim, false, options, control)
 }
 
 /// Fits rows of `dim` numbers at scattered parameters.
@@ -266,6 +267,7 @@ fn fit_on_mesh(
     mesh: &Mesh,
     values: &[f64],
     dim: usize,
+    is_shape: bool,
     options: &TensorOptions,
     control: &mut Control,
 ) -> Result<TensorFit, FitError> {
@@ -277,12 +279,9 @@ fn fit_on_mesh(
     let parameterize_seconds = start.elapsed().as_secs_f64();
     check(&map.uv, values, dim, options)?;
     let mut problem = Problem::new(map.uv, values, dim, Some(mesh), options);
+    problem.is_shape = is_shape;
     control.set_stage(0.3, 1.0);
     let mut fit = problem.fit(control)?;
-    let loops = mesh.loops().iter().map(|nodes| nodes.iter().map(|&n| fit.parameters[n as usize]).collect());
-    let trims = Trims::new(loops.collect(), &fit.surface.domain());
-    // parameters of data lie in the domain and loops have three nodes at least
-    fit.surface.region_mut().trims = trims.unwrap_or_default();
     fit.report.parameterize_seconds = parameterize_seconds;
     fit.report.remarks.0 |= map.remarks.0;
     let folded = crate::parameterize::folds(mesh.triangles(), &fit.parameters);
@@ -319,7 +318,7 @@ fn node_parameters(
     // a mesh that is no disk keeps what was given: only regularizing needs its connectivity
     match regularize(mesh, &RegularizeOptions::default().with_when(when), control) {
         Ok(map) => {
-            remarks.add_if(map.report.changed, Remarks::REGULARIZED);
+            remarks.add_if(map.report.replaced, Remarks::REGULARIZED);
             Ok(NodeParameters { uv: map.uv, remarks })
         }
         Err(ParameterizeError::Cancelled(cancelled)) => Err(cancelled.into()),
@@ -396,6 +395,8 @@ fn check(uv: &[DVec2], values: &[f64], dim: usize, options: &TensorOptions) -> R
 struct Problem<'a> {
     options: &'a TensorOptions<'a>,
     mesh: Option<&'a Mesh>,
+    /// Whether the values are the nodes' places in space.
+    is_shape: bool,
     /// Rows of `dim` numbers, as given.
     values: &'a [f64],
     dim: usize,
@@ -448,6 +449,7 @@ impl<'a> Problem<'a> {
             frame: Frame::new(&bounds),
             options,
             mesh,
+            is_shape: false,
             values,
             dim,
             uv,

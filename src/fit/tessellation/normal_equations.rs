@@ -60,8 +60,6 @@ pub struct NormalEquations {
     /// Columns of unknowns, one for each component.
     right: Vec<f64>,
     dim: usize,
-    /// Cells that hold no data.
-    pub empty_cell_count: usize,
 }
 
 /// Data sorted by cell: `order[starts[c]..starts[c + 1]]` lie in cell `c`.
@@ -102,15 +100,9 @@ struct Strip {
 impl NormalEquations {
     /// Adds up the data. Rows of cells are independent pieces of work, added in their order.
     pub fn assemble(basis: TensorBasis, samples: &Samples, pool: &Pool) -> Self {
-        let [cells_u, cells_v] = basis.cells();
+        let [cells_u, _] = basis.cells();
         let (rows, n, dim) = (basis.v.len(), basis.len(), samples.dim);
-        let mut equations = Self {
-            basis,
-            matrix: vec![0.0; n * STENCIL],
-            right: vec![0.0; n * dim],
-            dim,
-            empty_cell_count: 0,
-        };
+        let mut equations = Self { basis, matrix: vec![0.0; n * STENCIL], right: vec![0.0; n * dim], dim };
         pool.run(|| {
             let by_cell = ByCell::sort(&basis, samples.uv);
             // strips of a block are kept at once: the block bounds the memory, and is fixed
@@ -124,8 +116,6 @@ impl NormalEquations {
                     equations.add_strip(basis.u.first(cell_u) * rows, &strip);
                 }
             }
-            equations.empty_cell_count =
-                (0..cells_u * cells_v).filter(|&cell| by_cell.of(cell).is_empty()).count();
         });
         equations
     }
@@ -174,7 +164,8 @@ impl NormalEquations {
             for j in 0..count_v {
                 for a in 0..=REACH.min(count_u - 1 - i) {
                     for jj in neighbours(j, a, count_v) {
-                        let bend: f64 = terms.iter().map(|t| t.weight * t.u.rows[i][a] * t.v.get(j, jj)).sum();
+                        let bend: f64 =
+                            terms.iter().map(|t| t.weight * t.u.rows[i][a] * t.v.get(j, jj)).sum();
                         let stencil = &self.matrix[(i * count_v + j) * STENCIL..];
                         rows.push((i + a) * count_v + jj);
                         values.push(stencil[7 * a + REACH + jj - j] + weight * bend);

@@ -4,6 +4,8 @@ use super::single_grid::Candidate;
 use super::{FitError, Problem, TensorFit};
 use crate::control::Control;
 use crate::fit::report::{FitReport, Remarks, StopReason};
+use crate::surface::tensor::TensorSurface;
+use crate::surface::{Surface, Trims};
 
 /// Two rounds in a row that do not lower the error are followed by doubling both ways; this many end the fit.
 const STAGNANT_ROUNDS: usize = 4;
@@ -19,7 +21,10 @@ impl Problem<'_> {
         let mut counts = first;
         let stop = loop {
             let is_met = best.is_current && self.is_met(&best.candidate, control);
-            control.report(state.fraction(best.candidate.errors.max, self.tolerance.0), best.candidate.errors.max)?;
+            control.report(
+                state.fraction(best.candidate.errors.max, self.tolerance.0),
+                best.candidate.errors.max,
+            )?;
             if is_met {
                 break StopReason::ToleranceMet;
             }
@@ -84,10 +89,8 @@ impl Problem<'_> {
     fn better_of(&self, next: Vec<[usize; 2]>, control: &mut Control) -> Result<Candidate, FitError> {
         let mut fitted = control.watch(|pool, watch| match next.as_slice() {
             &[first, second] => {
-                let (first, second) = rayon::join(
-                    || self.fit_grid(first, pool, watch),
-                    || self.fit_grid(second, pool, watch),
-                );
+                let (first, second) =
+                    rayon::join(|| self.fit_grid(first, pool, watch), || self.fit_grid(second, pool, watch));
                 Ok(vec![first?, second?])
             }
             others => others.iter().map(|&counts| self.fit_grid(counts, pool, watch)).collect(),
@@ -147,15 +150,32 @@ impl Problem<'_> {
         Ok(current)
     }
 
-    fn finish(&mut self, best: Candidate, stop: StopReason, passes: usize, control: &Control) -> TensorFit {
+    /// The boundary loops of the mesh in the parameter plane.
+    fn trims(&self, surface: &TensorSurface) -> Trims {
+        let loops = self.mesh.map_or(&[][..], |mesh| mesh.loops());
+        let loops = loops.iter().map(|nodes| nodes.iter().map(|&n| self.uv[n as usize]).collect());
+        // parameters of data lie in the domain, and loops have three nodes at least
+        Trims::new(loops.collect(), &surface.domain()).unwrap_or_default()
+    }
+
+    fn finish(
+        &mut self,
+        mut best: Candidate,
+        stop: StopReason,
+        passes: usize,
+        control: &Control,
+    ) -> TensorFit {
         let interior = self.interior_errors(&best.surface, control.pool());
+        let trims = self.trims(&best.surface);
+        let empty_cell_count = self.empty_cell_count(&best.grid, &trims);
+        best.surface.region_mut().trims = trims;
         let (tolerance, raised) = self.tolerance;
         let mut remarks = Remarks::default();
         remarks.add_if(best.errors.max > tolerance, Remarks::TOLERANCE_NOT_MET);
         remarks.add_if(stop == StopReason::Stagnated, Remarks::STAGNATED);
         remarks.add_if(raised, Remarks::TOLERANCE_RAISED);
         remarks.add_if(best.used_plate, Remarks::PLATE_ENERGY_USED);
-        remarks.add_if(best.empty_cell_count > 0, Remarks::EMPTY_CELLS);
+        remarks.add_if(empty_cell_count > 0, Remarks::EMPTY_CELLS);
         remarks.add_if(interior.max_excess > tolerance, Remarks::ROUGH_BETWEEN_NODES);
         let [grid_u, grid_v] = best.counts();
         let report = FitReport {
@@ -172,7 +192,7 @@ impl Problem<'_> {
             grid_v,
             coefficient_count: best.coefficient_count,
             smoothing: best.smoothing,
-            empty_cell_count: best.empty_cell_count,
+            empty_cell_count,
             passes,
             stop,
             remarks,

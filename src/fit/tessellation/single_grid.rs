@@ -9,7 +9,6 @@ use crate::knots::KnotVector;
 use crate::linalg::SymbolicCholesky;
 use crate::surface::Surface;
 use crate::surface::tensor::TensorSurface;
-use std::borrow::Cow;
 
 /// A surface on some grid, measured.
 pub struct Candidate {
@@ -18,7 +17,6 @@ pub struct Candidate {
     pub errors: DataErrors,
     pub smoothing: f64,
     pub coefficient_count: usize,
-    pub empty_cell_count: usize,
     pub used_plate: bool,
 }
 
@@ -28,10 +26,6 @@ impl Candidate {
         self.grid.map(|grid| grid.count)
     }
 }
-
-/// With more unknowns than this share of the nodes, nodes alone leave the surface free between them, and the
-/// triangles' centroids are fitted as well.
-const CENTROIDS_FROM: f64 = 0.25;
 
 impl Problem<'_> {
     /// The grid over the data with this many knots.
@@ -72,7 +66,6 @@ impl Problem<'_> {
             surface,
             smoothing,
             coefficient_count: counts[0] * counts[1],
-            empty_cell_count: 0,
             used_plate: false,
         })
     }
@@ -89,39 +82,6 @@ impl Problem<'_> {
         *surface.region_mut() = self.region();
         Ok(surface)
     }
-
-    /// The data of a fit with this many unknowns, in the frame: nodes, and centroids where nodes are few.
-    fn fitted_data(&self, coefficient_count: usize) -> FittedData<'_> {
-        let mut data = FittedData {
-            uv: Cow::Borrowed(&self.uv),
-            values: self.frame.inward(self.values),
-            weights: self.options.weights.map(Cow::Borrowed),
-        };
-        let node_count = self.uv.len() as f64;
-        if let Some(mesh) = self.mesh
-            && coefficient_count as f64 > CENTROIDS_FROM * node_count
-        {
-            for triangle in mesh.triangles() {
-                let nodes = triangle.map(|node| node as usize);
-                data.uv.to_mut().push(nodes.iter().map(|&n| self.uv[n]).sum::<glam::DVec2>() / 3.0);
-                for k in 0..self.dim {
-                    let sum: f64 = nodes.iter().map(|&n| data.values[n * self.dim + k]).sum();
-                    data.values.push(sum / 3.0);
-                }
-                if let Some(weights) = &mut data.weights {
-                    let mean = nodes.iter().map(|&n| weights[n]).sum::<f64>() / 3.0;
-                    weights.to_mut().push(mean);
-                }
-            }
-        }
-        data
-    }
-}
-
-struct FittedData<'a> {
-    uv: Cow<'a, [glam::DVec2]>,
-    values: Vec<f64>,
-    weights: Option<Cow<'a, [f64]>>,
 }
 
 /// The normal equations of one grid, ready to be solved with any smoothing.
@@ -141,9 +101,10 @@ impl<'a> LeastSquares<'a> {
         pool: &'a Pool,
         watch: &'a Watch,
     ) -> Result<Self, FitError> {
-        let [u, v] = problem.grid(counts).map(|grid| UniformBasis { grid, ends: problem.options.ends });
+        let grid = problem.grid(counts);
+        let [u, v] = grid.map(|grid| UniformBasis { grid, ends: problem.options.ends });
         let basis = TensorBasis { u, v };
-        let data = problem.fitted_data(basis.len());
+        let data = problem.fitted_data(&grid);
         let samples = Samples {
             uv: &data.uv,
             values: &data.values,
@@ -207,7 +168,6 @@ impl<'a> LeastSquares<'a> {
             surface,
             smoothing,
             coefficient_count: self.basis.len(),
-            empty_cell_count: self.equations.empty_cell_count,
             used_plate,
         })
     }
