@@ -53,10 +53,8 @@ fn load_ply(bytes: &[u8]) -> Mesh {
         .map(|at| DVec3::new(float(at), float(at + 4), float(at + 8)))
         .collect();
     let faces = end + 4 * floats * n;
-    let triangles = (0..t)
-        .map(|i| faces + 13 * i + 1)
-        .map(|at| [int(at), int(at + 4), int(at + 8)])
-        .collect();
+    let triangles =
+        (0..t).map(|i| faces + 13 * i + 1).map(|at| [int(at), int(at + 4), int(at + 8)]).collect();
     Mesh::new(points, triangles).unwrap()
 }
 
@@ -89,7 +87,16 @@ fn table() {
                     let r: ParameterizeReport = p.report;
                     eprintln!(
                         "{name:28} {label:12} {:.4e} {:.4e} {:.3e}  flips {} degen {} solves {} steps {} {:.3}s {:?} {:#b}",
-                        r.stretch.l2, r.stretch.max, r.stretch.area_ratio, r.flipped_triangles, r.degenerate_triangles, r.solves, r.steps, r.seconds, r.border, r.remarks.bits()
+                        r.stretch.l2,
+                        r.stretch.max,
+                        r.stretch.area_ratio,
+                        r.flipped_triangles,
+                        r.degenerate_triangles,
+                        r.solves,
+                        r.steps,
+                        r.seconds,
+                        r.border,
+                        r.remarks.bits()
                     )
                 }
                 Err(e) => eprintln!("{name} {label} {e}"),

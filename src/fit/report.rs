@@ -114,8 +114,8 @@ pub struct FitReport {
     pub tolerance: f64,
     /// Diagonal of the data's bounding box: an error divided by it is relative.
     pub diagonal: f64,
-    /// Largest distance from a triangle's centroid or an edge's middle to the surface at the mean of the
-    /// nodes' parameters; 0 for data without triangles.
+    /// Largest distance from a triangle's centroid or an edge's middle to the surface's tangent plane at the
+    /// mean of the nodes' parameters (for a field: to its value there); 0 for data without triangles.
     pub max_interior_error: f64,
     /// The part of `max_interior_error` that flat facets on a curved shape explain: the largest height of
     /// the shape above a facet, estimated from the angles between node normals.

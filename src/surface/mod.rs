@@ -9,6 +9,7 @@ pub mod evaluate;
 mod region;
 pub mod tensor;
 
+pub use differential::{Curvatures, curvatures, normal};
 pub use region::{Domain, Region, TrimError, Trims};
 
 use glam::DVec2;

@@ -7,7 +7,9 @@ use crate::fit::errors::data_errors;
 use crate::mesh::Mesh;
 use crate::surface::Trims;
 use crate::surface::tensor::TensorSurface;
+use crate::surface::{Surface, normal};
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 /// Errors at triangle centroids and edge middles.
 #[derive(Debug, Clone, Copy, Default)]
@@ -27,9 +29,12 @@ impl Problem<'_> {
             return InteriorErrors::default();
         };
         let (uv, values) = interior_samples(mesh, &self.uv, self.values, self.dim);
-        let errors = data_errors(surface, &uv, &values, pool).each;
         // a field has no facets in space: what lies between its nodes is unknown altogether
-        let sagittas = if self.is_shape { triangle_sagittas(mesh) } else { vec![0.0; errors.len() / 4] };
+        let (errors, sagittas) = if self.is_shape {
+            (heights_over(surface, &uv, &values, pool), triangle_sagittas(mesh))
+        } else {
+            (data_errors(surface, &uv, &values, pool).each, vec![0.0; uv.len() / 4])
+        };
         let mut result = InteriorErrors::default();
         for (errors, &sagitta) in errors.chunks_exact(4).zip(&sagittas) {
             let max = errors.iter().copied().fold(0.0, f64::max);
@@ -39,6 +44,28 @@ impl Problem<'_> {
         }
         result
     }
+}
+
+/// Distances from places on facets to the tangent planes of the surface at their parameters. A map that
+/// stretches unevenly puts the mean of parameters beside the mean of places, along the surface: that is no
+/// error of the shape. Where the surface has no tangent plane the whole distance counts.
+fn heights_over(surface: &TensorSurface, uv: &[DVec2], values: &[f64], pool: &Pool) -> Vec<f64> {
+    const CHUNK: usize = 1024;
+    let mut heights = vec![0.0; uv.len()];
+    pool.run(|| {
+        let data = uv.par_chunks(CHUNK).zip(values.par_chunks(3 * CHUNK));
+        heights.par_chunks_mut(CHUNK).zip(data).for_each(|(heights, (uv, values))| {
+            let mut rows = vec![0.0; uv.len() * 9];
+            surface.eval_rows(uv, 1, &mut rows);
+            for ((height, row), value) in heights.iter_mut().zip(rows.chunks(9)).zip(values.chunks(3)) {
+                let [s, su, sv] = [0, 3, 6].map(|k| DVec3::from_slice(&row[k..]));
+                let miss = DVec3::from_slice(value) - s;
+                let normal = normal(su, sv);
+                *height = if normal.is_nan() { miss.length() } else { miss.dot(normal).abs() };
+            }
+        });
+    });
+    heights
 }
 
 impl Problem<'_> {
