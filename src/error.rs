@@ -5,6 +5,7 @@
 //! classes that a program can act upon, [`Error::index`] is the offending node, triangle, row or byte.
 
 use crate::control::Cancelled;
+use crate::curve::CurveError;
 use crate::fit::tessellation::FitError;
 use crate::knots::KnotError;
 use crate::mesh::{CutError, MeshError, ReadError};
@@ -66,6 +67,9 @@ pub enum Error {
     /// Knots are not a knot vector.
     #[error(transparent)]
     Knots(#[from] KnotError),
+    /// A curve is not one.
+    #[error(transparent)]
+    Curve(#[from] CurveError),
     /// A tensor surface is not one.
     #[error(transparent)]
     Tensor(#[from] TensorError),
@@ -101,6 +105,7 @@ impl Error {
             Self::Parameterize(error) => (error.kind(), error.index()),
             Self::Fit(error) => (error.kind(), error.index()),
             Self::Knots(error) => (error.kind(), error.index()),
+            Self::Curve(error) => (error.kind(), error.index()),
             Self::Tensor(error) => (error.kind(), error.index()),
             Self::Eval(error) => (error.kind(), error.index()),
             Self::Trim(error) => (error.kind(), error.index()),

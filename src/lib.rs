@@ -12,6 +12,7 @@
 
 pub mod basis;
 pub mod control;
+pub mod curve;
 pub mod error;
 pub mod fit;
 pub mod geometry;
