@@ -10,6 +10,7 @@ use crate::fit::tessellation::FitError;
 use crate::knots::KnotError;
 use crate::mesh::{CutError, MeshError, ReadError};
 use crate::parameterize::ParameterizeError;
+use crate::query::tessellate::TessellateError;
 use crate::surface::TrimError;
 use crate::surface::evaluate::EvalError;
 use crate::surface::tensor::TensorError;
@@ -76,6 +77,9 @@ pub enum Error {
     /// Points cannot be evaluated.
     #[error(transparent)]
     Eval(#[from] EvalError),
+    /// A surface cannot be tessellated.
+    #[error(transparent)]
+    Tessellate(#[from] TessellateError),
     /// A trim is not one.
     #[error(transparent)]
     Trim(#[from] TrimError),
@@ -108,6 +112,7 @@ impl Error {
             Self::Curve(error) => (error.kind(), error.index()),
             Self::Tensor(error) => (error.kind(), error.index()),
             Self::Eval(error) => (error.kind(), error.index()),
+            Self::Tessellate(error) => (error.kind(), None),
             Self::Trim(error) => (error.kind(), error.index()),
             Self::Cut(error) => (error.kind(), error.index()),
             Self::Cancelled(_) => (ErrorKind::Cancelled, None),

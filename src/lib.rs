@@ -21,6 +21,8 @@ pub mod knots;
 pub mod linalg;
 pub mod mesh;
 pub mod parameterize;
+pub mod query;
+pub mod samples;
 pub mod surface;
 
 pub use control::Control;
