@@ -6,6 +6,7 @@
 
 use crate::control::Cancelled;
 use crate::curve::CurveError;
+use crate::export::ExportError;
 use crate::fit::tessellation::FitError;
 use crate::knots::KnotError;
 use crate::mesh::{CutError, MeshError, ReadError};
@@ -80,6 +81,9 @@ pub enum Error {
     /// A surface cannot be tessellated.
     #[error(transparent)]
     Tessellate(#[from] TessellateError),
+    /// A file cannot be written.
+    #[error(transparent)]
+    Export(#[from] ExportError),
     /// A trim is not one.
     #[error(transparent)]
     Trim(#[from] TrimError),
@@ -113,6 +117,7 @@ impl Error {
             Self::Tensor(error) => (error.kind(), error.index()),
             Self::Eval(error) => (error.kind(), error.index()),
             Self::Tessellate(error) => (error.kind(), None),
+            Self::Export(error) => (error.kind(), None),
             Self::Trim(error) => (error.kind(), error.index()),
             Self::Cut(error) => (error.kind(), error.index()),
             Self::Cancelled(_) => (ErrorKind::Cancelled, None),

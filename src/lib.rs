@@ -14,6 +14,7 @@ pub mod basis;
 pub mod control;
 pub mod curve;
 pub mod error;
+pub mod export;
 pub mod fit;
 pub mod geometry;
 pub mod hermite;
