@@ -3,6 +3,7 @@
 mod error;
 pub mod native;
 pub mod obj;
+pub mod picture;
 pub mod vtk;
 
 pub use error::ExportError;
