@@ -15,7 +15,8 @@ fn main() {
     println!("{} nodes, {} triangles", mesh.points().len(), mesh.triangles().len());
     for threads in [1, 2] {
         let mean_value = ParameterizeOptions::MEAN_VALUE.with_border(Border::Circle);
-        let harmonic = median(|| seconds(&mesh, &ParameterizeOptions::HARMONIC.with_border(Border::Circle), threads));
+        let harmonic =
+            median(|| seconds(&mesh, &ParameterizeOptions::HARMONIC.with_border(Border::Circle), threads));
         let first = median(|| seconds(&mesh, &mean_value, threads));
         let with_step = median(|| seconds(&mesh, &mean_value.with_stretch_steps(1), threads));
         println!(

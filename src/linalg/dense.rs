@@ -55,13 +55,7 @@ fn factor_lower_block(lower: &mut [f64], size: usize, block: Range<usize>) -> Re
 }
 
 /// Eliminates the block's rows from U right of the pivots.
-fn sweep_upper_block(
-    lower: &[f64],
-    upper: &mut [f64],
-    size: usize,
-    height: usize,
-    block: Range<usize>,
-) {
+fn sweep_upper_block(lower: &[f64], upper: &mut [f64], size: usize, height: usize, block: Range<usize>) {
     for k in block.clone() {
         let (done, later) = upper.split_at_mut((k + 1) * height);
         let column = &done[k * height..];

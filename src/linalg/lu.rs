@@ -197,7 +197,8 @@ impl SymbolicLu {
         let heavy = loop {
             let children = &self.tree.children[node];
             let is_heavy = |&&child: &&u32| self.tree.supernodes[child as usize].work >= self.split_work;
-            let heavy: Vec<usize> = children.iter().take_while(is_heavy).map(|&child| child as usize).collect();
+            let heavy: Vec<usize> =
+                children.iter().take_while(is_heavy).map(|&child| child as usize).collect();
             match heavy[..] {
                 [only] => node = only,
                 _ => break heavy,
@@ -464,11 +465,7 @@ fn parent_places(tree: &EliminationTree) -> Vec<u32> {
 }
 
 /// Sorts the matrix entries into the panels: the supernode of the earlier pivot has both images.
-fn place_entries(
-    matrix: &CsMatView<f64>,
-    mirror: &[u32],
-    tree: &EliminationTree,
-) -> (Vec<Slot>, Vec<usize>) {
+fn place_entries(matrix: &CsMatView<f64>, mirror: &[u32], tree: &EliminationTree) -> (Vec<Slot>, Vec<usize>) {
     let starts = matrix.indptr();
     let (starts, columns) = (starts.raw_storage(), matrix.indices());
     let mut slots = Vec::with_capacity(columns.len());

@@ -87,7 +87,8 @@ fn bisect(graph: &Graph) -> Option<[Vec<u32>; 3]> {
     let mut parts = [Vec::new(), Vec::new(), Vec::new()];
     for node in 0..graph.len() {
         let level = levels[node] as usize;
-        let goes_on = || graph.neighbours(node).iter().any(|&other| levels[other as usize] as usize == cut + 1);
+        let goes_on =
+            || graph.neighbours(node).iter().any(|&other| levels[other as usize] as usize == cut + 1);
         // nodes out of reach have the level NONE and go right; of the cut's nodes those that
         // touch nothing further go left
         let part = if level > cut {

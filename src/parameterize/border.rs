@@ -102,7 +102,8 @@ impl BorderLine {
         let ends = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
         for side in 0..4 {
             let (start, next) = (corners[side], corners[(side + 1) % 4]);
-            let places: Vec<usize> = (0..(next + count - start) % count).map(|k| (start + k) % count).collect();
+            let places: Vec<usize> =
+                (0..(next + count - start) % count).map(|k| (start + k) % count).collect();
             let lengths: Vec<f64> = places.iter().map(|&place| self.lengths[place]).collect();
             let along = ends[(side + 1) % 4] - ends[side];
             let outward = DVec2::new(along.y, -along.x);

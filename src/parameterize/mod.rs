@@ -26,7 +26,7 @@ mod weights;
 pub use error::ParameterizeError;
 pub use options::{Border, Method, ParameterizeOptions};
 pub use regularize::{
-    Boundary, RegularizeOptions, RegularizeReport, Regularization, RegularizeWhen, regularize,
+    Boundary, Regularization, RegularizeOptions, RegularizeReport, RegularizeWhen, regularize,
 };
 pub use stretch::{StretchMeasure, stretch};
 

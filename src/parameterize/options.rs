@@ -122,7 +122,8 @@ impl ParameterizeOptions {
     }
 
     pub(super) fn check(&self) -> Result<(), ParameterizeError> {
-        let ranged = [("bulge", self.bulge, 0.5, "0 to 0.5"), ("boundary_slide", self.boundary_slide, 1.0, "0 to 1")];
+        let ranged =
+            [("bulge", self.bulge, 0.5, "0 to 0.5"), ("boundary_slide", self.boundary_slide, 1.0, "0 to 1")];
         match ranged.iter().find(|(_, value, limit, _)| !(0.0..=*limit).contains(value)) {
             Some(&(name, value, _, allowed)) => Err(ParameterizeError::Option { name, value, allowed }),
             None => Ok(()),

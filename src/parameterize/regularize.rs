@@ -221,4 +221,3 @@ fn cumulative<P: Copy>(points: impl Iterator<Item = P>, distance: impl Fn(P, P) 
         })
         .collect()
 }
-

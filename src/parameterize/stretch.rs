@@ -78,10 +78,7 @@ pub fn stretch(points: &[DVec3], triangles: &[[u32; 3]], uv: &[DVec2]) -> Stretc
 }
 
 pub(super) fn triangle_stretch(points: &[DVec3], uv: &[DVec2], triangle: &[u32; 3]) -> TriangleStretch {
-    TriangleStretch::new(
-        triangle.map(|node| points[node as usize]),
-        triangle.map(|node| uv[node as usize]),
-    )
+    TriangleStretch::new(triangle.map(|node| points[node as usize]), triangle.map(|node| uv[node as usize]))
 }
 
 fn summed(parts: &[TriangleStretch], weight_sq: impl Fn(usize) -> f64) -> StretchMeasure {

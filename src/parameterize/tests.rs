@@ -89,10 +89,8 @@ fn stretch_does_not_see_mirroring_or_scale() {
     let mesh = pyramid(0.7);
     let uv = projected(&mesh);
     let turned: Vec<DVec2> = uv.iter().map(|q| DVec2::new(q.y, q.x) * 1e3).collect();
-    let (a, b) = (
-        stretch(mesh.points(), mesh.triangles(), &uv),
-        stretch(mesh.points(), mesh.triangles(), &turned),
-    );
+    let (a, b) =
+        (stretch(mesh.points(), mesh.triangles(), &uv), stretch(mesh.points(), mesh.triangles(), &turned));
     assert!((a.l2 - b.l2).abs() < 1e-14 && (a.max - b.max).abs() < 1e-14, "{a:?} {b:?}");
     assert_eq!(folds(mesh.triangles(), &turned), (0, 0));
 }
@@ -191,11 +189,11 @@ fn kept_boundaries_reproduce_planes_with_holes() {
         ((10..18).contains(&i) && (8..20).contains(&j)) || ((25..30).contains(&i) && j < 7)
     };
     let triangles: Vec<[u32; 3]> = full.triangles().iter().copied().filter(|t| !is_cut(t)).collect();
-    let in_space = |q: &DVec3| DVec3::new(q.x + 0.2 * q.y, 0.5 * q.y - 0.3 * q.x, 2.0 + 0.4 * q.x - 0.1 * q.y);
+    let in_space =
+        |q: &DVec3| DVec3::new(q.x + 0.2 * q.y, 0.5 * q.y - 0.3 * q.x, 2.0 + 0.4 * q.x - 0.1 * q.y);
     let isometric = |q: &DVec3| DVec3::new(0.6 * q.x - 0.8 * q.y, 0.8 * q.x + 0.6 * q.y, 5.0);
     for method in [Method::MeanValue, Method::Harmonic] {
-        let mut mesh =
-            Mesh::new(full.points().iter().map(isometric).collect(), triangles.clone()).unwrap();
+        let mut mesh = Mesh::new(full.points().iter().map(isometric).collect(), triangles.clone()).unwrap();
         let exact = projected(&full);
         mesh.set_parameters(exact.clone()).unwrap();
         let options = ParameterizeOptions::MEAN_VALUE.with_border(Border::Kept).with_method(method);
@@ -234,8 +232,11 @@ fn holes_are_filled_and_the_fans_never_returned() {
 fn large_node_weights_get_more_room() {
     let mesh = grid(21, 21, |i, j| DVec3::new(i as f64, j as f64, 0.0));
     let options = ParameterizeOptions::TENSOR.with_border(Border::Circle);
-    let weights: Vec<f64> =
-        mesh.points().iter().map(|p| if p.distance(DVec3::new(10.0, 10.0, 0.0)) < 4.0 { 3.0 } else { 1.0 }).collect();
+    let weights: Vec<f64> = mesh
+        .points()
+        .iter()
+        .map(|p| if p.distance(DVec3::new(10.0, 10.0, 0.0)) < 4.0 { 3.0 } else { 1.0 })
+        .collect();
     let area = |uv: &[DVec2]| {
         let inner = mesh.triangles().iter().filter(|t| t.iter().all(|&n| weights[n as usize] > 1.0));
         inner.map(|t| t.map(|n| uv[n as usize])).map(|[a, b, c]| (b - a).perp_dot(c - a) / 2.0).sum::<f64>()
@@ -269,12 +270,19 @@ fn progress_rises_and_cancels() {
         heard.push(fraction);
         ControlFlow::Continue(())
     };
-    parameterize(&mesh, &ParameterizeOptions::TENSOR, &mut Control::new(1).with_progress(&mut listen)).unwrap();
-    assert!(heard.len() > 3 && heard.is_sorted() && heard.iter().all(|f| (0.0..=1.0).contains(f)), "{heard:?}");
+    parameterize(&mesh, &ParameterizeOptions::TENSOR, &mut Control::new(1).with_progress(&mut listen))
+        .unwrap();
+    assert!(
+        heard.len() > 3 && heard.is_sorted() && heard.iter().all(|f| (0.0..=1.0).contains(f)),
+        "{heard:?}"
+    );
 
-    let mut refuse = |fraction: f64, _: f64| if fraction > 0.3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+    let mut refuse = |fraction: f64, _: f64| {
+        if fraction > 0.3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
     let error =
-        parameterize(&mesh, &ParameterizeOptions::TENSOR, &mut Control::new(1).with_progress(&mut refuse)).unwrap_err();
+        parameterize(&mesh, &ParameterizeOptions::TENSOR, &mut Control::new(1).with_progress(&mut refuse))
+            .unwrap_err();
     assert_eq!(Error::from(error).kind(), ErrorKind::Cancelled);
 }
 
@@ -289,7 +297,8 @@ fn what_cannot_be_mapped_is_named() {
     let closed = Mesh::new(points.clone(), faces.to_vec()).unwrap();
     assert_eq!(refused(&closed, tensor), ParameterizeError::Closed);
 
-    let more: Vec<DVec3> = points.iter().chain(&points).enumerate().map(|(i, p)| *p + DVec3::splat(i as f64)).collect();
+    let more: Vec<DVec3> =
+        points.iter().chain(&points).enumerate().map(|(i, p)| *p + DVec3::splat(i as f64)).collect();
     let two = Mesh::new(more.clone(), vec![[0, 1, 2], [3, 4, 5]]).unwrap();
     assert_eq!(refused(&two, tensor), ParameterizeError::Components { count: 2 });
 
