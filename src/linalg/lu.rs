@@ -14,7 +14,7 @@
 //! Independent subtrees are factored in parallel. Updates are added in the order of the children,
 //! so the bits of the result do not depend on the number of threads.
 
-use super::dense::{factor_columns, subtract_product};
+use super::dense::{factor_columns, subtract_product, vectorized};
 use super::elimination::{EliminationTree, Supernode};
 use super::ordering::{Graph, fill_reducing_order};
 use crate::error::ErrorKind;
@@ -111,8 +111,8 @@ impl SymbolicLu {
         let mirror = mirror_entries(&matrix)?;
         let graph = off_diagonal_graph(&matrix);
         let tree = EliminationTree::new(&graph, &fill_reducing_order(&graph));
-        let parent_places = parent_places(&tree);
-        let (slots, slot_starts) = place_entries(&matrix, &mirror, &tree);
+        let (parent_places, (slots, slot_starts)) =
+            rayon::join(|| parent_places(&tree), || place_entries(&matrix, &mirror, &tree));
         let mut panel_starts = vec![0];
         for supernode in &tree.supernodes {
             let length = (supernode.front_size() + supernode.rows.len()) * supernode.columns.len();
@@ -277,18 +277,21 @@ impl SymbolicLu {
         debug_assert_eq!(x.len(), self.size());
         let mut permuted: Vec<[f64; K]> = self.tree.order.iter().map(|&node| x[node as usize]).collect();
         let mut below = Vec::new();
-        for s in 0..self.tree.supernodes.len() {
-            self.substitute_forward(s, numeric, &mut permuted, &mut below);
-        }
-        for s in (0..self.tree.supernodes.len()).rev() {
-            self.substitute_backward(s, numeric, &mut permuted, &mut below);
-        }
+        vectorized(|| {
+            for s in 0..self.tree.supernodes.len() {
+                self.substitute_forward(s, numeric, &mut permuted, &mut below);
+            }
+            for s in (0..self.tree.supernodes.len()).rev() {
+                self.substitute_backward(s, numeric, &mut permuted, &mut below);
+            }
+        });
         for (&node, &value) in self.tree.order.iter().zip(&permuted) {
             x[node as usize] = value;
         }
     }
 
     /// x1 <- inv(L11) x1, x2 <- x2 - L21 x1.
+    #[inline(always)]
     fn substitute_forward<const K: usize>(
         &self,
         s: usize,
@@ -313,6 +316,7 @@ impl SymbolicLu {
     }
 
     /// x1 <- inv(U11) (x1 - U12 x2).
+    #[inline(always)]
     fn substitute_backward<const K: usize>(
         &self,
         s: usize,

@@ -80,10 +80,7 @@ pub fn stretch(points: &[DVec3], triangles: &[[u32; 3]], uv: &[DVec2]) -> Stretc
 }
 
 pub(super) fn triangle_stretch(points: &[DVec3], uv: &[DVec2], triangle: &[u32; 3]) -> TriangleStretch {
-    TriangleStretch::new(
-        triangle.map(|node| points[node as usize]),
-        triangle.map(|node| uv[node as usize]),
-    )
+    TriangleStretch::new(triangle.map(|node| points[node as usize]), triangle.map(|node| uv[node as usize]))
 }
 
 /// Sums triangles, each with the square of its weight.
@@ -145,7 +142,8 @@ impl PatchStretch {
 
     /// The stretch of each node over its geometric mean, smoothed by `rings` sweeps.
     pub fn of_nodes(&self, patch: &Patch, node_weights: Option<&[f64]>, rings: usize) -> Vec<f64> {
-        let movable = patch.triangles.iter().zip(&self.parts).filter(|(triangle, _)| patch.is_movable(triangle));
+        let movable =
+            patch.triangles.iter().zip(&self.parts).filter(|(triangle, _)| patch.is_movable(triangle));
         let floor = area_floor(movable.clone().map(|(_, part)| part));
         let mut sums = vec![(0.0, 0.0); patch.points.len()];
         for (triangle, part) in movable {
