@@ -54,7 +54,7 @@ const CASES: [Case; 7] = [
         mean_circle: [1.6, 39.6, 138.0],
         harmonic_circle: [1.61, 42.0, 143.0],
         stretch_turns: [1.6, 8.35, 53.9],
-        stretch_circle: [1.24, 6.28, 11.7],
+        stretch_circle: [1.24, 6.281, 11.7],
         winner: Border::Circle,
     },
     Case {

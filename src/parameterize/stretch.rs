@@ -130,7 +130,7 @@ impl PatchStretch {
             None => 1.0,
         };
         let movable = patch.triangles.iter().zip(&parts).filter(|(triangle, _)| patch.is_movable(triangle));
-        let collapsed = movable.clone().any(|(_, part)| !(part.parameter_area > 0.0));
+        let collapsed = !movable.clone().all(|(_, part)| part.parameter_area > 0.0);
         let movable_l2 = if collapsed {
             f64::INFINITY
         } else {
