@@ -47,6 +47,12 @@ pub enum LuError {
         /// Entries of the matrix.
         found: usize,
     },
+    /// A dense front has more entries than can be numbered.
+    #[error("elimination leads to a dense block of {size} rows, too large to be stored")]
+    TooLarge {
+        /// Rows of the block.
+        size: usize,
+    },
     /// A pivot vanished: the matrix is singular (or not of the kind that needs no pivoting).
     #[error("the matrix is singular at row {row}")]
     Singular {
@@ -62,6 +68,7 @@ impl LuError {
             Self::NotSquare { .. } | Self::PatternNotSymmetric { .. } | Self::OtherPattern { .. } => {
                 ErrorKind::InvalidArgument
             }
+            Self::TooLarge { .. } => ErrorKind::TooLarge,
             Self::Singular { .. } => ErrorKind::Singular,
         }
     }
@@ -113,13 +120,17 @@ impl SymbolicLu {
         let mirror = mirror_entries(&matrix)?;
         let graph = off_diagonal_graph(&matrix);
         let tree = EliminationTree::new(&graph, &fill_reducing_order(&graph));
-        let (parent_places, (slots, slot_starts)) =
-            rayon::join(|| parent_places(&tree), || place_entries(&matrix, &mirror, &tree));
         let mut panel_starts = vec![0];
         for supernode in &tree.supernodes {
-            let length = (supernode.front_size() + supernode.rows.len()) * supernode.columns.len();
+            let size = supernode.front_size();
+            let length = (size + supernode.rows.len()) * supernode.columns.len();
+            if length > u32::MAX as usize {
+                return Err(LuError::TooLarge { size });
+            }
             panel_starts.push(panel_starts[panel_starts.len() - 1] + length);
         }
+        let (parent_places, (slots, slot_starts)) =
+            rayon::join(|| parent_places(&tree), || place_entries(&matrix, &mirror, &tree));
         let total: f64 = tree.supernodes.iter().filter(|s| s.parent.is_none()).map(|s| s.work).sum();
         let split_work = LEAST_SPLIT_WORK.max(SPLIT_SHARE * total);
         let entry_count = matrix.nnz();

@@ -335,14 +335,65 @@ fn what_cannot_be_mapped_is_named() {
 
 #[test]
 fn single_triangles_of_zero_area_are_survived() {
-    // node 12 lies on the edge between 11 and 13, their common triangles are flat in places
+    // two neighbours coincide: the triangles at their edge have no area and give no weights
     let mesh = grid(5, 5, |i, j| {
         let x = if (i, j) == (2, 2) { 1.0 } else { i as f64 };
         DVec3::new(x, j as f64, 0.0)
     });
     let map = fit(&mesh, ParameterizeOptions::TENSOR);
-    assert!(map.report.remarks.contains(Remarks::ZERO_AREA) || map.report.flipped_triangles == 0);
+    assert!(map.report.remarks.contains(Remarks::ZERO_AREA));
     assert!(map.uv.iter().all(|q| q.is_finite()));
+}
+
+#[test]
+fn a_sliding_border_is_one_more_candidate() {
+    // a strip whose ends are steep: nodes along the sides are squeezed on a circle at rest
+    let mesh = grid(60, 12, |i, j| {
+        let x = i as f64 / 10.0;
+        DVec3::new(x, 0.3 * j as f64, 4.0 * (-(x - 3.0).powi(2)).exp())
+    });
+    let auto = ParameterizeOptions::TENSOR;
+    let (rest, slide) = (fit(&mesh, auto), fit(&mesh, auto.with_boundary_slide(0.5)));
+    assert!(slide.report.stretch.l2 <= rest.report.stretch.l2);
+    let circle = auto.with_border(Border::Circle).with_boundary_slide(0.5);
+    let map = fit(&mesh, circle);
+    assert!(map.report.border_slid);
+    assert_eq!(map.report.flipped_triangles + map.report.degenerate_triangles, 0);
+    let on_circle = mesh.loops()[0].iter().map(|&node| map.uv[node as usize].distance(DVec2::splat(0.5)));
+    assert!(on_circle.into_iter().all(|radius| (radius - 0.5).abs() < 1e-15));
+}
+
+#[test]
+fn pinched_nodes_and_handles_are_named() {
+    // two triangles of a disk removed so that they touch in node 12: one loop visits it twice
+    let full = grid(5, 5, |i, j| DVec3::new(i as f64, j as f64, 0.0));
+    let drop = [[6_u32, 7, 12], [12, 18, 17]];
+    let triangles: Vec<[u32; 3]> = full.triangles().iter().copied().filter(|t| !drop.contains(t)).collect();
+    assert_eq!(triangles.len(), 30);
+    let pinched = Mesh::new(full.points().to_vec(), triangles).unwrap();
+    let error = parameterize(&pinched, &ParameterizeOptions::TENSOR, &mut Control::new(1)).unwrap_err();
+    assert_eq!(error, ParameterizeError::Pinched { node: 12 });
+
+    // a torus of 6 x 6 nodes without one triangle
+    let node = |i: u32, j: u32| (j % 6) * 6 + i % 6;
+    let points = (0..36)
+        .map(|k| {
+            let turn = |k: usize| (k as f64 * std::f64::consts::TAU / 6.0).sin_cos();
+            let ((s, c), (t, d)) = (turn(k % 6), turn(k / 6));
+            DVec3::new((2.0 + d) * c, (2.0 + d) * s, t)
+        })
+        .collect();
+    let cells = (0..36).map(|k| (k % 6, k / 6));
+    let triangles: Vec<[u32; 3]> = cells
+        .flat_map(|(i, j)| {
+            let (a, b, c, d) = (node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1));
+            [[a, b, c], [a, c, d]]
+        })
+        .skip(1)
+        .collect();
+    let torus = Mesh::new(points, triangles).unwrap();
+    let error = parameterize(&torus, &ParameterizeOptions::TENSOR, &mut Control::new(1)).unwrap_err();
+    assert_eq!(error, ParameterizeError::Genus { genus: 1 });
 }
 
 /// Half a fuselage with v = y = R cos(theta): squeezed where the side is steep.
