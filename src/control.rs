@@ -3,7 +3,10 @@
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
-use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc;
+use std::sync::{Mutex, OnceLock};
+use std::time::Duration;
 
 /// The progress callback asked to stop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -13,36 +16,22 @@ pub struct Cancelled;
 /// Hears the done fraction (0 to 1) and the error so far (NaN while unknown); breaks to cancel.
 pub type ProgressFn<'a> = dyn FnMut(f64, f64) -> ControlFlow<()> + 'a;
 
-/// How a long call runs.
+/// Threads that share work: exactly as many as asked for, started when first needed.
 ///
-/// Work is handed to a pool of exactly `thread_count` threads that lives as long as this value;
-/// progress is reported on the thread that called. Results never depend on the number of threads:
-/// work is cut into pieces of fixed size, and pieces are combined in their order.
-pub struct Control<'a> {
+/// Results never depend on their number: work is cut into pieces of fixed size, and pieces are combined in
+/// their order.
+#[derive(Debug)]
+pub struct Pool {
     thread_count: usize,
-    pool: OnceLock<ThreadPool>,
-    progress: Option<&'a mut ProgressFn<'a>>,
-    /// The part of the whole that the present stage covers.
-    stage: (f64, f64),
+    threads: OnceLock<ThreadPool>,
 }
 
-impl Default for Control<'_> {
-    fn default() -> Self {
-        Self::new(0)
-    }
-}
-
-impl<'a> Control<'a> {
-    /// `thread_count` 0 means all cores; no progress is reported.
+impl Pool {
+    /// `thread_count` 0 means all cores.
     pub fn new(thread_count: usize) -> Self {
         let all = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
         let thread_count = if thread_count == 0 { all() } else { thread_count };
-        Self { thread_count, pool: OnceLock::new(), progress: None, stage: (0.0, 1.0) }
-    }
-
-    /// The same with a listener.
-    pub fn with_progress(self, progress: &'a mut ProgressFn<'a>) -> Self {
-        Self { progress: Some(progress), ..self }
+        Self { thread_count, threads: OnceLock::new() }
     }
 
     /// Threads that share the work, at least 1.
@@ -52,14 +41,62 @@ impl<'a> Control<'a> {
 
     /// Runs `work` so that rayon's parallel iterators and joins inside it use this pool.
     pub fn run<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
-        self.pool
-            .get_or_init(|| {
-                ThreadPoolBuilder::new()
-                    .num_threads(self.thread_count)
-                    .build()
-                    .expect("the system has a thread for each core it reports")
-            })
-            .install(work)
+        self.threads().install(work)
+    }
+
+    fn threads(&self) -> &ThreadPool {
+        self.threads.get_or_init(|| {
+            ThreadPoolBuilder::new()
+                .num_threads(self.thread_count)
+                .build()
+                .expect("the system has a thread for each core it reports")
+        })
+    }
+}
+
+/// How a long call runs: a pool of threads, and a listener that is told on the thread that called.
+pub struct Control<'a> {
+    pool: Pool,
+    progress: Option<&'a mut ProgressFn<'a>>,
+    /// The part of the whole that the present stage covers.
+    stage: (f64, f64),
+    /// What the listener was told last.
+    last: (f64, f64),
+}
+
+impl Default for Control<'_> {
+    fn default() -> Self {
+        Self::new(0)
+    }
+}
+
+/// How often a listener is asked while threads are at work.
+const POLL: Duration = Duration::from_millis(20);
+
+impl<'a> Control<'a> {
+    /// `thread_count` 0 means all cores; no progress is reported.
+    pub fn new(thread_count: usize) -> Self {
+        Self { pool: Pool::new(thread_count), progress: None, stage: (0.0, 1.0), last: (0.0, f64::NAN) }
+    }
+
+    /// The same with a listener.
+    pub fn with_progress(self, progress: &'a mut ProgressFn<'a>) -> Self {
+        Self { progress: Some(progress), ..self }
+    }
+
+    /// The threads.
+    pub fn pool(&self) -> &Pool {
+        &self.pool
+    }
+
+    /// Threads that share the work, at least 1.
+    pub fn thread_count(&self) -> usize {
+        self.pool.thread_count()
+    }
+
+    /// Runs `work` on the pool: [`Pool::run`].
+    pub fn run<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
+        self.pool.run(work)
     }
 
     /// From now on progress runs from `from` to `to` of the whole call.
@@ -70,9 +107,94 @@ impl<'a> Control<'a> {
     /// Tells the listener; `fraction` is of the present stage.
     pub fn report(&mut self, fraction: f64, error: f64) -> Result<(), Cancelled> {
         let (from, to) = self.stage;
-        match self.progress.as_mut().map(|tell| tell(from + fraction * (to - from), error)) {
+        self.last = (from + fraction * (to - from), error);
+        self.tell()
+    }
+
+    fn tell(&mut self) -> Result<(), Cancelled> {
+        let (fraction, error) = self.last;
+        match self.progress.as_mut().map(|tell| tell(fraction, error)) {
             Some(ControlFlow::Break(())) => Err(Cancelled),
             _ => Ok(()),
         }
+    }
+
+    /// Runs `work` on the pool while the calling thread keeps asking the listener, so that it can cancel
+    /// in the middle of long work: `work` looks at the [`Watch`] between its steps.
+    pub fn watch<R: Send>(&mut self, work: impl FnOnce(&Pool, &Watch) -> R + Send) -> Result<R, Cancelled> {
+        let watch = Watch { is_cancelled: AtomicBool::new(false) };
+        if self.progress.is_none() {
+            let pool = &self.pool;
+            return Ok(pool.run(|| work(pool, &watch)));
+        }
+        let result = Mutex::new(None);
+        let (finished, has_finished) = mpsc::channel();
+        let mut told = Ok(());
+        let pool =
+            Pool { thread_count: self.pool.thread_count, threads: std::mem::take(&mut self.pool.threads) };
+        pool.threads().in_place_scope(|scope| {
+            scope.spawn(|_| {
+                // dropped at the end of this closure even when `work` panics, which ends the waiting
+                let _finished: mpsc::Sender<()> = finished;
+                let value = work(&pool, &watch);
+                if let Ok(mut result) = result.lock() {
+                    *result = Some(value);
+                }
+            });
+            while has_finished.recv_timeout(POLL) == Err(mpsc::RecvTimeoutError::Timeout) {
+                if told.is_ok() {
+                    told = self.tell();
+                    watch.is_cancelled.store(told.is_err(), Ordering::Relaxed);
+                }
+            }
+        });
+        self.pool = pool;
+        told?;
+        let value = result.into_inner().ok().flatten();
+        Ok(value.expect("the scope passes a panic on, so here the work has ended well"))
+    }
+}
+
+/// Seen by work on other threads: whether the listener wants it to end.
+#[derive(Debug)]
+pub struct Watch {
+    is_cancelled: AtomicBool,
+}
+
+impl Watch {
+    /// An error once the listener has cancelled.
+    pub fn check(&self) -> Result<(), Cancelled> {
+        if self.is_cancelled.load(Ordering::Relaxed) { Err(Cancelled) } else { Ok(()) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn work_is_cancelled_from_the_calling_thread() {
+        let caller = std::thread::current().id();
+        let mut calls = 0;
+        let mut progress = |_: f64, _: f64| {
+            assert_eq!(std::thread::current().id(), caller);
+            calls += 1;
+            if calls > 2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let mut control = Control::new(2).with_progress(&mut progress);
+        let work = |_: &Pool, watch: &Watch| {
+            while watch.check().is_ok() {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+        };
+        assert_eq!(control.watch(work), Err(Cancelled));
+        assert_eq!(calls, 3);
+    }
+
+    #[test]
+    fn work_that_ends_first_returns_its_value() {
+        let mut progress = |_: f64, _: f64| ControlFlow::Continue(());
+        assert_eq!(Control::new(1).with_progress(&mut progress).watch(|_, _| 7), Ok(7));
+        assert_eq!(Control::new(1).watch(|pool, _| pool.thread_count()), Ok(1));
     }
 }

@@ -5,8 +5,14 @@
 //! classes that a program can act upon, [`Error::index`] is the offending node, triangle, row or byte.
 
 use crate::control::Cancelled;
+use crate::curve::CurveError;
+use crate::fit::tessellation::FitError;
+use crate::knots::KnotError;
 use crate::mesh::{CutError, MeshError, ReadError};
 use crate::parameterize::ParameterizeError;
+use crate::surface::TrimError;
+use crate::surface::evaluate::EvalError;
+use crate::surface::tensor::TensorError;
 
 /// The class of an error: what a program can act upon without reading the sentence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,12 +58,30 @@ pub enum Error {
     /// A mesh file cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// A mesh cannot be cut as asked.
-    #[error(transparent)]
-    Cut(#[from] CutError),
     /// A mesh cannot be parameterized.
     #[error(transparent)]
     Parameterize(#[from] ParameterizeError),
+    /// A fit is not possible.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+    /// Knots are not a knot vector.
+    #[error(transparent)]
+    Knots(#[from] KnotError),
+    /// A curve is not one.
+    #[error(transparent)]
+    Curve(#[from] CurveError),
+    /// A tensor surface is not one.
+    #[error(transparent)]
+    Tensor(#[from] TensorError),
+    /// Points cannot be evaluated.
+    #[error(transparent)]
+    Eval(#[from] EvalError),
+    /// A trim is not one.
+    #[error(transparent)]
+    Trim(#[from] TrimError),
+    /// A mesh cannot be cut as asked.
+    #[error(transparent)]
+    Cut(#[from] CutError),
     /// The progress callback asked to stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
@@ -66,23 +90,27 @@ pub enum Error {
 impl Error {
     /// The class of the error.
     pub fn kind(&self) -> ErrorKind {
-        match self {
-            Self::Mesh(error) => error.kind(),
-            Self::Read(error) => error.kind(),
-            Self::Cut(error) => error.kind(),
-            Self::Parameterize(error) => error.kind(),
-            Self::Cancelled(_) => ErrorKind::Cancelled,
-        }
+        self.kind_and_index().0
     }
 
     /// The offending node, triangle, row, value or byte, counted from 0.
     pub fn index(&self) -> Option<usize> {
+        self.kind_and_index().1
+    }
+
+    fn kind_and_index(&self) -> (ErrorKind, Option<usize>) {
         match self {
-            Self::Mesh(error) => error.index(),
-            Self::Read(error) => error.index(),
-            Self::Cut(error) => error.index(),
-            Self::Parameterize(error) => error.index(),
-            Self::Cancelled(_) => None,
+            Self::Mesh(error) => (error.kind(), error.index()),
+            Self::Read(error) => (error.kind(), error.index()),
+            Self::Parameterize(error) => (error.kind(), error.index()),
+            Self::Fit(error) => (error.kind(), error.index()),
+            Self::Knots(error) => (error.kind(), error.index()),
+            Self::Curve(error) => (error.kind(), error.index()),
+            Self::Tensor(error) => (error.kind(), error.index()),
+            Self::Eval(error) => (error.kind(), error.index()),
+            Self::Trim(error) => (error.kind(), error.index()),
+            Self::Cut(error) => (error.kind(), error.index()),
+            Self::Cancelled(_) => (ErrorKind::Cancelled, None),
         }
     }
 }

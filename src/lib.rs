@@ -10,12 +10,18 @@
 
 #![deny(unsafe_code)]
 
+pub mod basis;
 pub mod control;
+pub mod curve;
 pub mod error;
+pub mod fit;
 pub mod geometry;
+pub mod hermite;
+pub mod knots;
 pub mod linalg;
 pub mod mesh;
 pub mod parameterize;
+pub mod surface;
 
 pub use control::Control;
 pub use error::{Error, ErrorKind};

@@ -1,8 +1,13 @@
-//! Banded and sparse systems: sprs holds and multiplies, faer orders and multiplies dense blocks.
+//! Banded and sparse systems: sprs holds and multiplies, faer orders, factors and multiplies dense blocks.
 
+mod cholesky;
 mod dense;
+pub mod dissection;
 mod elimination;
+mod general;
 pub mod lu;
 mod ordering;
 
+pub use cholesky::{Cholesky, NotPositiveDefinite, SymbolicCholesky};
+pub use general::{Entries, Singular};
 pub use lu::{LuError, NumericLu, SymbolicLu};

@@ -250,7 +250,6 @@ fn some(half_edge: u32) -> Option<HalfEdge> {
 
 /// The half-edge on the other side of each, whatever its direction (NONE on the boundary), and the first
 /// two that run in the same direction.
-#[expect(clippy::type_complexity)]
 fn pair_edges(
     triangles: &[[u32; 3]],
     node_count: usize,

@@ -1,0 +1,5 @@
+//! Fitting: one measure of error for all methods, and a folder for each.
+
+pub mod errors;
+pub mod report;
+pub mod tessellation;

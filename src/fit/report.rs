@@ -1,0 +1,149 @@
+//! What a fit says of itself, the same for every method.
+
+use crate::geometry::Bounds;
+
+/// What a tolerance is measured in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ToleranceScale {
+    /// The diagonal of the data's bounding box; for a field, of the box of its values.
+    #[default]
+    Relative,
+    /// Model units.
+    Absolute,
+}
+
+/// The largest error a fit may have at its data.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tolerance {
+    /// Positive.
+    pub value: f64,
+    /// What `value` is measured in.
+    pub scale: ToleranceScale,
+}
+
+impl Default for Tolerance {
+    fn default() -> Self {
+        Self { value: 1e-3, scale: ToleranceScale::Relative }
+    }
+}
+
+impl Tolerance {
+    /// A relative tolerance below this asks for digits that rounding has eaten.
+    pub const SMALLEST: f64 = 1e-12;
+
+    /// The tolerance in model units, and whether it had to be raised to [`Tolerance::SMALLEST`].
+    pub fn absolute(&self, bounds: &Bounds) -> (f64, bool) {
+        let diagonal = bounds.diagonal();
+        let asked = match self.scale {
+            ToleranceScale::Relative => self.value * diagonal,
+            ToleranceScale::Absolute => self.value,
+        };
+        let least = Self::SMALLEST * diagonal;
+        (asked.max(least), asked < least)
+    }
+}
+
+/// Why a fit ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum StopReason {
+    /// The tolerance is met.
+    #[default]
+    ToleranceMet,
+    /// The caller fixed the grid, so there was nothing to refine.
+    FixedGrid,
+    /// The limit on grid, cells or coefficients is reached.
+    Limit,
+    /// There would be more coefficients than data.
+    DataExhausted,
+    /// Refinement no longer lowers the error.
+    Stagnated,
+}
+
+/// Things worth knowing about a fit; several may hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Remarks(pub u64);
+
+impl Remarks {
+    /// The surface misses the tolerance.
+    pub const TOLERANCE_NOT_MET: Self = Self(1);
+    /// The fit ended because refinement no longer lowered the error.
+    pub const STAGNATED: Self = Self(1 << 1);
+    /// Some parameter triangles are reversed or flat: the surface may fold there.
+    pub const FOLDED_PARAMETERS: Self = Self(1 << 2);
+    /// The mesh had no parameters and was parameterized first.
+    pub const PARAMETERIZED: Self = Self(1 << 3);
+    /// Given parameters were uneven and have been regularized.
+    pub const REGULARIZED: Self = Self(1 << 4);
+    /// The tolerance was below what double precision can keep and was raised.
+    pub const TOLERANCE_RAISED: Self = Self(1 << 5);
+    /// Some cells hold no data; the surface is extrapolated there.
+    pub const EMPTY_CELLS: Self = Self(1 << 6);
+    /// Between the nodes the surface departs from the facets by more than tolerance and facet sagitta.
+    pub const ROUGH_BETWEEN_NODES: Self = Self(1 << 7);
+    /// The map is so compressed that one patch is the wrong tool: cut the mesh into charts, or use a
+    /// PHT-spline.
+    pub const SEGMENTATION_ADVISED: Self = Self(1 << 8);
+    /// The data do not determine the beam energy's null space; the plate energy was used instead.
+    pub const PLATE_ENERGY_USED: Self = Self(1 << 9);
+
+    /// Adds `other` when `holds`.
+    pub fn add_if(&mut self, holds: bool, other: Self) {
+        if holds {
+            self.0 |= other.0;
+        }
+    }
+
+    /// Whether all bits of `other` hold.
+    pub fn has(self, other: Self) -> bool {
+        self.0 & other.0 == other.0
+    }
+}
+
+/// What a fit did and how good it is. Errors are in model units and measured on the finished surface.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct FitReport {
+    /// Largest |S(u_n,v_n) - P_n| over the data: what the tolerance bounds.
+    pub max_error: f64,
+    /// Square root of the mean of its square.
+    pub rms_error: f64,
+    /// Its mean.
+    pub mean_error: f64,
+    /// The datum with the largest error.
+    pub worst_index: usize,
+    /// The tolerance in model units.
+    pub tolerance: f64,
+    /// Diagonal of the data's bounding box: an error divided by it is relative.
+    pub diagonal: f64,
+    /// Largest distance from a triangle's centroid or an edge's middle to the surface's tangent plane at the
+    /// mean of the nodes' parameters (for a field: to its value there); 0 for data without triangles.
+    pub max_interior_error: f64,
+    /// The part of `max_interior_error` that flat facets on a curved shape explain: the largest height of
+    /// the shape above a facet, estimated from the angles between node normals.
+    pub facet_sagitta: f64,
+    /// Largest closest-point distance from a node to the surface; NaN unless asked for.
+    pub max_distance: f64,
+    /// Knots of the grid along u.
+    pub grid_u: usize,
+    /// Knots of the grid along v.
+    pub grid_v: usize,
+    /// Unknowns of the fit. The surface may store more control points, which these determine.
+    pub coefficient_count: usize,
+    /// Weight of the smoothing energy in the chosen fit.
+    pub smoothing: f64,
+    /// Cells without data inside the trims' box.
+    pub empty_cell_count: usize,
+    /// Rounds of fitting and measuring.
+    pub passes: usize,
+    /// Why the fit ended.
+    pub stop: StopReason,
+    /// Triangles that are reversed or flat in the parameter plane.
+    pub flipped_count: usize,
+    /// L2 stretch of the map: 1 is an isometry; 0 for data without triangles.
+    pub stretch: f64,
+    /// Seconds spent on the map.
+    pub parameterize_seconds: f64,
+    /// Seconds in all.
+    pub seconds: f64,
+    /// Everything worth knowing.
+    pub remarks: Remarks,
+}

@@ -1,0 +1,89 @@
+//! Parameter correction: data move towards their foot points on the surface.
+//!
+//! J. Hoschek, "Intrinsic parametrization for approximation", Comput. Aided Geom. Des. 5 (1988), 27-31;
+//! the rule that keeps triangles from folding: `parameterization.md` 5.
+
+use super::Problem;
+use super::single_grid::Candidate;
+use crate::control::Pool;
+use crate::surface::Surface;
+use glam::DVec2;
+use rayon::prelude::*;
+
+/// Gauss-Newton steps a datum makes in one sweep.
+const STEPS: usize = 2;
+/// Longest step, in cells.
+const LONGEST_STEP: f64 = 0.3;
+/// A triangle that keeps less than this share of its area holds its nodes back.
+const LEAST_AREA: f64 = 1e-3;
+/// How often a move is halved before it is given up.
+const HALVINGS: u32 = 8;
+
+impl Problem<'_> {
+    /// Where the data go.
+    pub fn foot_points(&self, candidate: &Candidate, pool: &Pool) -> Vec<DVec2> {
+        let cell = DVec2::new(candidate.grid[0].step, candidate.grid[1].step);
+        let dim = self.dim;
+        let mut moved = self.uv.clone();
+        pool.run(|| {
+            moved.par_iter_mut().zip(self.values.par_chunks(dim)).for_each(|(uv, value)| {
+                let mut row = vec![0.0; 3 * dim];
+                for _ in 0..STEPS {
+                    candidate.surface.eval_rows(&[*uv], 1, &mut row);
+                    let step = gauss_newton_step(&row, value);
+                    let longest = LONGEST_STEP * cell;
+                    *uv = self.data_box.clamp(*uv + step.clamp(-longest, longest));
+                }
+            })
+        });
+        if let Some(mesh) = self.mesh {
+            hold_back(mesh.triangles(), &self.uv, &mut moved);
+        }
+        moved
+    }
+}
+
+/// Solves `min |S + du Su + dv Sv - P|`; zero where the tangents are parallel.
+fn gauss_newton_step(row: &[f64], value: &[f64]) -> DVec2 {
+    let dim = value.len();
+    let (s, su, sv) = (&row[..dim], &row[dim..2 * dim], &row[2 * dim..]);
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let miss: Vec<f64> = value.iter().zip(s).map(|(p, s)| p - s).collect();
+    let (a, b, c) = (dot(su, su), dot(su, sv), dot(sv, sv));
+    let (p, q) = (dot(su, &miss), dot(sv, &miss));
+    let determinant = a * c - b * b;
+    if determinant <= 1e-12 * a * c {
+        return DVec2::ZERO;
+    }
+    DVec2::new(c * p - b * q, a * q - b * p) / determinant
+}
+
+/// Halves the moves of the nodes of every triangle that would lose nearly all its area, until none does.
+fn hold_back(triangles: &[[u32; 3]], from: &[DVec2], to: &mut [DVec2]) {
+    let area = |uv: &[DVec2], t: &[u32; 3]| {
+        let [a, b, c] = t.map(|n| uv[n as usize]);
+        (b - a).perp_dot(c - a)
+    };
+    let mut halvings = vec![0; from.len()];
+    let mut suspects: Vec<usize> = (0..triangles.len()).collect();
+    loop {
+        suspects.retain(|&t| {
+            let before = area(from, &triangles[t]);
+            !(area(to, &triangles[t]) >= LEAST_AREA * before) && before > 0.0
+        });
+        let mut nodes: Vec<u32> = suspects.iter().flat_map(|&t| triangles[t]).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes.retain(|&n| to[n as usize] != from[n as usize]);
+        if nodes.is_empty() {
+            return;
+        }
+        for n in nodes {
+            let n = n as usize;
+            halvings[n] += 1;
+            to[n] = if halvings[n] > HALVINGS { from[n] } else { from[n] + (to[n] - from[n]) / 2.0 };
+        }
+        // a node that moved back may have spoilt a neighbour
+        suspects = (0..triangles.len()).collect();
+    }
+}

@@ -1,0 +1,136 @@
+//! Errors between the nodes, and the part of them that flat facets explain.
+
+use super::Problem;
+use super::grid::UniformGrid;
+use crate::control::Pool;
+use crate::fit::errors::data_errors;
+use crate::mesh::Mesh;
+use crate::surface::Trims;
+use crate::surface::tensor::TensorSurface;
+use crate::surface::{Surface, normal};
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+/// Errors at triangle centroids and edge middles.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct InteriorErrors {
+    /// The largest error.
+    pub max: f64,
+    /// The largest height of the shape above a facet.
+    pub sagitta: f64,
+    /// The largest error beyond the sagitta of its own facet.
+    pub max_excess: f64,
+}
+
+impl Problem<'_> {
+    /// Measures a surface between the nodes.
+    pub fn interior_errors(&self, surface: &TensorSurface, pool: &Pool) -> InteriorErrors {
+        let Some(mesh) = self.mesh else {
+            return InteriorErrors::default();
+        };
+        let (uv, values) = interior_samples(mesh, &self.uv, self.values, self.dim);
+        // a field has no facets in space: what lies between its nodes is unknown altogether
+        let (errors, sagittas) = if self.is_shape {
+            (heights_over(surface, &uv, &values, pool), triangle_sagittas(mesh))
+        } else {
+            (data_errors(surface, &uv, &values, pool).each, vec![0.0; uv.len() / 4])
+        };
+        let mut result = InteriorErrors::default();
+        for (errors, &sagitta) in errors.chunks_exact(4).zip(&sagittas) {
+            let max = errors.iter().copied().fold(0.0, f64::max);
+            result.max = result.max.max(max);
+            result.sagitta = result.sagitta.max(sagitta);
+            result.max_excess = result.max_excess.max(max - sagitta);
+        }
+        result
+    }
+}
+
+/// Distances from places on facets to the tangent planes of the surface at their parameters. A map that
+/// stretches unevenly puts the mean of parameters beside the mean of places, along the surface: that is no
+/// error of the shape. Where the surface has no tangent plane the whole distance counts.
+fn heights_over(surface: &TensorSurface, uv: &[DVec2], values: &[f64], pool: &Pool) -> Vec<f64> {
+    const CHUNK: usize = 1024;
+    let mut heights = vec![0.0; uv.len()];
+    pool.run(|| {
+        let data = uv.par_chunks(CHUNK).zip(values.par_chunks(3 * CHUNK));
+        heights.par_chunks_mut(CHUNK).zip(data).for_each(|(heights, (uv, values))| {
+            let mut rows = vec![0.0; uv.len() * 9];
+            surface.eval_rows(uv, 1, &mut rows);
+            for ((height, row), value) in heights.iter_mut().zip(rows.chunks(9)).zip(values.chunks(3)) {
+                let [s, su, sv] = [0, 3, 6].map(|k| DVec3::from_slice(&row[k..]));
+                let miss = DVec3::from_slice(value) - s;
+                let normal = normal(su, sv);
+                *height = if normal.is_nan() { miss.length() } else { miss.dot(normal).abs() };
+            }
+        });
+    });
+    heights
+}
+
+impl Problem<'_> {
+    /// Cells without data inside the loops of the mesh, or inside the box of scattered data: there the surface
+    /// is smooth guesswork.
+    pub fn empty_cell_count(&self, grid: &[UniformGrid; 2], trims: &Trims) -> usize {
+        let cells_v = grid[1].count - 1;
+        let mut is_empty = vec![true; (grid[0].count - 1) * cells_v];
+        for uv in &self.uv {
+            is_empty[grid[0].locate(uv.x).0 * cells_v + grid[1].locate(uv.y).0] = false;
+        }
+        let is_inside = |cell: usize| {
+            let middle = |grid: &UniformGrid, k: usize| grid.knot(k) + grid.step / 2.0;
+            let uv = DVec2::new(middle(&grid[0], cell / cells_v), middle(&grid[1], cell % cells_v));
+            self.data_box.contains(uv) && trims.contains(uv)
+        };
+        is_empty.iter().enumerate().filter(|&(cell, &empty)| empty && is_inside(cell)).count()
+    }
+}
+
+/// Centroid and three edge middles of each triangle.
+fn interior_samples(mesh: &Mesh, uv: &[DVec2], values: &[f64], dim: usize) -> (Vec<DVec2>, Vec<f64>) {
+    let count = 4 * mesh.triangles().len();
+    let (mut places, mut rows) = (Vec::with_capacity(count), Vec::with_capacity(count * dim));
+    for &[a, b, c] in mesh.triangles() {
+        for nodes in [[a, b, c].as_slice(), &[a, b], &[b, c], &[c, a]] {
+            let share = 1.0 / nodes.len() as f64;
+            places.push(nodes.iter().map(|&n| uv[n as usize]).sum::<DVec2>() * share);
+            for k in 0..dim {
+                rows.push(nodes.iter().map(|&n| values[n as usize * dim + k]).sum::<f64>() * share);
+            }
+        }
+    }
+    (places, rows)
+}
+
+/// The height of the shape above each facet. A chord of length l whose end normals enclose the angle a belongs
+/// to an arc of height `l/2 tan(a/4)`; the middle of an equilateral triangle on a sphere lies 4/3 as high as
+/// the middle of its edges. Normals are rough at borders and on uneven triangles, so each facet takes the
+/// largest height among the edges at its nodes.
+fn triangle_sagittas(mesh: &Mesh) -> Vec<f64> {
+    let normals = node_normals(mesh);
+    let mut heights = vec![0.0_f64; normals.len()];
+    for &[a, b, c] in mesh.triangles() {
+        for (a, b) in [(a, b), (b, c), (c, a)] {
+            let (a, b) = (a as usize, b as usize);
+            let angle = normals[a].angle_between(normals[b]);
+            let angle = if angle.is_finite() { angle } else { 0.0 };
+            let height = mesh.points()[a].distance(mesh.points()[b]) / 2.0 * (angle / 4.0).tan();
+            heights[a] = heights[a].max(height);
+            heights[b] = heights[b].max(height);
+        }
+    }
+    let highest = |nodes: &[u32; 3]| nodes.iter().map(|&n| heights[n as usize]).fold(0.0, f64::max);
+    mesh.triangles().iter().map(|nodes| 4.0 / 3.0 * highest(nodes)).collect()
+}
+
+/// Sums of the area vectors of the triangles at each node.
+pub fn node_normals(mesh: &Mesh) -> Vec<DVec3> {
+    let points = mesh.points();
+    let mut normals = vec![DVec3::ZERO; points.len()];
+    for triangle in mesh.triangles() {
+        let [a, b, c] = triangle.map(|node| points[node as usize]);
+        let area = (b - a).cross(c - a);
+        triangle.iter().for_each(|&node| normals[node as usize] += area);
+    }
+    normals
+}

@@ -1,0 +1,269 @@
+//! Least squares over a tensor product of uniform bases: assembly cell by cell, energy, solution.
+//!
+//! Unknown `(i, j)` meets `(i + a, j + b)` for `|a|, |b| <= 3`: a stencil of 49, of which the lower
+//! triangle keeps `a = 0, b = 0..=3` and `a = 1..=3, b = -3..=3`.
+
+use super::Energy;
+use super::grid::UniformBasis;
+use crate::control::Pool;
+use crate::linalg::dissection::grid_order;
+use crate::linalg::{NotPositiveDefinite, SymbolicCholesky};
+use glam::DVec2;
+use rayon::prelude::*;
+use sprs::CsMat;
+use std::ops::Range;
+
+/// Farthest unknown that shares a cell, in each direction.
+const REACH: usize = 3;
+/// Entries kept for each unknown: offsets 0 to 3 along u times offsets -3 to 3 along v.
+const STENCIL: usize = 4 * 7;
+
+/// The data of a fit: parameters, rows of values, and weights.
+#[derive(Debug, Clone, Copy)]
+pub struct Samples<'a> {
+    pub uv: &'a [DVec2],
+    /// Rows of `dim` numbers.
+    pub values: &'a [f64],
+    pub dim: usize,
+    /// Positive; None weighs all alike.
+    pub weights: Option<&'a [f64]>,
+}
+
+/// The basis over a rectangle of cells.
+#[derive(Debug, Clone, Copy)]
+pub struct TensorBasis {
+    pub u: UniformBasis,
+    pub v: UniformBasis,
+}
+
+impl TensorBasis {
+    /// Number of unknowns; `(i, j)` is number `i * v.len() + j`.
+    pub fn len(&self) -> usize {
+        self.u.len() * self.v.len()
+    }
+
+    fn cells(&self) -> [usize; 2] {
+        [self.u.grid.count - 1, self.v.grid.count - 1]
+    }
+
+    fn cell(&self, uv: DVec2) -> usize {
+        self.u.grid.locate(uv.x).0 * self.cells()[1] + self.v.grid.locate(uv.y).0
+    }
+}
+
+/// `N^T N` and `N^T x` of some data, without energy.
+#[derive(Debug, Clone)]
+pub struct NormalEquations {
+    basis: TensorBasis,
+    /// `STENCIL` entries for each unknown.
+    matrix: Vec<f64>,
+    /// Columns of unknowns, one for each component.
+    right: Vec<f64>,
+    dim: usize,
+}
+
+/// Data sorted by cell: `order[starts[c]..starts[c + 1]]` lie in cell `c`.
+struct ByCell {
+    starts: Vec<u32>,
+    order: Vec<u32>,
+}
+
+impl ByCell {
+    fn sort(basis: &TensorBasis, uv: &[DVec2]) -> Self {
+        let [cells_u, cells_v] = basis.cells();
+        let cells: Vec<u32> = uv.par_iter().map(|&uv| basis.cell(uv) as u32).collect();
+        let mut starts = vec![0u32; cells_u * cells_v + 1];
+        cells.iter().for_each(|&c| starts[c as usize + 1] += 1);
+        for c in 1..starts.len() {
+            starts[c] += starts[c - 1];
+        }
+        let mut next = starts.clone();
+        let mut order = vec![0; uv.len()];
+        for (datum, &c) in cells.iter().enumerate() {
+            order[next[c as usize] as usize] = datum as u32;
+            next[c as usize] += 1;
+        }
+        Self { starts, order }
+    }
+
+    fn of(&self, cell: usize) -> &[u32] {
+        &self.order[self.starts[cell] as usize..self.starts[cell + 1] as usize]
+    }
+}
+
+/// What one row of cells adds: four rows of unknowns.
+struct Strip {
+    matrix: Vec<f64>,
+    right: Vec<f64>,
+}
+
+impl NormalEquations {
+    /// Adds up the data. Rows of cells are independent pieces of work, added in their order.
+    pub fn assemble(basis: TensorBasis, samples: &Samples, pool: &Pool) -> Self {
+        let [cells_u, _] = basis.cells();
+        let (rows, n, dim) = (basis.v.len(), basis.len(), samples.dim);
+        let mut equations = Self { basis, matrix: vec![0.0; n * STENCIL], right: vec![0.0; n * dim], dim };
+        pool.run(|| {
+            let by_cell = ByCell::sort(&basis, samples.uv);
+            // strips of a block are kept at once: the block bounds the memory, and is fixed
+            const BLOCK: usize = 16;
+            for block in (0..cells_u).step_by(BLOCK) {
+                let strips: Vec<Strip> = (block..cells_u.min(block + BLOCK))
+                    .into_par_iter()
+                    .map(|cell_u| assemble_strip(&basis, samples, &by_cell, cell_u))
+                    .collect();
+                for (cell_u, strip) in (block..).zip(strips) {
+                    equations.add_strip(basis.u.first(cell_u) * rows, &strip);
+                }
+            }
+        });
+        equations
+    }
+
+    fn add_strip(&mut self, first: usize, strip: &Strip) {
+        let matrix = &mut self.matrix[first * STENCIL..][..strip.matrix.len()];
+        matrix.iter_mut().zip(&strip.matrix).for_each(|(sum, x)| *sum += x);
+        let (n, rows) = (self.basis.len(), strip.right.len() / self.dim);
+        for k in 0..self.dim {
+            let column = &mut self.right[k * n + first..][..rows];
+            column.iter_mut().zip(&strip.right[k * rows..]).for_each(|(sum, x)| *sum += x);
+        }
+    }
+
+    /// Solves with `smoothing / 12` times the energy added; the unknowns come in columns, one for each
+    /// component. `symbolic` is made by [`NormalEquations::analyse`] for the same basis.
+    pub fn solve(
+        &self,
+        symbolic: &SymbolicCholesky,
+        smoothing: f64,
+        energy: Energy,
+    ) -> Result<Vec<f64>, NotPositiveDefinite> {
+        let matrix = self.with_energy(smoothing / 12.0, energy);
+        let factor = symbolic.factor(&matrix.view())?;
+        let mut unknowns = self.right.clone();
+        factor.solve(&mut unknowns, self.dim);
+        Ok(unknowns)
+    }
+
+    /// The pattern, analysed; the same for all data and energies over one basis.
+    pub fn analyse(&self) -> SymbolicCholesky {
+        let order = grid_order(self.basis.u.len(), self.basis.v.len(), REACH);
+        SymbolicCholesky::new(&self.with_energy(0.0, Energy::Beam).view(), Some(&order))
+    }
+
+    /// The lower triangle of `N^T N + weight * energy`.
+    fn with_energy(&self, weight: f64, energy: Energy) -> CsMat<f64> {
+        let (count_u, count_v) = (self.basis.u.len(), self.basis.v.len());
+        let terms = energy.terms(&self.basis.u, &self.basis.v);
+        let n = count_u * count_v;
+        let mut starts = Vec::with_capacity(n + 1);
+        let mut rows = Vec::with_capacity(n * 25);
+        let mut values = Vec::with_capacity(n * 25);
+        starts.push(0);
+        for i in 0..count_u {
+            for j in 0..count_v {
+                for a in 0..=REACH.min(count_u - 1 - i) {
+                    for jj in neighbours(j, a, count_v) {
+                        let bend: f64 =
+                            terms.iter().map(|t| t.weight * t.u.rows[i][a] * t.v.get(j, jj)).sum();
+                        let stencil = &self.matrix[(i * count_v + j) * STENCIL..];
+                        rows.push((i + a) * count_v + jj);
+                        values.push(stencil[7 * a + REACH + jj - j] + weight * bend);
+                    }
+                }
+                starts.push(rows.len());
+            }
+        }
+        CsMat::new_csc((n, n), starts, rows, values)
+    }
+}
+
+/// Unknowns along v that `j` meets `a` rows further on: in its own row only those behind it.
+fn neighbours(j: usize, a: usize, count: usize) -> Range<usize> {
+    let begin = if a == 0 { j } else { j.saturating_sub(REACH) };
+    begin..(j + REACH + 1).min(count)
+}
+
+fn assemble_strip(basis: &TensorBasis, samples: &Samples, by_cell: &ByCell, cell_u: usize) -> Strip {
+    let (width_u, width_v, rows) = (basis.u.width(), basis.v.width(), basis.v.len());
+    let (cells_v, dim) = (basis.cells()[1], samples.dim);
+    let mut strip =
+        Strip { matrix: vec![0.0; width_u * rows * STENCIL], right: vec![0.0; width_u * rows * dim] };
+    let mut sums = CellSums { matrix: [0.0; 160], right: vec![0.0; 16 * dim] };
+    for cell_v in 0..cells_v {
+        let data = by_cell.of(cell_u * cells_v + cell_v);
+        if data.is_empty() {
+            continue;
+        }
+        sums.clear();
+        data.iter().for_each(|&datum| sums.add(basis, samples, datum as usize));
+        let first_v = basis.v.first(cell_v);
+        for (pair, (a, a2)) in pairs().enumerate() {
+            if a2 >= width_u {
+                continue;
+            }
+            for b in 0..width_v {
+                for b2 in if a == a2 { b..width_v } else { 0..width_v } {
+                    let unknown = a * rows + first_v + b;
+                    strip.matrix[unknown * STENCIL + 7 * (a2 - a) + REACH + b2 - b] +=
+                        sums.matrix[16 * pair + 4 * b + b2];
+                }
+            }
+        }
+        for k in 0..dim {
+            for a in 0..width_u {
+                for b in 0..width_v {
+                    strip.right[(k * width_u + a) * rows + first_v + b] += sums.right[16 * k + 4 * a + b];
+                }
+            }
+        }
+    }
+    strip
+}
+
+/// The ten pairs `a <= a2` of window entries along u.
+fn pairs() -> impl Iterator<Item = (usize, usize)> {
+    (0..4).flat_map(|a| (a..4).map(move |a2| (a, a2)))
+}
+
+/// Sums over the data of one cell: products of window weights, 16 along v for each pair along u.
+struct CellSums {
+    matrix: [f64; 160],
+    /// 16 sums for each component.
+    right: Vec<f64>,
+}
+
+impl CellSums {
+    fn clear(&mut self) {
+        self.matrix.fill(0.0);
+        self.right.fill(0.0);
+    }
+
+    fn add(&mut self, basis: &TensorBasis, samples: &Samples, datum: usize) {
+        let uv = samples.uv[datum];
+        let ((cell_u, s), (cell_v, t)) = (basis.u.grid.locate(uv.x), basis.v.grid.locate(uv.y));
+        let weight = samples.weights.map_or(1.0, |weights| weights[datum]);
+        let u = basis.u.window(cell_u, s, 0).weights;
+        let v = basis.v.window(cell_v, t, 0).weights;
+        let weighted_u = u.map(|x| weight * x);
+        let mut products_v = [0.0; 16];
+        for b in 0..4 {
+            for b2 in 0..4 {
+                products_v[4 * b + b2] = v[b] * v[b2];
+            }
+        }
+        for ((a, a2), sums) in pairs().zip(self.matrix.chunks_exact_mut(16)) {
+            let product = weighted_u[a] * u[a2];
+            sums.iter_mut().zip(&products_v).for_each(|(sum, p)| *sum += product * p);
+        }
+        let values = &samples.values[datum * samples.dim..][..samples.dim];
+        for (x, sums) in values.iter().zip(self.right.chunks_exact_mut(16)) {
+            for a in 0..4 {
+                let product = weighted_u[a] * x;
+                for b in 0..4 {
+                    sums[4 * a + b] += product * v[b];
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! What is fitted: the data, and where triangles are larger than cells, places inside them.
+//!
+//! With cells smaller than triangles the nodes alone leave the surface free between them; it then swings by
+//! many times the tolerance. Triangles are cut until their parts are as small as a cell, and the middles of the
+//! parts are fitted with a small weight.
+
+use super::Problem;
+use super::grid::UniformGrid;
+use super::interior::node_normals;
+use glam::{DVec2, DVec3};
+use std::borrow::Cow;
+
+/// Data of a fit in the frame.
+pub struct FittedData<'a> {
+    pub uv: Cow<'a, [DVec2]>,
+    pub values: Vec<f64>,
+    pub weights: Option<Cow<'a, [f64]>>,
+}
+
+/// Weight of a place inside a triangle against that of a node. Much smaller ones leave the surface to the
+/// bending energy, which is weaker still; larger ones pull it off the nodes.
+const INTERIOR_WEIGHT: f64 = 0.05;
+
+/// Most parts along one side of a triangle; a guard against triangles of absurd length.
+const MOST_PARTS: usize = 256;
+
+impl Problem<'_> {
+    /// The data to fit on a grid.
+    pub fn fitted_data(&self, grid: &[UniformGrid; 2]) -> FittedData<'_> {
+        let mut data = FittedData {
+            uv: Cow::Borrowed(&self.uv),
+            values: self.frame.inward(self.values),
+            weights: self.options.weights.map(Cow::Borrowed),
+        };
+        self.add_interior(grid, &mut data);
+        data
+    }
+
+    fn add_interior(&self, grid: &[UniformGrid; 2], data: &mut FittedData) {
+        let Some(mesh) = self.mesh else { return };
+        let cell = DVec2::new(grid[0].step, grid[1].step);
+        let mut shape = None;
+        for triangle in mesh.triangles() {
+            let nodes = triangle.map(|node| node as usize);
+            let corners = nodes.map(|n| self.uv[n] / cell);
+            let parts = part_count(corners);
+            if parts < 2 {
+                continue;
+            }
+            let weight = data.weights.get_or_insert_with(|| Cow::Owned(vec![1.0; self.uv.len()]));
+            let weight = INTERIOR_WEIGHT * nodes.iter().map(|&n| weight[n]).sum::<f64>() / 3.0;
+            for shares in part_middles(parts) {
+                let mean = |k: usize| -> f64 {
+                    let values = nodes.iter().map(|&n| data.values[n * self.dim + k]);
+                    values.zip(shares).map(|(x, share)| share * x).sum()
+                };
+                let mut value: Vec<f64> = (0..self.dim).map(mean).collect();
+                if self.is_shape {
+                    let normals = shape.get_or_insert_with(|| node_normals(mesh));
+                    let corners = nodes.map(|n| DVec3::from_slice(&data.values[3 * n..]));
+                    let normals = nodes.map(|n| normals[n].normalize_or_zero());
+                    bulge(corners, normals, shares).write_to_slice(&mut value);
+                }
+                data.values.extend(value);
+                let uv = nodes.iter().zip(shares).map(|(&n, share)| share * self.uv[n]).sum();
+                data.uv.to_mut().push(uv);
+                if let Some(weights) = &mut data.weights {
+                    weights.to_mut().push(weight);
+                }
+            }
+        }
+    }
+}
+
+/// Into how many parts each side is cut, so that parts are no longer than a cell; corners in cells.
+fn part_count([a, b, c]: [DVec2; 3]) -> usize {
+    let side = |a: DVec2, b: DVec2| (a - b).abs().max_element();
+    (side(a, b).max(side(b, c)).max(side(c, a)).ceil() as usize).min(MOST_PARTS)
+}
+
+/// Barycentric coordinates of the middles of the `n * n` parts of a triangle.
+fn part_middles(n: usize) -> impl Iterator<Item = [f64; 3]> {
+    (0..n)
+        .flat_map(move |i| {
+            (0..n - i).flat_map(move |j| {
+                let upright = ((i, j), 1.0);
+                let reversed = (i + j + 1 < n).then_some(((i, j), 2.0));
+                [Some(upright), reversed].into_iter().flatten()
+            })
+        })
+        .map(move |((i, j), thirds)| {
+            let at = |k: usize| (k as f64 + thirds / 3.0) / n as f64;
+            let (b, c) = (at(i), at(j));
+            [1.0 - b - c, b, c]
+        })
+}
+
+/// The place of a smooth shape over a flat facet: halfway from the facet to the tangent planes of its corners,
+/// which is exact for quadratic shapes (T. Boubekeur and M. Alexa, "Phong tessellation", ACM Trans. Graph.
+/// 27 (2008), with the factor 1/2).
+fn bulge(corners: [DVec3; 3], normals: [DVec3; 3], shares: [f64; 3]) -> DVec3 {
+    let flat: DVec3 = corners.iter().zip(shares).map(|(&p, share)| share * p).sum();
+    let lift: DVec3 = (0..3).map(|k| shares[k] * (corners[k] - flat).dot(normals[k]) * normals[k]).sum();
+    flat + 0.5 * lift
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_cover_a_triangle_evenly() {
+        for n in 1..6 {
+            let middles: Vec<[f64; 3]> = part_middles(n).collect();
+            assert_eq!(middles.len(), n * n);
+            for k in 0..3 {
+                let mean = middles.iter().map(|m| m[k]).sum::<f64>() / (n * n) as f64;
+                assert!((mean - 1.0 / 3.0).abs() < 1e-14, "{n}: {mean}");
+            }
+            assert!(middles.iter().flatten().all(|&share| share > 0.0));
+        }
+    }
+
+    #[test]
+    fn a_facet_of_a_paraboloid_bulges_onto_it() {
+        let h = 1e-3;
+        let corners = [(0., 0.), (h, 0.), (0., h)].map(|(x, y)| DVec3::new(x, y, x * x + 0.5 * y * y));
+        let normals = corners.map(|p| DVec3::new(-2.0 * p.x, -p.y, 1.0).normalize());
+        for shares in part_middles(3) {
+            let p = bulge(corners, normals, shares);
+            // exact but for the tilt of the normals, which is of third order
+            assert!((p.z - (p.x * p.x + 0.5 * p.y * p.y)).abs() < 4.0 * h * h * h, "{p}");
+        }
+    }
+}

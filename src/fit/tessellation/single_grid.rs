@@ -1,0 +1,183 @@
+//! The fit on one grid: least squares at a fixed smoothing, the ladder of smoothings, the measure.
+
+use super::grid::{Ends, UniformBasis, UniformGrid};
+use super::normal_equations::{NormalEquations, Samples, TensorBasis};
+use super::{Energy, FitError, Method, Problem, SMOOTHING_LADDER, ferguson};
+use crate::control::{Pool, Watch};
+use crate::fit::errors::{DataErrors, data_errors};
+use crate::knots::KnotVector;
+use crate::linalg::SymbolicCholesky;
+use crate::surface::Surface;
+use crate::surface::tensor::TensorSurface;
+
+/// A surface on some grid, measured.
+pub struct Candidate {
+    pub grid: [UniformGrid; 2],
+    pub surface: TensorSurface,
+    pub errors: DataErrors,
+    pub smoothing: f64,
+    pub coefficient_count: usize,
+    pub used_plate: bool,
+}
+
+impl Candidate {
+    /// Knots along u and v.
+    pub fn counts(&self) -> [usize; 2] {
+        self.grid.map(|grid| grid.count)
+    }
+}
+
+impl Problem<'_> {
+    /// The grid over the data with this many knots.
+    pub fn grid(&self, counts: [usize; 2]) -> [UniformGrid; 2] {
+        let (min, max) = (self.data_box.min, self.data_box.max);
+        [
+            UniformGrid::over(min.x, max.x, self.options.buffer, counts[0]),
+            UniformGrid::over(min.y, max.y, self.options.buffer, counts[1]),
+        ]
+    }
+
+    /// The unknowns of a grid.
+    pub fn coefficient_count(&self, counts: [usize; 2]) -> usize {
+        let extra = if self.options.ends == Ends::Free { 2 } else { 0 };
+        counts.iter().map(|count| count + extra).product()
+    }
+
+    /// Fits and measures on one grid. `watch` may end it early.
+    pub fn fit_grid(&self, counts: [usize; 2], pool: &Pool, watch: &Watch) -> Result<Candidate, FitError> {
+        match self.options.method {
+            Method::LeastSquares => LeastSquares::new(self, counts, pool, watch)?.fit_ladder(),
+            Method::Ferguson => self.fit_ferguson(counts, pool, watch),
+        }
+    }
+
+    fn fit_ferguson(&self, counts: [usize; 2], pool: &Pool, watch: &Watch) -> Result<Candidate, FitError> {
+        let grid = self.grid(counts);
+        let smoothing =
+            if self.options.smoothing > 0.0 { self.options.smoothing } else { SMOOTHING_LADDER[0] };
+        let values = self.frame.inward(self.values);
+        watch.check()?;
+        let mut control_points = ferguson::fit(&grid, &self.uv, &values, self.dim, smoothing)?;
+        self.frame.outward(&mut control_points);
+        let surface = self.surface(&grid, control_points)?;
+        Ok(Candidate {
+            errors: data_errors(&surface, &self.uv, self.values, pool),
+            grid,
+            surface,
+            smoothing,
+            coefficient_count: counts[0] * counts[1],
+            used_plate: false,
+        })
+    }
+
+    /// The surface with these control points over the knots of a grid.
+    fn surface(&self, grid: &[UniformGrid; 2], control_points: Vec<f64>) -> Result<TensorSurface, FitError> {
+        let knots = |grid: &UniformGrid| -> Result<KnotVector, FitError> {
+            grid.knot_vector().map_err(|_| FitError::DegenerateRange { axis: 'u', at: grid.start })
+        };
+        let (knots_u, knots_v) = (knots(&grid[0])?, knots(&grid[1])?);
+        let surface = TensorSurface::new(self.dim, knots_u, knots_v, control_points, None);
+        // an overflow in the solution is the one thing that can be wrong
+        let mut surface = surface.map_err(|_| FitError::Singular)?;
+        *surface.region_mut() = self.region();
+        Ok(surface)
+    }
+}
+
+/// The normal equations of one grid, ready to be solved with any smoothing.
+struct LeastSquares<'a> {
+    problem: &'a Problem<'a>,
+    pool: &'a Pool,
+    watch: &'a Watch,
+    basis: TensorBasis,
+    equations: NormalEquations,
+    symbolic: SymbolicCholesky,
+}
+
+impl<'a> LeastSquares<'a> {
+    fn new(
+        problem: &'a Problem<'a>,
+        counts: [usize; 2],
+        pool: &'a Pool,
+        watch: &'a Watch,
+    ) -> Result<Self, FitError> {
+        let grid = problem.grid(counts);
+        let [u, v] = grid.map(|grid| UniformBasis { grid, ends: problem.options.ends });
+        let basis = TensorBasis { u, v };
+        let data = problem.fitted_data(&grid);
+        let samples = Samples {
+            uv: &data.uv,
+            values: &data.values,
+            dim: problem.dim,
+            weights: data.weights.as_deref(),
+        };
+        watch.check()?;
+        let equations = NormalEquations::assemble(basis, &samples, pool);
+        watch.check()?;
+        let symbolic = equations.analyse();
+        Ok(Self { problem, pool, watch, basis, equations, symbolic })
+    }
+
+    /// The calmest fit that meets the tolerance, or the closest one if none does.
+    ///
+    /// The closest is tried first: where it misses by more than the others could make good, they are not
+    /// tried at all.
+    fn fit_ladder(&self) -> Result<Candidate, FitError> {
+        let asked = self.problem.options.smoothing;
+        if asked > 0.0 {
+            return self.fit(asked);
+        }
+        let (closest, calmer) = SMOOTHING_LADDER.split_last().expect("the ladder has steps");
+        let closest = self.fit(*closest)?;
+        let tolerance = self.problem.tolerance.0;
+        // more smoothing lowers a maximum now and then, by a little
+        const WORTH_TRYING: f64 = 1.1;
+        if closest.errors.max > WORTH_TRYING * tolerance {
+            return Ok(closest);
+        }
+        for &smoothing in calmer {
+            let candidate = self.fit(smoothing)?;
+            if candidate.errors.max <= tolerance {
+                return Ok(candidate);
+            }
+        }
+        Ok(closest)
+    }
+
+    fn fit(&self, smoothing: f64) -> Result<Candidate, FitError> {
+        let problem = self.problem;
+        self.watch.check()?;
+        let energy = problem.options.energy;
+        let (unknowns, used_plate) = match self.equations.solve(&self.symbolic, smoothing, energy) {
+            Ok(unknowns) => (unknowns, false),
+            // a + bu + cv + duv may vanish at all data; the plate leaves only a + bu + cv free
+            Err(_) if energy == Energy::Beam => {
+                let plate = self.equations.solve(&self.symbolic, smoothing, Energy::Plate);
+                (plate.map_err(|_| FitError::Singular)?, true)
+            }
+            Err(_) => return Err(FitError::Singular),
+        };
+        self.watch.check()?;
+        let grid = [self.basis.u.grid, self.basis.v.grid];
+        let mut control_points = control_points(&self.basis, &unknowns, problem.dim);
+        problem.frame.outward(&mut control_points);
+        let surface = problem.surface(&grid, control_points)?;
+        Ok(Candidate {
+            errors: data_errors(&surface, &problem.uv, problem.values, self.pool),
+            grid,
+            surface,
+            smoothing,
+            coefficient_count: self.basis.len(),
+            used_plate,
+        })
+    }
+}
+
+/// From columns of unknowns, one for each component, to rows of control points.
+fn control_points(basis: &TensorBasis, unknowns: &[f64], dim: usize) -> Vec<f64> {
+    let (n, count_v) = (basis.len(), basis.v.len());
+    let rows: Vec<f64> =
+        (0..n).flat_map(|i| (0..dim).map(move |k| (i, k))).map(|(i, k)| unknowns[k * n + i]).collect();
+    let along_u = basis.u.control_points(&rows, count_v * dim);
+    along_u.chunks_exact(count_v * dim).flat_map(|line| basis.v.control_points(line, dim)).collect()
+}

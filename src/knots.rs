@@ -1,0 +1,289 @@
+//! Knot vectors: where the polynomial pieces of a spline meet.
+
+/// Largest degree that curves and surfaces may have; their evaluation keeps one value for each of the
+/// `degree + 1` basis functions on the stack.
+pub const MAX_DEGREE: usize = 9;
+
+/// A knot vector is not one.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum KnotError {
+    /// The degree is not offered.
+    #[error("degree {degree} is outside 1 to {MAX_DEGREE}")]
+    Degree {
+        /// The degree asked for.
+        degree: usize,
+    },
+    /// There is no room for one polynomial piece.
+    #[error("{count} knots are too few for degree {degree}, at least {} are needed", 2 * (degree + 1))]
+    TooFew {
+        /// Knots given.
+        count: usize,
+        /// Degree given.
+        degree: usize,
+    },
+    /// A knot is NaN or infinite.
+    #[error("knot {index} is not finite")]
+    NotFinite {
+        /// The knot.
+        index: usize,
+    },
+    /// A knot is less than the one before it.
+    #[error("knot {index} is less than the knot before it")]
+    Decreasing {
+        /// The knot.
+        index: usize,
+    },
+    /// A knot occurs so often that the spline falls apart there.
+    #[error("knot {index} occurs more than {} times, degree {degree} allows no more", degree + 1)]
+    Multiplicity {
+        /// The first of the equal knots.
+        index: usize,
+        /// Degree given.
+        degree: usize,
+    },
+    /// The domain, from knot `degree` to knot `count - degree - 1`, has no length.
+    #[error("the knots span no interval: the domain begins and ends at {at}")]
+    Empty {
+        /// Both ends of the domain.
+        at: f64,
+    },
+    /// A parameter at which a knot should go lies outside the domain.
+    #[error("{at} lies outside the domain {from} to {to}")]
+    Outside {
+        /// The parameter.
+        at: f64,
+        /// Begin of the domain.
+        from: f64,
+        /// End of the domain.
+        to: f64,
+    },
+}
+
+impl KnotError {
+    /// The class of the error.
+    pub fn kind(&self) -> crate::ErrorKind {
+        match self {
+            Self::NotFinite { .. } => crate::ErrorKind::NotFinite,
+            Self::Empty { .. } => crate::ErrorKind::Degenerate,
+            Self::Outside { .. } => crate::ErrorKind::Outside,
+            _ => crate::ErrorKind::InvalidArgument,
+        }
+    }
+
+    /// The offending knot.
+    pub fn index(&self) -> Option<usize> {
+        match *self {
+            Self::NotFinite { index } | Self::Decreasing { index } | Self::Multiplicity { index, .. } => {
+                Some(index)
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Knots `t_0 <= t_1 <= ...` of a spline of some degree, always valid: finite, ordered, no knot more than
+/// `degree + 1` times, and a domain of positive length.
+#[derive(Debug, Clone)]
+pub struct KnotVector {
+    knots: Vec<f64>,
+    degree: usize,
+    finder: SpanFinder,
+}
+
+impl PartialEq for KnotVector {
+    fn eq(&self, other: &Self) -> bool {
+        self.degree == other.degree && self.knots == other.knots
+    }
+}
+
+impl KnotVector {
+    /// Checks and keeps `knots`.
+    pub fn new(knots: Vec<f64>, degree: usize) -> Result<Self, KnotError> {
+        if !(1..=MAX_DEGREE).contains(&degree) {
+            return Err(KnotError::Degree { degree });
+        }
+        if knots.len() < 2 * (degree + 1) {
+            return Err(KnotError::TooFew { count: knots.len(), degree });
+        }
+        if let Some(index) = knots.iter().position(|t| !t.is_finite()) {
+            return Err(KnotError::NotFinite { index });
+        }
+        if let Some(index) = knots.windows(2).position(|pair| pair[0] > pair[1]) {
+            return Err(KnotError::Decreasing { index: index + 1 });
+        }
+        if let Some(index) = knots.windows(degree + 2).position(|run| run[0] == run[degree + 1]) {
+            return Err(KnotError::Multiplicity { index, degree });
+        }
+        let (from, to) = (knots[degree], knots[knots.len() - degree - 1]);
+        if from >= to {
+            return Err(KnotError::Empty { at: from });
+        }
+        let finder = SpanFinder::new(&knots, degree);
+        Ok(Self { knots, degree, finder })
+    }
+
+    /// `breaks` with both ends repeated `degree + 1` times.
+    pub fn clamped(breaks: &[f64], degree: usize) -> Result<Self, KnotError> {
+        let (Some(&first), Some(&last)) = (breaks.first(), breaks.last()) else {
+            return Err(KnotError::TooFew { count: 0, degree });
+        };
+        let ends = |t| std::iter::repeat_n(t, degree);
+        Self::new(ends(first).chain(breaks.iter().copied()).chain(ends(last)).collect(), degree)
+    }
+
+    /// All knots.
+    pub fn knots(&self) -> &[f64] {
+        &self.knots
+    }
+
+    /// Degree of the pieces.
+    pub fn degree(&self) -> usize {
+        self.degree
+    }
+
+    /// Number of basis functions, and so of control points.
+    pub fn basis_count(&self) -> usize {
+        self.knots.len() - self.degree - 1
+    }
+
+    /// Begin and end of the domain.
+    pub fn domain(&self) -> (f64, f64) {
+        (self.knots[self.degree], self.knots[self.basis_count()])
+    }
+
+    /// Whether both ends are repeated `degree + 1` times, so that the spline begins and ends at its first
+    /// and last control point.
+    pub fn is_clamped(&self) -> bool {
+        let last = self.knots.len() - 1;
+        self.knots[0] == self.knots[self.degree] && self.knots[last] == self.knots[last - self.degree]
+    }
+
+    /// The span `k` with `t_k <= u < t_{k+1}`; the first or last span beyond the ends of the domain,
+    /// and the last at its end. The basis functions `k - degree ..= k` are the ones not zero there.
+    pub fn span(&self, u: f64) -> usize {
+        self.finder.find(&self.knots, u)
+    }
+
+    /// The spans of positive length in the domain, in order.
+    pub fn spans(&self) -> impl Iterator<Item = usize> + '_ {
+        (self.degree..self.basis_count()).filter(|&k| self.knots[k] < self.knots[k + 1])
+    }
+
+    /// The different knots of the domain, in order.
+    pub fn breaks(&self) -> Vec<f64> {
+        let (_, end) = self.domain();
+        self.spans().map(|k| self.knots[k]).chain([end]).collect()
+    }
+
+    /// How often `u` occurs among the knots.
+    pub fn multiplicity(&self, u: f64) -> usize {
+        self.knots.iter().filter(|&&t| t == u).count()
+    }
+
+    /// The parameter that control point `i` belongs to: the mean of its `degree` inner knots.
+    pub fn greville(&self, i: usize) -> f64 {
+        self.knots[i + 1..=i + self.degree].iter().sum::<f64>() / self.degree as f64
+    }
+}
+
+/// Finds spans in constant time: the domain is cut into equal buckets, each of which knows the spans
+/// that touch it, and the few of one bucket are searched.
+#[derive(Debug, Clone)]
+struct SpanFinder {
+    start: f64,
+    buckets_per_unit: f64,
+    /// The span at the begin of each bucket, and the last span at the end.
+    first_span: Vec<u32>,
+}
+
+impl SpanFinder {
+    /// Buckets per span: with two, a uniform knot vector needs at most one comparison.
+    const BUCKETS_PER_SPAN: usize = 2;
+
+    fn new(knots: &[f64], degree: usize) -> Self {
+        let end = knots.len() - degree - 1;
+        let spans: Vec<usize> = (degree..end).filter(|&k| knots[k] < knots[k + 1]).collect();
+        let bucket_count = Self::BUCKETS_PER_SPAN * spans.len();
+        let (start, length) = (knots[degree], knots[end] - knots[degree]);
+        let buckets_per_unit = bucket_count as f64 / length;
+        let mut first_span = Vec::with_capacity(bucket_count + 1);
+        for &k in &spans {
+            // `find` puts a parameter into a bucket by this same rounding, so the bucket that holds
+            // the end of a span may begin in it
+            let bucket = ((knots[k + 1] - start) * buckets_per_unit) as usize;
+            while first_span.len() <= bucket.min(bucket_count) {
+                first_span.push(k as u32);
+            }
+        }
+        first_span.resize(bucket_count + 1, *spans.last().unwrap_or(&degree) as u32);
+        Self { start, buckets_per_unit, first_span }
+    }
+
+    fn find(&self, knots: &[f64], u: f64) -> usize {
+        // a negative or NaN position becomes bucket 0
+        let bucket = ((u - self.start) * self.buckets_per_unit) as usize;
+        let Some(next) = self.first_span.get(bucket + 1) else {
+            return self.first_span[self.first_span.len() - 1] as usize;
+        };
+        let (mut low, mut high) = (self.first_span[bucket] as usize, *next as usize);
+        while low < high {
+            let middle = (low + high).div_ceil(2);
+            if knots[middle] <= u { low = middle } else { high = middle - 1 }
+        }
+        low
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn knots() -> KnotVector {
+        KnotVector::new(vec![0., 0., 0., 0., 1., 2., 2., 2.5, 7., 7., 7., 7.], 3).unwrap()
+    }
+
+    #[test]
+    fn refusals_name_the_knot() {
+        let refuse = |knots: &[f64], degree| KnotVector::new(knots.to_vec(), degree).unwrap_err();
+        assert_eq!(refuse(&[0., 1.], 0), KnotError::Degree { degree: 0 });
+        assert_eq!(refuse(&[0.; 40], 10), KnotError::Degree { degree: 10 });
+        assert_eq!(refuse(&[0., 1., 2.], 1), KnotError::TooFew { count: 3, degree: 1 });
+        assert_eq!(refuse(&[0., 1., f64::NAN, 2.], 1), KnotError::NotFinite { index: 2 });
+        assert_eq!(refuse(&[0., 2., 1., 2.], 1), KnotError::Decreasing { index: 2 });
+        assert_eq!(refuse(&[0., 0., 1., 1., 1., 2., 2.], 1), KnotError::Multiplicity { index: 2, degree: 1 });
+        assert_eq!(refuse(&[0., 1., 1., 2.], 1), KnotError::Empty { at: 1.0 });
+    }
+
+    #[test]
+    fn a_span_holds_its_parameter() {
+        let knots = knots();
+        assert_eq!(knots.spans().collect::<Vec<_>>(), [3, 4, 6, 7]);
+        for (u, span) in
+            [(-3., 3), (0., 3), (0.999, 3), (1., 4), (2., 6), (2.2, 6), (2.5, 7), (7., 7), (9., 7)]
+        {
+            assert_eq!(knots.span(u), span, "u = {u}");
+        }
+    }
+
+    proptest::proptest! {
+        #[test]
+        fn spans_agree_with_a_linear_search(
+            steps in proptest::collection::vec(0u32..5, 6..40),
+            scale in -20i32..20,
+            at in proptest::collection::vec(0.0..1.0f64, 50),
+        ) {
+            // steps of wildly different lengths, some of them zero
+            let mut breaks = vec![0.0];
+            for (k, step) in steps.iter().enumerate() {
+                breaks.push(breaks[k] + f64::from(*step).powi(6) * f64::from(scale).exp2());
+            }
+            let Ok(knots) = KnotVector::clamped(&breaks, 3) else { return Ok(()) };
+            let (from, to) = knots.domain();
+            let places = at.iter().map(|s| from + s * (to - from)).chain(breaks.iter().copied());
+            for u in places {
+                let expected = knots.spans().filter(|&k| knots.knots()[k] <= u).last();
+                proptest::prop_assert_eq!(Some(knots.span(u)), expected, "u = {}", u);
+            }
+        }
+    }
+}

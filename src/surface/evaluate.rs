@@ -1,0 +1,276 @@
+//! Batches of points: rules for parameters outside, flags, strides, threads.
+
+use super::differential::{curvatures, normal};
+use super::{Domain, Surface, derivative_rows};
+use crate::control::Pool;
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+/// Flag of a point: its parameters lie outside the domain.
+pub const FLAG_OUTSIDE_DOMAIN: u8 = 1;
+/// Flag of a point: it lies outside the trims.
+pub const FLAG_OUTSIDE_TRIMS: u8 = 2;
+/// Flag of a point: it lies in the buffer, inside the domain but beyond the box of the data.
+pub const FLAG_IN_BUFFER: u8 = 4;
+/// Flag of a point: the surface has no normal there, so normal and curvatures are NaN.
+pub const FLAG_NO_NORMAL: u8 = 8;
+
+/// What to do with parameters outside the domain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum OutsideRule {
+    /// Refuse all, before one value is written.
+    #[default]
+    Fail,
+    /// NaN and a flag.
+    Flag,
+    /// Continue the end polynomial, and a flag.
+    Extrapolate,
+}
+
+/// What to compute at each point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// S: `dim` numbers.
+    Values,
+    /// S and its derivatives up to this order (at most [`super::MAX_DERIVATIVE`]).
+    Derivatives(usize),
+    /// The unit normal: 3 numbers. Needs `dim` 3.
+    Normals,
+    /// k1, k2, and their directions: 8 numbers. Needs `dim` 3.
+    Curvatures,
+}
+
+impl Quantity {
+    /// Numbers a point.
+    pub fn width(self, dim: usize) -> usize {
+        match self {
+            Self::Values => dim,
+            Self::Derivatives(order) => dim * derivative_rows(order),
+            Self::Normals => 3,
+            Self::Curvatures => 8,
+        }
+    }
+
+    fn max_derivative(self) -> usize {
+        match self {
+            Self::Values => 0,
+            Self::Derivatives(order) => order,
+            Self::Normals => 1,
+            Self::Curvatures => 2,
+        }
+    }
+}
+
+/// Points cannot be evaluated.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum EvalError {
+    /// A parameter is NaN or infinite.
+    #[error("the parameters of point {index} are not finite")]
+    NotFinite {
+        /// The point.
+        index: usize,
+    },
+    /// A point lies outside the domain.
+    #[error("point {index} at ({u}, {v}) lies outside the domain")]
+    Outside {
+        /// The point.
+        index: usize,
+        /// Its u.
+        u: f64,
+        /// Its v.
+        v: f64,
+    },
+    /// The derivative is not offered.
+    #[error("derivatives of order {order} are not offered, the highest is {}", super::MAX_DERIVATIVE)]
+    Derivative {
+        /// The order asked for.
+        order: usize,
+    },
+    /// Only surfaces in space have normals and curvatures.
+    #[error("a surface of dimension {dim} has no normals, dimension 3 is needed")]
+    Dimension {
+        /// Dimension of the surface.
+        dim: usize,
+    },
+}
+
+impl EvalError {
+    /// The class of the error.
+    pub fn kind(&self) -> crate::ErrorKind {
+        match self {
+            Self::NotFinite { .. } => crate::ErrorKind::NotFinite,
+            Self::Outside { .. } => crate::ErrorKind::Outside,
+            Self::Derivative { .. } | Self::Dimension { .. } => crate::ErrorKind::InvalidArgument,
+        }
+    }
+
+    /// The offending point.
+    pub fn index(&self) -> Option<usize> {
+        match *self {
+            Self::NotFinite { index } | Self::Outside { index, .. } => Some(index),
+            _ => None,
+        }
+    }
+}
+
+/// The points of a batch: row `i` starts `i * stride` numbers after the first.
+#[derive(Debug, Clone, Copy)]
+pub struct Points<'a> {
+    data: &'a [f64],
+    stride: usize,
+    count: usize,
+}
+
+impl<'a> Points<'a> {
+    /// `count` rows of u and v in `data`, which has `(count - 1) * stride + 2` numbers.
+    pub fn new(data: &'a [f64], stride: usize, count: usize) -> Self {
+        assert!(stride >= 2 && (count == 0 || data.len() >= (count - 1) * stride + 2));
+        Self { data, stride, count }
+    }
+
+    fn get(&self, index: usize) -> DVec2 {
+        DVec2::from_slice(&self.data[index * self.stride..])
+    }
+}
+
+/// Points of one piece of work. Pieces do not depend on the number of threads.
+const CHUNK: usize = 1024;
+
+/// Evaluates `quantity` at all `points`; row `i` goes to `out[i * out_stride ..]`. Returns how many points
+/// lie outside the domain.
+///
+/// `flags`, if given, has an entry for each point and receives the `FLAG_` bits that hold.
+pub fn evaluate(
+    surface: &dyn Surface,
+    quantity: Quantity,
+    points: Points,
+    rule: OutsideRule,
+    out: &mut [f64],
+    out_stride: usize,
+    flags: Option<&mut [u8]>,
+    pool: &Pool,
+) -> Result<usize, EvalError> {
+    let width = quantity.width(surface.dim());
+    check_quantity(surface, quantity)?;
+    if rule == OutsideRule::Fail {
+        check_inside(&surface.domain(), &points)?;
+    }
+    assert!(out_stride >= width, "rows of {width} numbers every {out_stride}");
+    let mut no_flags = Vec::new();
+    let flags = flags.unwrap_or(&mut no_flags);
+    let wants_flags = !flags.is_empty();
+    let piece = |chunk: usize, out: &mut [f64], flags: &mut [u8]| {
+        let first = chunk * CHUNK;
+        let uv: Vec<DVec2> = (first..points.count.min(first + CHUNK)).map(|i| points.get(i)).collect();
+        eval_piece(surface, quantity, &uv, rule, out, out_stride, flags)
+    };
+    if pool.thread_count() == 1 || points.count <= CHUNK {
+        let outs = out.chunks_mut(CHUNK * out_stride);
+        if wants_flags {
+            return Ok(outs.zip(flags.chunks_mut(CHUNK)).enumerate().map(|(k, (o, f))| piece(k, o, f)).sum());
+        }
+        return Ok(outs.enumerate().map(|(k, o)| piece(k, o, &mut [])).sum());
+    }
+    Ok(pool.run(|| {
+        let outs = out.par_chunks_mut(CHUNK * out_stride).enumerate();
+        if wants_flags {
+            return outs.zip(flags.par_chunks_mut(CHUNK)).map(|((k, o), f)| piece(k, o, f)).sum();
+        }
+        outs.map(|(k, o)| piece(k, o, &mut [])).sum()
+    }))
+}
+
+fn check_quantity(surface: &dyn Surface, quantity: Quantity) -> Result<(), EvalError> {
+    match quantity {
+        Quantity::Derivatives(order) if order > super::MAX_DERIVATIVE => Err(EvalError::Derivative { order }),
+        Quantity::Normals | Quantity::Curvatures if surface.dim() != 3 => {
+            Err(EvalError::Dimension { dim: surface.dim() })
+        }
+        _ => Ok(()),
+    }
+}
+
+fn check_inside(domain: &Domain, points: &Points) -> Result<(), EvalError> {
+    match (0..points.count).find(|&i| !domain.contains(points.get(i))) {
+        None => Ok(()),
+        Some(index) => {
+            let DVec2 { x: u, y: v } = points.get(index);
+            Err(if u.is_finite() && v.is_finite() {
+                EvalError::Outside { index, u, v }
+            } else {
+                EvalError::NotFinite { index }
+            })
+        }
+    }
+}
+
+/// One piece: evaluates into tight rows, derives what was asked, and writes it at the caller's stride.
+fn eval_piece(
+    surface: &dyn Surface,
+    quantity: Quantity,
+    uv: &[DVec2],
+    rule: OutsideRule,
+    out: &mut [f64],
+    out_stride: usize,
+    flags: &mut [u8],
+) -> usize {
+    let (dim, domain) = (surface.dim(), surface.domain());
+    let width = quantity.width(dim);
+    let is_raw = matches!(quantity, Quantity::Values | Quantity::Derivatives(_));
+    if is_raw && out_stride == width {
+        surface.eval_rows(uv, quantity.max_derivative(), &mut out[..uv.len() * width]);
+    } else {
+        let row = dim * derivative_rows(quantity.max_derivative());
+        let mut rows = vec![0.0; uv.len() * row];
+        surface.eval_rows(uv, quantity.max_derivative(), &mut rows);
+        for (k, row) in rows.chunks_exact(row).enumerate() {
+            derive(quantity, row, &mut out[k * out_stride..][..width]);
+        }
+    }
+    let mut outside = 0;
+    for (k, &uv) in uv.iter().enumerate() {
+        let row = &mut out[k * out_stride..][..width];
+        let is_outside = !domain.contains(uv);
+        outside += usize::from(is_outside);
+        if is_outside && rule == OutsideRule::Flag {
+            row.fill(f64::NAN);
+        }
+        if let Some(flag) = flags.get_mut(k) {
+            *flag = flags_at(surface, uv, is_outside);
+            if !is_raw && !is_outside && row[0].is_nan() {
+                *flag |= FLAG_NO_NORMAL;
+            }
+        }
+    }
+    outside
+}
+
+fn derive(quantity: Quantity, row: &[f64], out: &mut [f64]) {
+    let vector = |k: usize| DVec3::from_slice(&row[3 * k..]);
+    match quantity {
+        Quantity::Values | Quantity::Derivatives(_) => out.copy_from_slice(row),
+        Quantity::Normals => normal(vector(1), vector(2)).write_to_slice(out),
+        Quantity::Curvatures => {
+            let at = curvatures([1, 2, 3, 4, 5].map(vector));
+            out[0] = at.k1;
+            out[1] = at.k2;
+            at.direction1.write_to_slice(&mut out[2..]);
+            at.direction2.write_to_slice(&mut out[5..]);
+        }
+    }
+}
+
+fn flags_at(surface: &dyn Surface, uv: DVec2, is_outside: bool) -> u8 {
+    let region = surface.region();
+    let mut flags = 0;
+    if is_outside {
+        flags |= FLAG_OUTSIDE_DOMAIN;
+    }
+    if !region.trims.contains(uv) {
+        flags |= FLAG_OUTSIDE_TRIMS;
+    }
+    if !is_outside && region.data_box.is_some_and(|data| !data.contains(uv)) {
+        flags |= FLAG_IN_BUFFER;
+    }
+    flags
+}

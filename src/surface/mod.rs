@@ -1,0 +1,71 @@
+//! Surfaces: maps from a rectangle of parameters (u,v) to R^d, in four families with one common view.
+//!
+//! [`Surface`] is what every family can do; [`evaluate`](evaluate::evaluate) turns it into batches over
+//! threads with rules for parameters outside; [`Region`] holds what a surface knows of the data it was
+//! made from: their box in (u,v), and their boundary loops, the trims.
+
+mod differential;
+pub mod evaluate;
+mod region;
+pub mod tensor;
+
+pub use differential::{Curvatures, curvatures, normal};
+pub use region::{Domain, Region, TrimError, Trims};
+
+use glam::DVec2;
+
+/// The family of a surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Tensor product B-spline, with or without weights.
+    Tensor,
+    /// T-spline with control curves.
+    TSpline,
+    /// Bicubic spline over a hierarchical T-mesh.
+    Pht,
+    /// Spline over a triangular control mesh.
+    D1rc,
+}
+
+/// Highest derivative that [`Surface::eval_rows`] computes.
+pub const MAX_DERIVATIVE: usize = 2;
+
+/// Rows that one point takes with all derivatives up to `max_derivative`: S; Su, Sv; Suu, Suv, Svv.
+pub const fn derivative_rows(max_derivative: usize) -> usize {
+    (max_derivative + 1) * (max_derivative + 2) / 2
+}
+
+/// What a surface of any family can do.
+pub trait Surface: Send + Sync {
+    /// The family.
+    fn kind(&self) -> Kind;
+
+    /// Components of a value: 1 for a scalar field, 3 for a shape.
+    fn dim(&self) -> usize;
+
+    /// The rectangle on which the surface is defined.
+    fn domain(&self) -> Domain;
+
+    /// Number of control points.
+    fn coefficient_count(&self) -> usize;
+
+    /// What the surface knows of the data it was made from.
+    fn region(&self) -> &Region;
+
+    /// The same, to replace trims.
+    fn region_mut(&mut self) -> &mut Region;
+
+    /// Values and derivatives up to `max_derivative` at each of `uv`: for each point the rows S, Su, Sv,
+    /// Suu, Suv, Svv (as many as asked for) of `dim` numbers, tightly packed. Beyond the domain the end
+    /// polynomials are continued.
+    fn eval_rows(&self, uv: &[DVec2], max_derivative: usize, out: &mut [f64]);
+
+    /// Values at all pairs of `u` and `v`, `v` running fastest.
+    fn eval_grid(&self, u: &[f64], v: &[f64], out: &mut [f64]) {
+        let row = v.len() * self.dim();
+        for (&u, out) in u.iter().zip(out.chunks_exact_mut(row.max(1))) {
+            let uv: Vec<DVec2> = v.iter().map(|&v| DVec2::new(u, v)).collect();
+            self.eval_rows(&uv, 0, out);
+        }
+    }
+}

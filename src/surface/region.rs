@@ -1,0 +1,240 @@
+//! What a surface knows of its data in the parameter plane: a box and boundary loops.
+
+use glam::DVec2;
+use std::sync::OnceLock;
+
+/// A rectangle of parameters.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Domain {
+    /// Least u and v.
+    pub min: DVec2,
+    /// Largest u and v.
+    pub max: DVec2,
+}
+
+impl Domain {
+    /// The smallest rectangle around `points`.
+    pub fn around(points: impl IntoIterator<Item = DVec2>) -> Self {
+        let empty = Self { min: DVec2::INFINITY, max: DVec2::NEG_INFINITY };
+        points.into_iter().fold(empty, |domain, p| Self { min: domain.min.min(p), max: domain.max.max(p) })
+    }
+
+    /// Whether a parameter pair lies inside or on the border; false for NaN.
+    pub fn contains(&self, uv: DVec2) -> bool {
+        uv.cmpge(self.min).all() && uv.cmple(self.max).all()
+    }
+
+    /// Width and height.
+    pub fn size(&self) -> DVec2 {
+        self.max - self.min
+    }
+
+    /// The nearest parameter pair inside.
+    pub fn clamp(&self, uv: DVec2) -> DVec2 {
+        uv.max(self.min).min(self.max)
+    }
+}
+
+/// A trim is not one.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum TrimError {
+    /// A loop of fewer than three points encloses nothing.
+    #[error("trim {index} has {count} points, at least 3 are needed")]
+    TooShort {
+        /// The loop.
+        index: usize,
+        /// Its points.
+        count: usize,
+    },
+    /// A coordinate is NaN or infinite.
+    #[error("point {point} of trim {index} is not finite")]
+    NotFinite {
+        /// The loop.
+        index: usize,
+        /// The point in it.
+        point: usize,
+    },
+    /// A point lies outside the surface's domain.
+    #[error("point {point} of trim {index} lies outside the domain")]
+    Outside {
+        /// The loop.
+        index: usize,
+        /// The point in it.
+        point: usize,
+    },
+}
+
+impl TrimError {
+    /// The class of the error.
+    pub fn kind(&self) -> crate::ErrorKind {
+        match self {
+            Self::TooShort { .. } => crate::ErrorKind::InvalidArgument,
+            Self::NotFinite { .. } => crate::ErrorKind::NotFinite,
+            Self::Outside { .. } => crate::ErrorKind::Outside,
+        }
+    }
+
+    /// The offending loop.
+    pub fn index(&self) -> Option<usize> {
+        match *self {
+            Self::TooShort { index, .. } | Self::NotFinite { index, .. } | Self::Outside { index, .. } => {
+                Some(index)
+            }
+        }
+    }
+}
+
+/// Closed polylines in the parameter plane that bound the part of a surface that counts. The first point
+/// of a loop is not repeated. A point is inside when a ray from it crosses the loops an odd number of
+/// times, so the outer loop and the holes may have any direction.
+#[derive(Debug, Clone, Default)]
+pub struct Trims {
+    loops: Vec<Vec<DVec2>>,
+    bands: OnceLock<Bands>,
+}
+
+impl PartialEq for Trims {
+    fn eq(&self, other: &Self) -> bool {
+        self.loops == other.loops
+    }
+}
+
+impl Trims {
+    /// Checks and keeps `loops`, the outer one first.
+    pub fn new(loops: Vec<Vec<DVec2>>, domain: &Domain) -> Result<Self, TrimError> {
+        for (index, polyline) in loops.iter().enumerate() {
+            if polyline.len() < 3 {
+                return Err(TrimError::TooShort { index, count: polyline.len() });
+            }
+            if let Some(point) = polyline.iter().position(|p| !p.is_finite()) {
+                return Err(TrimError::NotFinite { index, point });
+            }
+            if let Some(point) = polyline.iter().position(|&p| !domain.contains(p)) {
+                return Err(TrimError::Outside { index, point });
+            }
+        }
+        Ok(Self { loops, bands: OnceLock::new() })
+    }
+
+    /// The loops, the outer one first; none when the whole domain counts.
+    pub fn loops(&self) -> &[Vec<DVec2>] {
+        &self.loops
+    }
+
+    /// Whether the whole domain counts.
+    pub fn is_empty(&self) -> bool {
+        self.loops.is_empty()
+    }
+
+    /// Whether a point counts. Points on a loop may go either way.
+    pub fn contains(&self, uv: DVec2) -> bool {
+        self.is_empty() || self.bands.get_or_init(|| Bands::new(&self.loops)).crossings(uv) % 2 == 1
+    }
+
+    /// The sides of all loops.
+    pub fn segments(&self) -> impl Iterator<Item = (DVec2, DVec2)> + '_ {
+        segments(&self.loops)
+    }
+}
+
+fn segments(loops: &[Vec<DVec2>]) -> impl Iterator<Item = (DVec2, DVec2)> + '_ {
+    loops.iter().flat_map(|polyline| polyline.iter().copied().zip(polyline.iter().copied().cycle().skip(1)))
+}
+
+/// Trim segments sorted into horizontal bands, so that a point is tested against the few in its own.
+#[derive(Debug, Clone)]
+struct Bands {
+    start: f64,
+    bands_per_unit: f64,
+    segments: Vec<Vec<(DVec2, DVec2)>>,
+}
+
+impl Bands {
+    fn new(loops: &[Vec<DVec2>]) -> Self {
+        let domain = Domain::around(loops.iter().flatten().copied());
+        let count: usize = loops.iter().map(Vec::len).sum();
+        let start = domain.min.y;
+        // a band per segment keeps both the bands and the entries linear for loops of even pace
+        let bands_per_unit = count as f64 / domain.size().y.max(f64::MIN_POSITIVE);
+        let mut bands = Self { start, bands_per_unit, segments: vec![Vec::new(); count + 1] };
+        for (a, b) in segments(loops) {
+            if a.y != b.y {
+                let (low, high) = (bands.band(a.y.min(b.y)), bands.band(a.y.max(b.y)));
+                bands.segments[low..=high].iter_mut().for_each(|band| band.push((a, b)));
+            }
+        }
+        bands
+    }
+
+    fn band(&self, v: f64) -> usize {
+        (((v - self.start) * self.bands_per_unit) as usize).min(self.segments.len() - 1)
+    }
+
+    /// Segments crossed by the ray from `p` towards larger u. A segment owns its lower end.
+    fn crossings(&self, p: DVec2) -> usize {
+        if !(p.y >= self.start) {
+            return 0;
+        }
+        self.segments[self.band(p.y)]
+            .iter()
+            .filter(|(a, b)| {
+                (a.y <= p.y) != (b.y <= p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
+            })
+            .count()
+    }
+}
+
+/// What a surface knows of the data it was made from.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Region {
+    /// The box of the data's parameters; beyond it the surface is extrapolated. None: the whole domain.
+    pub data_box: Option<Domain>,
+    /// The boundary loops of the data.
+    pub trims: Trims,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square(center: f64, half: f64) -> Vec<DVec2> {
+        [(-1., -1.), (1., -1.), (1., 1.), (-1., 1.)]
+            .map(|(x, y)| DVec2::splat(center) + half * DVec2::new(x, y))
+            .to_vec()
+    }
+
+    #[test]
+    fn holes_are_outside_whatever_their_direction() {
+        let domain = Domain { min: DVec2::ZERO, max: DVec2::ONE };
+        let mut hole = square(0.5, 0.2);
+        for _ in 0..2 {
+            hole.reverse();
+            let trims = Trims::new(vec![square(0.5, 0.4), hole.clone()], &domain).unwrap();
+            for k in 0..=100 {
+                let t = f64::from(k) / 100.0 + 1e-3; // never on a loop
+                let expected = (0.1..0.9).contains(&t) && !(0.3..0.7).contains(&t);
+                assert_eq!(trims.contains(DVec2::splat(t)), expected, "t = {t}");
+            }
+            assert!(!trims.contains(DVec2::splat(f64::NAN)));
+        }
+    }
+
+    #[test]
+    fn a_ray_through_corners_counts_them_once() {
+        let diamond = [(0., 1.), (1., 0.), (2., 1.), (1., 2.)].map(|(x, y)| DVec2::new(x, y)).to_vec();
+        let domain = Domain { min: DVec2::ZERO, max: DVec2::splat(2.0) };
+        let trims = Trims::new(vec![diamond], &domain).unwrap();
+        assert!(trims.contains(DVec2::new(0.5, 1.0)));
+        assert!(!trims.contains(DVec2::new(-0.5, 1.0)));
+        assert!(!trims.contains(DVec2::new(0.5, 2.0)));
+    }
+
+    #[test]
+    fn refusals_name_the_loop() {
+        let domain = Domain { min: DVec2::ZERO, max: DVec2::ONE };
+        let refuse = |last| Trims::new(vec![square(0.5, 0.4), last], &domain).unwrap_err();
+        assert_eq!(refuse(vec![DVec2::ZERO]), TrimError::TooShort { index: 1, count: 1 });
+        assert_eq!(refuse(square(0.9, 0.2)), TrimError::Outside { index: 1, point: 1 });
+        assert_eq!(refuse(square(f64::NAN, 0.2)), TrimError::NotFinite { index: 1, point: 0 });
+    }
+}

@@ -1,0 +1,203 @@
+//! Tensor product B-spline surfaces of any degree, with or without weights.
+//!
+//! L. Piegl and W. Tiller, "The NURBS Book" (1997), chapters 3 and 4.
+//! ```text
+//! S(u,v) = sum_ij N_i(u) N_j(v) w_ij P_ij / sum_ij N_i(u) N_j(v) w_ij
+//! ```
+
+mod evaluate;
+
+use super::{Domain, Kind, Region, Surface};
+use crate::knots::KnotVector;
+use glam::DVec2;
+
+/// A parameter direction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Axis {
+    /// The first parameter.
+    U,
+    /// The second parameter.
+    V,
+}
+
+/// A tensor surface is not one.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum TensorError {
+    /// Values need at least one component.
+    #[error("the dimension is 0")]
+    Dimension,
+    /// The knots in one direction are not a knot vector.
+    #[error("in {axis:?}: {error}")]
+    Knots {
+        /// The direction.
+        axis: Axis,
+        /// What is wrong with them.
+        error: crate::knots::KnotError,
+    },
+    /// There are not as many control points as basis functions.
+    #[error("{count} numbers are given for {expected} control points of dimension {dim}")]
+    ControlPointCount {
+        /// Numbers given.
+        count: usize,
+        /// Control points that the knots ask for.
+        expected: usize,
+        /// Numbers a control point.
+        dim: usize,
+    },
+    /// There are not as many weights as control points.
+    #[error("{count} weights are given for {expected} control points")]
+    WeightCount {
+        /// Weights given.
+        count: usize,
+        /// Control points.
+        expected: usize,
+    },
+    /// A coordinate is NaN or infinite.
+    #[error("control point {index} is not finite")]
+    NotFinite {
+        /// The control point.
+        index: usize,
+    },
+    /// A weight is not a positive number.
+    #[error("weight {index} is {weight}, it must be positive and finite")]
+    Weight {
+        /// The control point.
+        index: usize,
+        /// Its weight.
+        weight: f64,
+    },
+}
+
+impl TensorError {
+    /// The class of the error.
+    pub fn kind(&self) -> crate::ErrorKind {
+        match self {
+            Self::Knots { error, .. } => error.kind(),
+            Self::NotFinite { .. } => crate::ErrorKind::NotFinite,
+            Self::Weight { weight, .. } if !weight.is_finite() => crate::ErrorKind::NotFinite,
+            _ => crate::ErrorKind::InvalidArgument,
+        }
+    }
+
+    /// The offending knot, control point or weight.
+    pub fn index(&self) -> Option<usize> {
+        match *self {
+            Self::Knots { ref error, .. } => error.index(),
+            Self::NotFinite { index } | Self::Weight { index, .. } => Some(index),
+            _ => None,
+        }
+    }
+}
+
+/// A tensor product B-spline surface.
+///
+/// Control point `(i, j)`, `i` along u, is row `i * count_v + j` of `dim` numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TensorSurface {
+    dim: usize,
+    knots_u: KnotVector,
+    knots_v: KnotVector,
+    control_points: Vec<f64>,
+    weights: Option<Weights>,
+    region: Region,
+}
+
+/// The weights, and the control points times their weights with the weight as one more component: what
+/// evaluation works on.
+#[derive(Debug, Clone, PartialEq)]
+struct Weights {
+    weights: Vec<f64>,
+    homogeneous: Vec<f64>,
+}
+
+impl TensorSurface {
+    /// Checks and keeps the parts. `control_points` are rows of `dim` numbers, v running fastest; `weights`
+    /// are in the same order, None makes the surface polynomial.
+    pub fn new(
+        dim: usize,
+        knots_u: KnotVector,
+        knots_v: KnotVector,
+        control_points: Vec<f64>,
+        weights: Option<Vec<f64>>,
+    ) -> Result<Self, TensorError> {
+        let expected = knots_u.basis_count() * knots_v.basis_count();
+        if dim == 0 {
+            return Err(TensorError::Dimension);
+        }
+        if control_points.len() != expected * dim {
+            return Err(TensorError::ControlPointCount { count: control_points.len(), expected, dim });
+        }
+        if let Some(index) = control_points.iter().position(|x| !x.is_finite()) {
+            return Err(TensorError::NotFinite { index: index / dim });
+        }
+        let weights = weights.map(|weights| Weights::new(weights, &control_points, dim)).transpose()?;
+        Ok(Self { dim, knots_u, knots_v, control_points, weights, region: Region::default() })
+    }
+
+    /// The knot vector along one axis.
+    pub fn knots(&self, axis: Axis) -> &KnotVector {
+        match axis {
+            Axis::U => &self.knots_u,
+            Axis::V => &self.knots_v,
+        }
+    }
+
+    /// The control points, v running fastest.
+    pub fn control_points(&self) -> &[f64] {
+        &self.control_points
+    }
+
+    /// The weights, in the order of the control points; None for a polynomial surface.
+    pub fn weights(&self) -> Option<&[f64]> {
+        self.weights.as_ref().map(|weights| weights.weights.as_slice())
+    }
+}
+
+impl Weights {
+    fn new(weights: Vec<f64>, control_points: &[f64], dim: usize) -> Result<Self, TensorError> {
+        let expected = control_points.len() / dim;
+        if weights.len() != expected {
+            return Err(TensorError::WeightCount { count: weights.len(), expected });
+        }
+        if let Some(index) = weights.iter().position(|&w| !(w > 0.0 && w.is_finite())) {
+            return Err(TensorError::Weight { index, weight: weights[index] });
+        }
+        let homogeneous = control_points
+            .chunks_exact(dim)
+            .zip(&weights)
+            .flat_map(|(point, &w)| point.iter().map(move |x| w * x).chain([w]))
+            .collect();
+        Ok(Self { weights, homogeneous })
+    }
+}
+
+impl Surface for TensorSurface {
+    fn kind(&self) -> Kind {
+        Kind::Tensor
+    }
+
+    fn dim(&self) -> usize {
+        self.dim
+    }
+
+    fn domain(&self) -> Domain {
+        let ((u0, u1), (v0, v1)) = (self.knots_u.domain(), self.knots_v.domain());
+        Domain { min: DVec2::new(u0, v0), max: DVec2::new(u1, v1) }
+    }
+
+    fn coefficient_count(&self) -> usize {
+        self.control_points.len() / self.dim
+    }
+
+    fn region(&self) -> &Region {
+        &self.region
+    }
+
+    fn region_mut(&mut self) -> &mut Region {
+        &mut self.region
+    }
+
+    fn eval_rows(&self, uv: &[DVec2], max_derivative: usize, out: &mut [f64]) {
+        self.eval_rows_tensor(uv, max_derivative, out);
+    }
+}
