@@ -5,10 +5,14 @@
 //! classes that a program can act upon, [`Error::index`] is the offending node, triangle, row or byte.
 
 use crate::control::Cancelled;
+use crate::curve::CurveError;
+use crate::export::ExportError;
+use crate::export::native::LoadError;
 use crate::fit::tessellation::FitError;
 use crate::knots::KnotError;
 use crate::mesh::{CutError, MeshError, ReadError};
 use crate::parameterize::ParameterizeError;
+use crate::query::tessellate::TessellateError;
 use crate::surface::TrimError;
 use crate::surface::evaluate::EvalError;
 use crate::surface::tensor::TensorError;
@@ -66,12 +70,24 @@ pub enum Error {
     /// Knots are not a knot vector.
     #[error(transparent)]
     Knots(#[from] KnotError),
+    /// A curve is not one.
+    #[error(transparent)]
+    Curve(#[from] CurveError),
     /// A tensor surface is not one.
     #[error(transparent)]
     Tensor(#[from] TensorError),
     /// Points cannot be evaluated.
     #[error(transparent)]
     Eval(#[from] EvalError),
+    /// A surface cannot be tessellated.
+    #[error(transparent)]
+    Tessellate(#[from] TessellateError),
+    /// A file cannot be written.
+    #[error(transparent)]
+    Export(#[from] ExportError),
+    /// A saved surface cannot be loaded.
+    #[error(transparent)]
+    Load(#[from] LoadError),
     /// A trim is not one.
     #[error(transparent)]
     Trim(#[from] TrimError),
@@ -101,8 +117,12 @@ impl Error {
             Self::Parameterize(error) => (error.kind(), error.index()),
             Self::Fit(error) => (error.kind(), error.index()),
             Self::Knots(error) => (error.kind(), error.index()),
+            Self::Curve(error) => (error.kind(), error.index()),
             Self::Tensor(error) => (error.kind(), error.index()),
             Self::Eval(error) => (error.kind(), error.index()),
+            Self::Tessellate(error) => (error.kind(), None),
+            Self::Export(error) => (error.kind(), None),
+            Self::Load(error) => (error.kind(), error.index()),
             Self::Trim(error) => (error.kind(), error.index()),
             Self::Cut(error) => (error.kind(), error.index()),
             Self::Cancelled(_) => (ErrorKind::Cancelled, None),

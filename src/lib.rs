@@ -13,7 +13,9 @@
 
 pub mod basis;
 pub mod control;
+pub mod curve;
 pub mod error;
+pub mod export;
 #[allow(unsafe_code, reason = "the border to C; nothing else may be unsafe")]
 pub mod ffi;
 pub mod fit;
@@ -23,6 +25,8 @@ pub mod knots;
 pub mod linalg;
 pub mod mesh;
 pub mod parameterize;
+pub mod query;
+pub mod samples;
 pub mod surface;
 
 pub use control::Control;

@@ -41,7 +41,8 @@ pub fn data_errors(surface: &dyn Surface, uv: &[DVec2], values: &[f64], pool: &P
     summarize(each)
 }
 
-fn summarize(each: Vec<f64>) -> DataErrors {
+/// Sums up the errors of single data.
+pub fn summarize(each: Vec<f64>) -> DataErrors {
     let count = each.len().max(1) as f64;
     let (worst_index, max) = each
         .iter()

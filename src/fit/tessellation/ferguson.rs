@@ -32,10 +32,44 @@ pub fn fit(
     let knots = Knots { count_u, count_v };
     let (mut entries, mut right) = (Entries::default(), vec![0.0; knots.unknown_count() * dim]);
     add_data(&knots, grid, uv, values, dim, &mut entries, &mut right);
-    add_bending(&knots, smoothing, &mut entries);
+    knots.lines().for_each(|line| bend(&line, smoothing, &mut entries));
     add_sweeps(&knots, &mut entries);
     entries.solve(knots.unknown_count(), &mut right, dim).map_err(|_| FitError::Singular)?;
     Ok(control_points(&knots, &right, dim))
+}
+
+/// The same in one parameter: a row of knots without cross slopes.
+pub fn fit_line(
+    grid: &UniformGrid,
+    u: &[f64],
+    values: &[f64],
+    dim: usize,
+    smoothing: f64,
+) -> Result<Vec<f64>, FitError> {
+    let knots = Knots { count_u: grid.count, count_v: 1 };
+    let line = Line { knots: &knots, is_u: true, at: 0 };
+    let n = 2 * grid.count;
+    let (mut entries, mut right) = (Entries::default(), vec![0.0; n * dim]);
+    for (&u, value) in u.iter().zip(values.chunks_exact(dim)) {
+        let (i, s) = grid.locate(u);
+        let shapes = hermite::shape_functions(s);
+        for a in 0..2 {
+            let row = line.unknown(VALUE, i + a);
+            for b in 0..4 {
+                let column = line.unknown([VALUE, SLOPE_U][b / 2], i + b % 2);
+                entries.add(row, column, shapes[a] * shapes[b]);
+            }
+            value.iter().enumerate().for_each(|(k, x)| right[k * n + row] += shapes[a] * x);
+        }
+    }
+    bend(&line, smoothing, &mut entries);
+    sweep(&line, VALUE, SLOPE_U, &mut entries);
+    entries.solve(n, &mut right, dim).map_err(|_| FitError::Singular)?;
+    let columns: Vec<Vec<f64>> = right
+        .chunks_exact(n)
+        .map(|column| hermite::control_points(&column[..grid.count], &column[grid.count..]))
+        .collect();
+    Ok((0..grid.count + 2).flat_map(|i| columns.iter().map(move |column| column[i])).collect())
 }
 
 /// Numbers the unknowns.
@@ -113,20 +147,17 @@ fn add_data(
 }
 
 /// The gradient of the bending energy with slopes held, in the rows of the values (equation S and its ends).
-fn add_bending(knots: &Knots, smoothing: f64, entries: &mut Entries) {
-    for line in knots.lines() {
-        let last = line.len() - 1;
-        let mut add = |row: usize, field: usize, k: usize, weight: f64| {
-            entries.add(line.unknown(VALUE, row), line.unknown(field, k), smoothing * weight);
-        };
-        for k in 0..last {
-            // the cell k, k + 1 adds x_k - x_{k+1} + (X_k + X_{k+1})/2 to row k and the opposite to row k + 1
-            for (row, sign) in [(k, 1.0), (k + 1, -1.0)] {
-                add(row, VALUE, k, sign);
-                add(row, VALUE, k + 1, -sign);
-                add(row, line.slope(), k, 0.5 * sign);
-                add(row, line.slope(), k + 1, 0.5 * sign);
-            }
+fn bend(line: &Line, smoothing: f64, entries: &mut Entries) {
+    let mut add = |row: usize, field: usize, k: usize, weight: f64| {
+        entries.add(line.unknown(VALUE, row), line.unknown(field, k), smoothing * weight);
+    };
+    for k in 0..line.len() - 1 {
+        // the cell k, k + 1 adds x_k - x_{k+1} + (X_k + X_{k+1})/2 to row k and the opposite to row k + 1
+        for (row, sign) in [(k, 1.0), (k + 1, -1.0)] {
+            add(row, VALUE, k, sign);
+            add(row, VALUE, k + 1, -sign);
+            add(row, line.slope(), k, 0.5 * sign);
+            add(row, line.slope(), k + 1, 0.5 * sign);
         }
     }
 }

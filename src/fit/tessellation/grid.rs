@@ -210,7 +210,7 @@ impl Banded4 {
         Self { rows: vec![[0.0; 4]; n] }
     }
 
-    fn add_square(&mut self, window: &Window, weight: f64) {
+    pub fn add_square(&mut self, window: &Window, weight: f64) {
         let width = self.rows.len().min(4);
         for a in 0..width {
             for b in a..width {

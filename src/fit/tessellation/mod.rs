@@ -9,6 +9,7 @@
 //! minimize  sum_n |S(u_n,v_n) - P_n|^2 + (mu/12) energy(S)
 //! ```
 
+mod curve;
 mod energy;
 mod ferguson;
 mod foot_points;
@@ -19,6 +20,7 @@ mod refine;
 mod samples;
 mod single_grid;
 
+pub use curve::{CurveFit, fit_curve};
 pub use energy::Energy;
 pub use grid::Ends;
 
@@ -383,13 +385,15 @@ fn check(uv: &[DVec2], values: &[f64], dim: usize, options: &TensorOptions) -> R
     }
     let data = Domain::around(uv.iter().copied());
     for (axis, at, end) in [('u', data.min.x, data.max.x), ('v', data.min.y, data.max.y)] {
-        // a range of a few roundings has no room for knots
-        if end - at <= 64.0 * f64::EPSILON * at.abs().max(end.abs()) {
+        if end - at <= LEAST_RANGE * at.abs().max(end.abs()) {
             return Err(FitError::DegenerateRange { axis, at });
         }
     }
     Ok(())
 }
+
+/// A range of parameters of a few roundings has no room for knots.
+const LEAST_RANGE: f64 = 64.0 * f64::EPSILON;
 
 /// Everything that stays the same while grids are tried.
 struct Problem<'a> {

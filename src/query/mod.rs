@@ -1,0 +1,3 @@
+//! Questions to a surface that take more than an evaluation: tessellation, closest points, deviation.
+
+pub mod tessellate;

@@ -1,0 +1,401 @@
+//! Triangle meshes of surfaces, with trims kept.
+//!
+//! A constrained Delaunay triangulation in the parameter plane (stretched so that both parameters count alike
+//! in space) starts from the trims and a grid as coarse as the surface's patches; then the middles of all
+//! edges that are too long or too far from the surface become nodes, until none is left.
+
+use crate::mesh::{Mesh, MeshError};
+use crate::surface::Surface;
+use glam::{DVec2, DVec3};
+use spade::handles::FixedVertexHandle;
+use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation, mitigate_underflow};
+use std::collections::HashMap;
+
+/// How fine a tessellation is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TessellateOptions {
+    /// Largest distance between the surface and its triangles, in model units; 0 takes 1e-3 of the diagonal.
+    pub chord_tolerance: f64,
+    /// Longest edge in model units; 0 for no limit.
+    pub max_edge_length: f64,
+    /// Most nodes; beyond it the call fails.
+    pub max_points: usize,
+    /// Whether to keep to the trims; otherwise the whole domain is covered.
+    pub keep_trims: bool,
+}
+
+impl Default for TessellateOptions {
+    fn default() -> Self {
+        Self { chord_tolerance: 0.0, max_edge_length: 0.0, max_points: 4_000_000, keep_trims: true }
+    }
+}
+
+/// A surface cannot be tessellated as asked.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum TessellateError {
+    /// Only surfaces in space have a shape.
+    #[error("a surface of dimension {dim} has no shape, dimension 3 is needed")]
+    Dimension {
+        /// Dimension of the surface.
+        dim: usize,
+    },
+    /// An option is out of its range.
+    #[error("{option} is {value}, it must be finite and not negative")]
+    Option {
+        /// Name of the option.
+        option: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// Too many nodes would be needed.
+    #[error("more than {limit} nodes would be needed")]
+    TooLarge {
+        /// The limit.
+        limit: usize,
+    },
+    /// The trims cross each other or themselves.
+    #[error("the trims cross near ({u}, {v})")]
+    CrossingTrims {
+        /// Where.
+        u: f64,
+        /// Where.
+        v: f64,
+    },
+    /// The trims enclose nothing.
+    #[error("the trims enclose no area")]
+    Empty,
+    /// The triangles are no mesh.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+}
+
+impl TessellateError {
+    /// The class of the error.
+    pub fn kind(&self) -> crate::ErrorKind {
+        use crate::ErrorKind;
+        match self {
+            Self::Dimension { .. } | Self::Option { .. } => ErrorKind::InvalidArgument,
+            Self::TooLarge { .. } => ErrorKind::TooLarge,
+            Self::CrossingTrims { .. } => ErrorKind::Topology,
+            Self::Empty => ErrorKind::Degenerate,
+            Self::Mesh(error) => error.kind(),
+        }
+    }
+}
+
+/// A tessellation with its quality.
+#[derive(Debug, Clone)]
+pub struct Tessellation {
+    /// The mesh; its parameters are those of the surface.
+    pub mesh: Mesh,
+    /// Smallest angle of a triangle in space, in radians.
+    pub smallest_angle: f64,
+    /// Largest distance measured between an edge's middle and the surface.
+    pub chord_error: f64,
+}
+
+/// Triangulates the part of a surface inside its trims.
+pub fn tessellate(
+    surface: &dyn Surface,
+    options: &TessellateOptions,
+) -> Result<Tessellation, TessellateError> {
+    if surface.dim() != 3 {
+        return Err(TessellateError::Dimension { dim: surface.dim() });
+    }
+    for (option, value) in
+        [("chord_tolerance", options.chord_tolerance), ("max_edge_length", options.max_edge_length)]
+    {
+        if !(value >= 0.0 && value.is_finite()) {
+            return Err(TessellateError::Option { option, value });
+        }
+    }
+    let mut plane = Plane::new(surface, options)?;
+    plane.add_trims()?;
+    plane.add_grid()?;
+    while plane.refine()? {}
+    plane.finish()
+}
+
+/// Grid lines along one direction at the start; patches are found by refinement.
+const START_LINES: usize = 9;
+/// An edge is not halved once it is this short against the domain: a fold or pole of the surface would go on
+/// for ever.
+const SHORTEST_EDGE: f64 = 1e-7;
+
+struct Plane<'a> {
+    surface: &'a dyn Surface,
+    options: &'a TessellateOptions,
+    chord_tolerance: f64,
+    /// From (u,v) to the stretched plane of the triangulation.
+    stretch: DVec2,
+    triangulation: ConstrainedDelaunayTriangulation<Point2<f64>>,
+    points: HashMap<FixedVertexHandle, DVec3>,
+    chord_error: f64,
+}
+
+impl<'a> Plane<'a> {
+    fn new(surface: &'a dyn Surface, options: &'a TessellateOptions) -> Result<Self, TessellateError> {
+        let probe = Probe::new(surface);
+        let chord_tolerance =
+            if options.chord_tolerance > 0.0 { options.chord_tolerance } else { 1e-3 * probe.diagonal };
+        Ok(Self {
+            surface,
+            options,
+            chord_tolerance,
+            stretch: probe.stretch,
+            triangulation: ConstrainedDelaunayTriangulation::new(),
+            points: HashMap::new(),
+            chord_error: 0.0,
+        })
+    }
+
+    fn uv(&self, place: Point2<f64>) -> DVec2 {
+        self.surface.domain().clamp(DVec2::new(place.x, place.y) / self.stretch)
+    }
+
+    fn insert(&mut self, uv: DVec2) -> Result<FixedVertexHandle, TessellateError> {
+        let place = uv * self.stretch;
+        let crossing = TessellateError::CrossingTrims { u: uv.x, v: uv.y };
+        let place = mitigate_underflow(Point2::new(place.x, place.y));
+        let vertex = self.triangulation.insert(place).map_err(|_| crossing)?;
+        if self.triangulation.num_vertices() > self.options.max_points {
+            return Err(TessellateError::TooLarge { limit: self.options.max_points });
+        }
+        Ok(vertex)
+    }
+
+    fn add_trims(&mut self) -> Result<(), TessellateError> {
+        let loops = if self.options.keep_trims { self.surface.region().trims.loops() } else { &[] };
+        for polyline in loops {
+            let vertices: Vec<FixedVertexHandle> =
+                polyline.iter().map(|&uv| self.insert(uv)).collect::<Result<_, _>>()?;
+            for (k, &from) in vertices.iter().enumerate() {
+                let to = vertices[(k + 1) % vertices.len()];
+                if from == to {
+                    continue;
+                }
+                if !self.triangulation.can_add_constraint(from, to) {
+                    let DVec2 { x: u, y: v } = polyline[k];
+                    return Err(TessellateError::CrossingTrims { u, v });
+                }
+                self.triangulation.add_constraint(from, to);
+            }
+        }
+        Ok(())
+    }
+
+    fn add_grid(&mut self) -> Result<(), TessellateError> {
+        let domain = self.surface.domain();
+        let trims = &self.surface.region().trims;
+        let keeps_trims = self.options.keep_trims && !trims.is_empty();
+        for i in 0..START_LINES {
+            for j in 0..START_LINES {
+                let share = DVec2::new(i as f64, j as f64) / (START_LINES - 1) as f64;
+                let uv = domain.min + share * domain.size();
+                if !keeps_trims || trims.contains(uv) {
+                    self.insert(uv)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether a triangle belongs to the surface.
+    fn is_kept(&self, middle: DVec2) -> bool {
+        !self.options.keep_trims || self.surface.region().trims.contains(middle)
+    }
+
+    fn point(&mut self, vertex: FixedVertexHandle) -> DVec3 {
+        let uv = self.uv(self.triangulation.vertex(vertex).position());
+        let surface = self.surface;
+        *self.points.entry(vertex).or_insert_with(|| eval(surface, uv))
+    }
+
+    /// Halves all edges that need it. False when there are none.
+    fn refine(&mut self) -> Result<bool, TessellateError> {
+        let shortest = SHORTEST_EDGE * (self.surface.domain().size() * self.stretch).length();
+        let edges: Vec<_> = self
+            .triangulation
+            .undirected_edges()
+            .filter(|edge| edge.length_2() > shortest * shortest)
+            .filter(|edge| {
+                let directed = edge.as_directed();
+                [directed.face(), directed.rev().face()].iter().any(|face| {
+                    face.as_inner().is_some_and(|face| {
+                        let center = face.center();
+                        self.is_kept(DVec2::new(center.x, center.y) / self.stretch)
+                    })
+                })
+            })
+            .map(|edge| edge.vertices().map(|vertex| vertex.fix()))
+            .collect();
+        let mut middles = Vec::new();
+        self.chord_error = 0.0;
+        for [a, b] in edges {
+            let (from, to) = (self.point(a), self.point(b));
+            let place = |vertex| self.uv(self.triangulation.vertex(vertex).position());
+            let uv = (place(a) + place(b)) / 2.0;
+            let sag = distance_to_segment(eval(self.surface, uv), from, to);
+            let longest = self.options.max_edge_length;
+            if sag > self.chord_tolerance || (longest > 0.0 && from.distance(to) > longest) {
+                middles.push(uv);
+            }
+            self.chord_error = self.chord_error.max(sag);
+        }
+        for &uv in &middles {
+            self.insert(uv)?;
+        }
+        Ok(!middles.is_empty())
+    }
+
+    fn finish(mut self) -> Result<Tessellation, TessellateError> {
+        let mut numbers: HashMap<FixedVertexHandle, u32> = HashMap::new();
+        let (mut points, mut uvs, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
+        let mut smallest_angle = f64::INFINITY;
+        let faces: Vec<_> =
+            self.triangulation.inner_faces().map(|face| face.vertices().map(|vertex| vertex.fix())).collect();
+        for face in faces {
+            let place = face.map(|vertex| self.uv(self.triangulation.vertex(vertex).position()));
+            if !self.is_kept(place.iter().sum::<DVec2>() / 3.0) {
+                continue;
+            }
+            let corners = face.map(|vertex| self.point(vertex));
+            smallest_angle = smallest_angle.min(least_angle(corners));
+            let mut triangle = [0; 3];
+            for k in 0..3 {
+                triangle[k] = *numbers.entry(face[k]).or_insert_with(|| {
+                    points.push(corners[k]);
+                    uvs.push(place[k]);
+                    points.len() as u32 - 1
+                });
+            }
+            triangles.push(triangle);
+        }
+        if triangles.is_empty() {
+            return Err(TessellateError::Empty);
+        }
+        let mut mesh = Mesh::new(points, triangles)?;
+        mesh.set_parameters(uvs)?;
+        Ok(Tessellation { mesh, smallest_angle, chord_error: self.chord_error })
+    }
+}
+
+/// What a few samples tell of a surface.
+struct Probe {
+    diagonal: f64,
+    stretch: DVec2,
+}
+
+impl Probe {
+    fn new(surface: &dyn Surface) -> Self {
+        let domain = surface.domain();
+        let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let mut speed = DVec2::ZERO;
+        for i in 0..START_LINES {
+            for j in 0..START_LINES {
+                let share = DVec2::new(i as f64, j as f64) / (START_LINES - 1) as f64;
+                let mut row = [0.0; 9];
+                surface.eval_rows(&[domain.min + share * domain.size()], 1, &mut row);
+                let [s, su, sv] = [0, 3, 6].map(|k| DVec3::from_slice(&row[k..]));
+                (min, max) = (min.min(s), max.max(s));
+                speed += DVec2::new(su.length(), sv.length());
+            }
+        }
+        let lengths = speed * domain.size();
+        // a direction in which nothing moves still needs room in the plane
+        let least = 1e-3 * lengths.max_element().max(f64::MIN_POSITIVE);
+        Self { diagonal: min.distance(max), stretch: lengths.max(DVec2::splat(least)) / domain.size() }
+    }
+}
+
+fn eval(surface: &dyn Surface, uv: DVec2) -> DVec3 {
+    let mut point = [0.0; 3];
+    surface.eval_rows(&[uv], 0, &mut point);
+    DVec3::from_array(point)
+}
+
+fn distance_to_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
+    let along = b - a;
+    let length_sq = along.length_squared();
+    let t = if length_sq > 0.0 { ((p - a).dot(along) / length_sq).clamp(0.0, 1.0) } else { 0.0 };
+    p.distance(a + t * along)
+}
+
+fn least_angle([a, b, c]: [DVec3; 3]) -> f64 {
+    (b - a).angle_between(c - a).min((c - b).angle_between(a - b)).min((a - c).angle_between(b - c))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::knots::KnotVector;
+    use crate::surface::Trims;
+    use crate::surface::tensor::TensorSurface;
+    use std::f64::consts::PI;
+
+    /// Polynomial wave `z = u (1 - u) v` times `height` over the unit square.
+    fn wave(height: f64) -> TensorSurface {
+        let knots = || KnotVector::clamped(&[0.0, 1.0], 2).unwrap();
+        let (x, z) = ([0.0, 0.5, 1.0], [0.0, 0.5, 0.0]);
+        let points = (0..9).flat_map(|k| [x[k / 3], x[k % 3], height * z[k / 3] * x[k % 3]]).collect();
+        TensorSurface::new(3, knots(), knots(), points, None).unwrap()
+    }
+
+    fn area(mesh: &Mesh) -> f64 {
+        let corners = |t: &[u32; 3]| t.map(|n| mesh.points()[n as usize]);
+        mesh.triangles().iter().map(|t| corners(t)).map(|[a, b, c]| (b - a).cross(c - a).length() / 2.0).sum()
+    }
+
+    #[test]
+    fn triangles_keep_the_chord_tolerance_and_the_edge_length() {
+        for chord_tolerance in [1e-2, 1e-3, 1e-4] {
+            let options =
+                TessellateOptions { chord_tolerance, max_edge_length: 0.2, ..TessellateOptions::default() };
+            let surface = wave(1.0);
+            let result = tessellate(&surface, &options).unwrap();
+            assert!(result.chord_error <= chord_tolerance);
+            let mesh = &result.mesh;
+            assert_eq!(mesh.loops().len(), 1);
+            for triangle in mesh.triangles() {
+                for k in 0..3 {
+                    let [a, b] = [triangle[k], triangle[(k + 1) % 3]].map(|n| mesh.points()[n as usize]);
+                    assert!(a.distance(b) <= 0.2 + 1e-12);
+                }
+            }
+            for (p, uv) in mesh.points().iter().zip(mesh.parameters().unwrap()) {
+                assert_eq!(*p, eval(&surface, *uv));
+            }
+        }
+    }
+
+    #[test]
+    fn trims_cut_holes() {
+        let mut surface = wave(0.0);
+        let circle = |radius: f64, count: usize| -> Vec<DVec2> {
+            (0..count)
+                .map(|k| DVec2::splat(0.5) + radius * DVec2::from_angle(2.0 * PI * k as f64 / count as f64))
+                .collect()
+        };
+        let loops = vec![circle(0.45, 40), circle(0.2, 20)];
+        surface.region_mut().trims = Trims::new(loops, &surface.domain()).unwrap();
+        let options = TessellateOptions { max_edge_length: 0.08, ..TessellateOptions::default() };
+        let mesh = tessellate(&surface, &options).unwrap().mesh;
+        assert_eq!((mesh.loops().len(), mesh.component_count()), (2, 1));
+        let polygon = |radius: f64, n: f64| 0.5 * n * radius * radius * (2.0 * PI / n).sin();
+        let exact = polygon(0.45, 40.0) - polygon(0.2, 20.0);
+        assert!((area(&mesh) - exact).abs() < 1e-12, "{} is not {exact}", area(&mesh));
+        let whole = TessellateOptions { keep_trims: false, ..options };
+        assert!((area(&tessellate(&surface, &whole).unwrap().mesh) - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn refusals_say_what_is_wrong() {
+        let few = TessellateOptions { max_edge_length: 1e-3, max_points: 1000, ..Default::default() };
+        assert_eq!(tessellate(&wave(1.0), &few).unwrap_err(), TessellateError::TooLarge { limit: 1000 });
+        let mut surface = wave(0.0);
+        let bow = [(0.1, 0.1), (0.9, 0.9), (0.9, 0.1), (0.1, 0.9)].map(|(u, v)| DVec2::new(u, v));
+        surface.region_mut().trims = Trims::new(vec![bow.to_vec()], &surface.domain()).unwrap();
+        let error = tessellate(&surface, &TessellateOptions::default()).unwrap_err();
+        assert!(matches!(error, TessellateError::CrossingTrims { .. }), "{error}");
+    }
+}

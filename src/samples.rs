@@ -1,0 +1,308 @@
+//! Seeded shapes for demonstrations, tests and benchmarks.
+//!
+//! Each is a tessellation with exact places; those with natural parameters carry them. The same seed gives the
+//! same bits on every machine.
+
+use crate::mesh::{Mesh, MeshError};
+use crate::surface::{Domain, Trims};
+use glam::{DVec2, DVec3};
+use spade::{DelaunayTriangulation, Point2, Triangulation};
+use std::f64::consts::PI;
+
+/// SplitMix64 (G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number generators", 2014): enough
+/// for jitter, and the same everywhere.
+#[derive(Debug, Clone)]
+pub struct Random(u64);
+
+impl Random {
+    /// A sequence of its own for each seed.
+    pub fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// The next number in [0, 1).
+    pub fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// The next number in [-1, 1).
+    pub fn signed(&mut self) -> f64 {
+        2.0 * self.unit() - 1.0
+    }
+}
+
+/// A triangulated grid on the unit square: the diagonals of its cells are drawn at random, inner nodes are moved
+/// by up to `jitter` cells, and cells are kept where `keep` says so of their middle. Without a jitter the
+/// places are exact fractions.
+pub fn grid(
+    [count_u, count_v]: [usize; 2],
+    jitter: f64,
+    seed: u64,
+    keep: impl Fn(DVec2) -> bool,
+) -> (Vec<DVec2>, Vec<[u32; 3]>) {
+    let mut random = Random::new(seed);
+    let cells = DVec2::new((count_u - 1) as f64, (count_v - 1) as f64);
+    let mut places = Vec::with_capacity(count_u * count_v);
+    for i in 0..count_u {
+        for j in 0..count_v {
+            let is_inner = (1..count_u - 1).contains(&i) && (1..count_v - 1).contains(&j);
+            let moved = DVec2::new(random.signed(), random.signed()) * jitter;
+            let place = DVec2::new(i as f64, j as f64) + if is_inner { moved } else { DVec2::ZERO };
+            places.push(place / cells);
+        }
+    }
+    let mut triangles = Vec::new();
+    for i in 0..count_u - 1 {
+        for j in 0..count_v - 1 {
+            let node = |a: usize, b: usize| ((i + a) * count_v + j + b) as u32;
+            let [p, q, r, s] = [node(0, 0), node(1, 0), node(1, 1), node(0, 1)];
+            let middle = [p, q, r, s].iter().map(|&n| places[n as usize]).sum::<DVec2>() / 4.0;
+            let rising = random.unit() < 0.5;
+            if keep(middle) {
+                triangles.extend(if rising { [[p, q, r], [p, r, s]] } else { [[p, q, s], [q, r, s]] });
+            }
+        }
+    }
+    (places, triangles)
+}
+
+/// The mesh of a map over such a grid, without the nodes that no triangle uses.
+fn mesh_over(
+    (places, triangles): (Vec<DVec2>, Vec<[u32; 3]>),
+    map: impl Fn(DVec2) -> (DVec3, DVec2),
+) -> Result<Mesh, MeshError> {
+    let mut numbers = vec![u32::MAX; places.len()];
+    let (mut points, mut uvs) = (Vec::new(), Vec::new());
+    let mut number = |node: u32| {
+        let entry = &mut numbers[node as usize];
+        if *entry == u32::MAX {
+            let (point, uv) = map(places[node as usize]);
+            *entry = points.len() as u32;
+            points.push(point);
+            uvs.push(uv);
+        }
+        *entry
+    };
+    let triangles = triangles.into_iter().map(|triangle| triangle.map(&mut number)).collect();
+    let mut mesh = Mesh::new(points, triangles)?;
+    mesh.set_parameters(uvs)?;
+    Ok(mesh)
+}
+
+/// The notched domain with a slot, a hole and a cut corner, 8 by 6, of [`planar`] and [`curved_notch`].
+fn notched(place: DVec2) -> bool {
+    let DVec2 { x, y } = place * DVec2::new(8.0, 6.0);
+    let notch = x > 3.0 && x < 5.0 && y < 2.4;
+    let slot = x > 6.2 && x < 7.0 && y > 1.4 && y < 2.6;
+    let hole = (x - 2.0).powi(2) + (y - 4.0).powi(2) < 0.6;
+    !(notch || slot || hole || x + y > 12.6)
+}
+
+/// A tilted plane with a notch and two holes.
+pub fn planar(seed: u64) -> Result<Mesh, MeshError> {
+    mesh_over(grid([90, 70], 0.25, seed, notched), |place| {
+        let DVec2 { x: u, y: v } = place * DVec2::new(8.0, 6.0);
+        let point = DVec3::new(1.0 + 0.8 * u + 0.1 * v, 2.0 - 0.3 * u + 0.9 * v, 0.5 + 0.4 * u - 0.2 * v);
+        (point, DVec2::new(u, v))
+    })
+}
+
+/// A smooth graph over the domain of [`planar`].
+pub fn curved_notch(seed: u64) -> Result<Mesh, MeshError> {
+    mesh_over(grid([90, 70], 0.25, seed, notched), |place| {
+        let DVec2 { x: u, y: v } = place * DVec2::new(8.0, 6.0);
+        let z = 1.2 * (0.5 * u).sin() * (0.35 * v).cos() + 0.05 * u * v;
+        (DVec3::new(u, v, z), DVec2::new(u, v))
+    })
+}
+
+/// Half a fuselage with v = y: the slope across is infinite at both long sides.
+pub fn half_fuselage() -> Result<Mesh, MeshError> {
+    const LENGTH: f64 = 8.0;
+    mesh_over(grid([80, 70], 0.0, 3, |_| true), |place| {
+        let (x, angle) = (LENGTH * place.x, PI * place.y);
+        let radius = 1.0 + 0.25 * (PI * x / LENGTH).sin() - 0.12 * (x / LENGTH).powi(2);
+        let is_end = place.y == 0.0 || place.y == 1.0;
+        let y = if place.y == 1.0 { -radius } else { radius * angle.cos() };
+        let z = if is_end { 0.0 } else { radius * angle.sin() };
+        (DVec3::new(x, y, z), DVec2::new(x, y))
+    })
+}
+
+/// The upper side of a tapered, swept, twisted NACA 4412 wing with a cut-out; u is the chord fraction, so the
+/// slope is infinite at the nose.
+pub fn wing() -> Result<Mesh, MeshError> {
+    let keep = |place: DVec2| !(place.y > 0.55 && place.y < 0.8 && place.x > 0.62 && place.x < 0.8);
+    mesh_over(grid([100, 60], 0.0, 4, keep), |place| {
+        let x = 0.5 * (1.0 - (PI * place.x).cos());
+        let thickness =
+            0.6 * (0.2969 * x.sqrt() - 0.1260 * x - 0.3516 * x * x + 0.2843 * x.powi(3) - 0.1036 * x.powi(4));
+        let (camber, at) = (0.04, 0.4);
+        let camber = if x < at {
+            camber / (at * at) * (2.0 * at * x - x * x)
+        } else {
+            camber / (1.0 - at).powi(2) * ((1.0 - 2.0 * at) + 2.0 * at * x - x * x)
+        };
+        let b = place.y;
+        let (chord, twist) = (2.0 - 1.2 * b, (-4.0 * b).to_radians());
+        let (along, up) = (chord * x, chord * (camber + thickness));
+        let point = DVec3::new(
+            1.5 * b + along * twist.cos() + up * twist.sin(),
+            6.0 * b,
+            0.4 * b - along * twist.sin() + up * twist.cos(),
+        );
+        (point, DVec2::new(x, 6.0 * b))
+    })
+}
+
+/// A cap of the unit sphere with three round holes over stereographic parameters, about `count` nodes.
+pub fn sphere_with_holes(count: usize, seed: u64) -> Result<Mesh, MeshError> {
+    const CIRCLES: [(f64, f64, f64); 4] =
+        [(0.0, 0.0, 0.9), (-0.35, 0.2, 0.16), (0.3, -0.25, 0.2), (0.25, 0.4, 0.1)];
+    let spacing = (4.0 * CIRCLES[0].2 * CIRCLES[0].2 * 0.8 / count as f64).sqrt();
+    let circle = |(x, y, radius): (f64, f64, f64)| {
+        let count = ((2.0 * PI * radius / spacing) as usize).max(8);
+        let place = move |k: usize| DVec2::from_angle(2.0 * PI * k as f64 / count as f64);
+        (0..count).map(|k| DVec2::new(x, y) + radius * place(k)).collect()
+    };
+    mesh_over(outlined(&CIRCLES.map(circle), spacing, seed), |p| {
+        let d = 1.0 + p.length_squared();
+        (DVec3::new(2.0 * p.x, 2.0 * p.y, 2.0 - d) / d, p)
+    })
+}
+
+/// A triangulation between outlines, the outer one first: the outlines' corners, and inside nodes of a jittered
+/// hexagonal pattern `spacing` apart.
+fn outlined(outlines: &[Vec<DVec2>], spacing: f64, seed: u64) -> (Vec<DVec2>, Vec<[u32; 3]>) {
+    let domain = Domain::around(outlines[0].iter().copied());
+    let Ok(inside) = Trims::new(outlines.to_vec(), &domain) else { return Default::default() };
+    let mut random = Random::new(seed);
+    let mut places = Vec::new();
+    let row_height = spacing * 3.0_f64.sqrt() / 2.0;
+    let size = domain.size();
+    for i in 0..=(size.x / spacing) as usize {
+        for j in 0..=(size.y / row_height) as usize {
+            let offset = if j % 2 == 1 { spacing / 2.0 } else { 0.0 };
+            let regular = domain.min + DVec2::new(i as f64 * spacing + offset, j as f64 * row_height);
+            let place = regular + 0.15 * spacing * DVec2::new(random.signed(), random.signed());
+            let is_free = |q: &DVec2| q.distance(place) > 0.6 * spacing;
+            if inside.contains(place) && outlines.iter().flatten().all(is_free) {
+                places.push(place);
+            }
+        }
+    }
+    places.extend(outlines.iter().flatten());
+    let middle = |t: &[u32; 3]| t.iter().map(|&n| places[n as usize]).sum::<DVec2>() / 3.0;
+    let triangles = delaunay(&places, spacing).into_iter().filter(|t| inside.contains(middle(t))).collect();
+    (places, triangles)
+}
+
+/// Delaunay triangles of places about `spacing` apart, without flat ones.
+fn delaunay(places: &[DVec2], spacing: f64) -> Vec<[u32; 3]> {
+    let vertices = places.iter().map(|p| Point2::new(p.x, p.y)).collect();
+    let Ok(triangulation) = DelaunayTriangulation::<Point2<f64>>::bulk_load_stable(vertices) else {
+        return Vec::new();
+    };
+    let area = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(|n| places[n as usize]);
+        (b - a).perp_dot(c - a)
+    };
+    let faces = triangulation.inner_faces();
+    let nodes = faces.map(|face| face.vertices().map(|vertex| vertex.fix().index() as u32));
+    nodes.filter(|t| area(t) > 1e-6 * spacing * spacing).collect()
+}
+
+/// A panel of a fuselage: double curvature, a notch for a door and three windows with round corners; no
+/// parameters. About 6,000 nodes.
+pub fn fuselage_panel(seed: u64) -> Result<Mesh, MeshError> {
+    const LENGTH: f64 = 6.0;
+    const HEIGHT: f64 = 3.8;
+    const SPACING: f64 = 0.062;
+    let corners = [(0.0, 0.0), (4.4, 0.0), (4.4, 1.5), (5.3, 1.5), (5.3, 0.0), (LENGTH, 0.0)];
+    let outer = corners.into_iter().chain([(LENGTH, HEIGHT), (0.0, HEIGHT)]);
+    let outer: Vec<DVec2> = outer.map(|(x, y)| DVec2::new(x, y)).collect();
+    // superellipses of fourth degree: straight sides, round corners
+    let window = |center: DVec2| -> Vec<DVec2> {
+        let at = |angle: f64| {
+            let (sin, cos) = angle.sin_cos();
+            center
+                + DVec2::new(0.32 * cos.signum() * cos.abs().sqrt(), 0.46 * sin.signum() * sin.abs().sqrt())
+        };
+        (0..720).map(|k| at(2.0 * PI * f64::from(k) / 720.0)).collect()
+    };
+    let windows = [1.0, 2.2, 3.4].map(|x| window(DVec2::new(x, 2.1)));
+    let outlines: Vec<Vec<DVec2>> =
+        [outer].into_iter().chain(windows).map(|outline| even(&outline, SPACING)).collect();
+    let mut mesh = mesh_over(outlined(&outlines, SPACING, seed), |place| {
+        let radius = 1.95 - 0.012 * (place.x - 2.0).powi(2);
+        let angle = (place.y - HEIGHT / 2.0) / 1.95;
+        (DVec3::new(place.x, radius * angle.sin(), radius * angle.cos()), place)
+    })?;
+    mesh.clear_parameters();
+    Ok(mesh)
+}
+
+/// Points about `spacing` apart along a closed outline; sharp corners are kept.
+fn even(outline: &[DVec2], spacing: f64) -> Vec<DVec2> {
+    let (mut points, mut left) = (Vec::new(), 0.0);
+    for (k, &a) in outline.iter().enumerate() {
+        let b = outline[(k + 1) % outline.len()];
+        let length = a.distance(b);
+        if length > spacing {
+            let count = (length / spacing).round();
+            points.extend((0..count as usize).map(|k| a.lerp(b, k as f64 / count)));
+        } else if left <= 0.0 {
+            points.push(a);
+            left += spacing;
+        }
+        left -= length.min(spacing);
+    }
+    points
+}
+
+/// A graph over the unit square: `bumps` Gaussian hills and dales of random place, height and width. Returns the
+/// mesh with (x,y) as parameters, and the height function.
+pub fn bumps(
+    counts: [usize; 2],
+    bumps: usize,
+    seed: u64,
+) -> Result<(Mesh, impl Fn(DVec2) -> f64 + Clone), MeshError> {
+    let mut random = Random::new(seed);
+    let hills: Vec<(DVec2, f64, f64)> = (0..bumps)
+        .map(|_| {
+            let center = DVec2::new(random.unit(), random.unit());
+            (center, 0.2 * random.signed(), 0.12 + 0.3 * random.unit())
+        })
+        .collect();
+    let height = move |p: DVec2| -> f64 {
+        hills.iter().map(|(c, h, w)| h * (-p.distance_squared(*c) / (w * w)).exp()).sum()
+    };
+    let mesh = mesh_over(grid(counts, 0.3, seed.wrapping_add(1), |_| true), |p| (p.extend(height(p)), p))?;
+    Ok((mesh, height))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shapes_are_disks_with_the_holes_they_promise() {
+        for (mesh, holes, nodes) in [
+            (planar(1), 2, 5000..5500),
+            (curved_notch(2), 2, 5000..5500),
+            (half_fuselage(), 0, 5600..5601),
+            (wing(), 1, 5500..6000),
+            (sphere_with_holes(5000, 5), 3, 5000..5500),
+            (fuselage_panel(1), 3, 5000..6600),
+        ] {
+            let mesh = mesh.unwrap();
+            assert_eq!(mesh.loops().len(), holes + 1);
+            assert_eq!((mesh.component_count(), mesh.genus()), (1, 0));
+            assert!(nodes.contains(&mesh.points().len()), "{} nodes", mesh.points().len());
+        }
+    }
+}
