@@ -320,7 +320,7 @@ unsafe extern "C-unwind" fn listen(fraction: f64, error: f64, user: *mut c_void)
     let heard = unsafe { &mut *user.cast::<Heard>() };
     heard.fractions.push(fraction);
     heard.thread = Some(std::thread::current().id());
-    assert!(!(error < 0.0));
+    assert!(error >= 0.0 || error.is_nan());
     if heard.nested {
         // SAFETY: NULL is refused.
         null_refused(unsafe { planish_mesh_copy_points(null(), null_mut(), 0) }, "mesh");
