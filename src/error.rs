@@ -11,6 +11,7 @@ use crate::fit::tessellation::FitError;
 use crate::knots::KnotError;
 use crate::mesh::{CutError, MeshError, ReadError};
 use crate::parameterize::ParameterizeError;
+use crate::query::project::ProjectError;
 use crate::query::tessellate::TessellateError;
 use crate::surface::TrimError;
 use crate::surface::evaluate::EvalError;
@@ -78,6 +79,9 @@ pub enum Error {
     /// Points cannot be evaluated.
     #[error(transparent)]
     Eval(#[from] EvalError),
+    /// Points cannot be projected.
+    #[error(transparent)]
+    Project(#[from] ProjectError),
     /// A surface cannot be tessellated.
     #[error(transparent)]
     Tessellate(#[from] TessellateError),
@@ -116,6 +120,7 @@ impl Error {
             Self::Curve(error) => (error.kind(), error.index()),
             Self::Tensor(error) => (error.kind(), error.index()),
             Self::Eval(error) => (error.kind(), error.index()),
+            Self::Project(error) => (error.kind(), error.index()),
             Self::Tessellate(error) => (error.kind(), None),
             Self::Export(error) => (error.kind(), None),
             Self::Trim(error) => (error.kind(), error.index()),

@@ -11,6 +11,7 @@
 #![deny(unsafe_code)]
 
 pub mod basis;
+pub mod bezier;
 pub mod control;
 pub mod curve;
 pub mod error;

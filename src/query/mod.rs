@@ -1,3 +1,4 @@
 //! Questions to a surface that take more than an evaluation: tessellation, closest points, deviation.
 
+pub mod project;
 pub mod tessellate;
