@@ -36,12 +36,17 @@ fn main() {
         let start = Instant::now();
         let projector = Projector::new(&surface).expect("a tensor surface has patches");
         println!("{:>8} index built in {:.1} ms", cells, 1e3 * start.elapsed().as_secs_f64());
-        for (distance, count) in [(0.0, 100_000), (1e-3, 100_000), (1e-2, 50_000), (1e-1, 20_000), (1.0, 5_000)] {
+        for (distance, count) in
+            [(0.0, 100_000), (1e-3, 100_000), (1e-2, 50_000), (1e-1, 20_000), (1.0, 5_000)]
+        {
             let points = around(&surface, count, distance * 1.5);
             let mut seconds: Vec<f64> = (0..RUNS).map(|_| run(&projector, &points, count)).collect();
             seconds.sort_by(f64::total_cmp);
             let (median, spread) = (seconds[RUNS / 2], seconds[RUNS - 1] / seconds[0]);
-            println!("{cells:>8} {distance:>10.0e} {count:>10} {:>14.0} {spread:>8.2}", count as f64 / median);
+            println!(
+                "{cells:>8} {distance:>10.0e} {count:>10} {:>14.0} {spread:>8.2}",
+                count as f64 / median
+            );
         }
     }
 }

@@ -206,3 +206,77 @@ fn elevation(from: usize, to: usize) -> Vec<f64> {
 pub(crate) fn binomial(n: usize, k: usize) -> f64 {
     (0..k.min(n - k)).fold(1.0, |product, i| product * (n - i) as f64 / (i + 1) as f64)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::samples::Random;
+    use crate::surface::Surface;
+    use crate::surface::tensor::{Axis, TensorSurface};
+
+    /// A surface with unclamped, uneven and repeated knots.
+    fn surface(degree: [usize; 2], is_rational: bool) -> TensorSurface {
+        let mut random = Random::new(degree[0] as u64);
+        let mut knots = |degree: usize| {
+            let mut t: Vec<f64> = (0..2 * degree + 6).map(|_| 10.0 * random.unit()).collect();
+            t.sort_by(f64::total_cmp);
+            let middle = t.len() / 2;
+            t[middle] = t[middle - 1];
+            KnotVector::new(t, degree).unwrap()
+        };
+        let (knots_u, knots_v) = (knots(degree[0]), knots(degree[1]));
+        let count = knots_u.basis_count() * knots_v.basis_count();
+        let points = (0..3 * count).map(|_| random.signed()).collect();
+        let weights = is_rational.then(|| (0..count).map(|_| 0.5 + random.unit()).collect());
+        TensorSurface::new(3, knots_u, knots_v, points, weights).unwrap()
+    }
+
+    fn near(a: &[f64], b: &[f64], tol: f64) -> bool {
+        a.iter().zip(b).all(|(a, b)| (a - b).abs() <= tol)
+    }
+
+    #[test]
+    fn patches_are_the_surface() {
+        let mut random = Random::new(9);
+        for degree in [[1, 1], [2, 3], [3, 3], [5, 4], [9, 9]] {
+            for is_rational in [false, true] {
+                let surface = surface(degree, is_rational);
+                let patches = surface.patches().unwrap();
+                // ordinates are convex combinations on clamped ends; on unclamped ones they grow with the degree
+                let tol = 1e3 * (degree[0] * degree[1]) as f64 * f64::EPSILON;
+                for k in 0..patches.patch_count() {
+                    let patch = patches.patch(k);
+                    let share = DVec2::new(random.unit(), random.unit());
+                    let uv = patch.domain.min + share * patch.domain.size();
+                    assert_eq!(patches.patch_at(uv), k);
+                    let mut exact = [0.0; 3];
+                    surface.eval_rows(&[uv], 0, &mut exact);
+                    assert!(near(&patch.eval(uv), &exact, tol), "{degree:?} {k}");
+                    let higher = patch.elevate([degree[0] + 2, degree[1] + 1]).to_rational();
+                    assert!(near(&higher.eval(uv), &exact, tol), "{degree:?} {k}: elevated");
+                    for part in patch.split_u(uv.x).into_iter().chain(patch.split_v(uv.y)) {
+                        assert!(near(&part.eval(uv), &exact, tol), "{degree:?} {k}: split");
+                    }
+                    let to = patch.domain.max;
+                    let line = patch.line(uv, to);
+                    surface.eval_rows(&[uv.lerp(to, 0.3)], 0, &mut exact);
+                    assert!(near(&line.eval(DVec2::new(0.3, 0.0)), &exact, tol), "{degree:?} {k}: line");
+                    let bounds = patch.bounds();
+                    for c in 0..3 {
+                        assert!(bounds.min[c] <= exact[c] + tol && exact[c] <= bounds.max[c] + tol);
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn patches_are_found_from_outside() {
+        let surface = surface([3, 2], false);
+        let patches = surface.patches().unwrap();
+        assert_eq!(patches.patch_at(DVec2::splat(-1e9)), 0);
+        assert_eq!(patches.patch_at(DVec2::splat(1e9)), patches.patch_count() - 1);
+        let spans = surface.knots(Axis::U).spans().len() * surface.knots(Axis::V).spans().len();
+        assert_eq!(patches.patch_count(), spans);
+    }
+}

@@ -1,7 +1,8 @@
 //! Closest points against exhaustive sampling.
 //!
 //! The reference is the exact minimum over a 2,000 x 2,000 sampling (its blocks are skipped only where their box
-//! is farther than a sample already seen), refined by Newton's method through the public evaluation.
+//! is farther than a sample already seen), refined by Newton's method through the public evaluation. It may lie in
+//! the wrong basin of two; the answer may not, and it is shown to be a distance to the surface.
 
 mod common;
 
@@ -137,7 +138,6 @@ fn check(name: &str, surface: &dyn Surface) {
     assert_eq!(projector.project(&rows, &options, &mut uv, &mut distances, &Pool::new(0)), Ok(0));
     let mut values = vec![0.0; 3 * POINTS];
     surface.eval_rows(&uv, 0, &mut values);
-    let mut lower = 0;
     for (k, point) in points.iter().enumerate() {
         assert!(surface.domain().contains(uv[k]));
         // the distance is that of the place returned; a value is a sum of 16 terms of the surface's size
@@ -146,10 +146,7 @@ fn check(name: &str, surface: &dyn Surface) {
         assert!((distance - distances[k]).abs() <= tol, "{name} {k}: {distance} is not {}", distances[k]);
         let reference = refine(surface, *point, sampling.nearest(*point));
         assert!(distances[k] <= reference + 1e-9 * diagonal, "{name} {k}: {} > {reference}", distances[k]);
-        lower += usize::from(distances[k] < reference - 1e-9 * diagonal);
     }
-    // a lower minimum than the sampling's basin is rare: two basins nearly equally near
-    assert!(lower < POINTS / 100, "{name}: the reference was undercut {lower} times");
 }
 
 fn net(counts: [usize; 2], place: impl Fn(f64, f64) -> DVec3) -> TensorSurface {

@@ -129,11 +129,14 @@ impl Projector {
         };
         let cells = surface_cells(patches);
         let dim = surface.dim();
-        let mut bounds = Bounds::of_rows(&[], dim);
-        for (cell, _) in &cells {
-            let cell = cell.bounds();
-            bounds = Bounds::of_rows(&[bounds.min, bounds.max, cell.min, cell.max].concat(), dim);
-        }
+        let corners: Vec<f64> = cells
+            .iter()
+            .flat_map(|(cell, _)| {
+                let Bounds { min, max } = cell.bounds();
+                min.into_iter().chain(max)
+            })
+            .collect();
+        let bounds = Bounds::of_rows(&corners, dim);
         let largest = bounds.min.iter().chain(&bounds.max).fold(0.0, |most: f64, x| most.max(x.abs()));
         let trims = surface.region().trims.clone();
         Ok(Self {
