@@ -7,6 +7,7 @@
 use crate::control::Cancelled;
 use crate::curve::CurveError;
 use crate::export::ExportError;
+use crate::export::native::LoadError;
 use crate::fit::tessellation::FitError;
 use crate::knots::KnotError;
 use crate::mesh::{CutError, MeshError, ReadError};
@@ -88,6 +89,9 @@ pub enum Error {
     /// A file cannot be written.
     #[error(transparent)]
     Export(#[from] ExportError),
+    /// A saved surface cannot be loaded.
+    #[error(transparent)]
+    Load(#[from] LoadError),
     /// A trim is not one.
     #[error(transparent)]
     Trim(#[from] TrimError),
@@ -123,6 +127,7 @@ impl Error {
             Self::Project(error) => (error.kind(), error.index()),
             Self::Tessellate(error) => (error.kind(), None),
             Self::Export(error) => (error.kind(), None),
+            Self::Load(error) => (error.kind(), error.index()),
             Self::Trim(error) => (error.kind(), error.index()),
             Self::Cut(error) => (error.kind(), error.index()),
             Self::Cancelled(_) => (ErrorKind::Cancelled, None),

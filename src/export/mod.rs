@@ -1,7 +1,9 @@
 //! Files for other programs.
 
 mod error;
+pub mod native;
 pub mod obj;
+pub mod picture;
 pub mod vtk;
 
 pub use error::ExportError;

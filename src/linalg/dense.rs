@@ -17,6 +17,13 @@ const BLOCK: usize = 16;
 /// Below this many multiplications plain loops beat the set-up of a block product.
 const SMALL_PRODUCT: usize = 512;
 
+/// Runs the loops in `work` with the vector instructions that the processor has. They neither fuse
+/// nor reorder operations, so the bits stay the same on all of them.
+#[inline(always)]
+pub(super) fn vectorized<R>(work: impl FnOnce() -> R) -> R {
+    pulp::Arch::new().dispatch(work)
+}
+
 /// Factors the pivots' columns in place; `Err` has the first pivot that is zero or not finite.
 pub(super) fn factor_columns(
     lower: &mut [f64],
@@ -27,8 +34,11 @@ pub(super) fn factor_columns(
     let height = size - width;
     for start in (0..width).step_by(BLOCK) {
         let end = (start + BLOCK).min(width);
-        factor_lower_block(lower, size, start..end)?;
-        sweep_upper_block(lower, upper, size, height, start..end);
+        vectorized(|| {
+            factor_lower_block(lower, size, start..end)?;
+            sweep_upper_block(lower, upper, size, height, start..end);
+            Ok::<(), usize>(())
+        })?;
         if end < width {
             update_later_columns(lower, upper, size, width, start..end);
         }
@@ -36,6 +46,7 @@ pub(super) fn factor_columns(
     Ok(())
 }
 
+#[inline(always)]
 fn factor_lower_block(lower: &mut [f64], size: usize, block: Range<usize>) -> Result<(), usize> {
     for k in block.clone() {
         let (done, later) = lower.split_at_mut((k + 1) * size);
@@ -55,6 +66,7 @@ fn factor_lower_block(lower: &mut [f64], size: usize, block: Range<usize>) -> Re
 }
 
 /// Eliminates the block's rows from U right of the pivots.
+#[inline(always)]
 fn sweep_upper_block(lower: &[f64], upper: &mut [f64], size: usize, height: usize, block: Range<usize>) {
     for k in block.clone() {
         let (done, later) = upper.split_at_mut((k + 1) * height);
@@ -94,14 +106,15 @@ fn update_later_columns(
 pub(super) fn subtract_product(update: &mut [f64], lower: &[f64], upper: &[f64], size: usize, width: usize) {
     let height = size - width;
     if height * height * width <= SMALL_PRODUCT {
-        for k in 0..width {
-            let left = &lower[k * size + width..(k + 1) * size];
-            let right = &upper[k * height..(k + 1) * height];
-            for (column, &factor) in update.chunks_exact_mut(height.max(1)).zip(right) {
-                subtract_scaled(column, left, factor);
+        return vectorized(|| {
+            for k in 0..width {
+                let left = &lower[k * size + width..(k + 1) * size];
+                let right = &upper[k * height..(k + 1) * height];
+                for (column, &factor) in update.chunks_exact_mut(height.max(1)).zip(right) {
+                    subtract_scaled(column, left, factor);
+                }
             }
-        }
-        return;
+        });
     }
     let left = MatRef::from_column_major_slice(lower, size, width).subrows(width, height);
     let right = MatRef::from_column_major_slice(upper, height, width).transpose();

@@ -14,11 +14,13 @@
 //! Independent subtrees are factored in parallel. Updates are added in the order of the children,
 //! so the bits of the result do not depend on the number of threads.
 
-use super::dense::{factor_columns, subtract_product};
+use super::dense::{factor_columns, subtract_product, vectorized};
 use super::elimination::{EliminationTree, Supernode};
 use super::ordering::{Graph, fill_reducing_order};
 use crate::error::ErrorKind;
+use rayon::prelude::*;
 use sprs::CsMatView;
+use std::ops::Range;
 
 /// A matrix cannot be factored.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -45,6 +47,12 @@ pub enum LuError {
         /// Entries of the matrix.
         found: usize,
     },
+    /// A dense front has more entries than can be numbered.
+    #[error("elimination leads to a dense block of {size} rows, too large to be stored")]
+    TooLarge {
+        /// Rows of the block.
+        size: usize,
+    },
     /// A pivot vanished: the matrix is singular (or not of the kind that needs no pivoting).
     #[error("the matrix is singular at row {row}")]
     Singular {
@@ -60,6 +68,7 @@ impl LuError {
             Self::NotSquare { .. } | Self::PatternNotSymmetric { .. } | Self::OtherPattern { .. } => {
                 ErrorKind::InvalidArgument
             }
+            Self::TooLarge { .. } => ErrorKind::TooLarge,
             Self::Singular { .. } => ErrorKind::Singular,
         }
     }
@@ -111,13 +120,17 @@ impl SymbolicLu {
         let mirror = mirror_entries(&matrix)?;
         let graph = off_diagonal_graph(&matrix);
         let tree = EliminationTree::new(&graph, &fill_reducing_order(&graph));
-        let parent_places = parent_places(&tree);
-        let (slots, slot_starts) = place_entries(&matrix, &mirror, &tree);
         let mut panel_starts = vec![0];
         for supernode in &tree.supernodes {
-            let length = (supernode.front_size() + supernode.rows.len()) * supernode.columns.len();
+            let size = supernode.front_size();
+            let length = (size + supernode.rows.len()) * supernode.columns.len();
+            if length > u32::MAX as usize {
+                return Err(LuError::TooLarge { size });
+            }
             panel_starts.push(panel_starts[panel_starts.len() - 1] + length);
         }
+        let (parent_places, (slots, slot_starts)) =
+            rayon::join(|| parent_places(&tree), || place_entries(&matrix, &mirror, &tree));
         let total: f64 = tree.supernodes.iter().filter(|s| s.parent.is_none()).map(|s| s.work).sum();
         let split_work = LEAST_SPLIT_WORK.max(SPLIT_SHARE * total);
         let entry_count = matrix.nnz();
@@ -217,6 +230,23 @@ impl SymbolicLu {
         Ok(stack)
     }
 
+    /// The heavy subtrees below the lowest supernode that has all the heavy work below it, and the
+    /// supernode after them. They begin with the first descendant of `root`; there may be none.
+    fn branches(&self, root: usize) -> (Vec<usize>, usize) {
+        let mut node = root;
+        loop {
+            let children = &self.tree.children[node];
+            let is_heavy = |&&child: &&u32| self.tree.supernodes[child as usize].work >= self.split_work;
+            let heavy: Vec<usize> =
+                children.iter().take_while(is_heavy).map(|&child| child as usize).collect();
+            match heavy[..] {
+                [only] => node = only,
+                [.., last] => return (heavy, last + 1),
+                [] => return (heavy, self.tree.supernodes[node].first_descendant),
+            }
+        }
+    }
+
     /// Assembles and factors one front; its children's updates, the top of the stack, make room
     /// for its own.
     fn factor_front(
@@ -256,7 +286,7 @@ impl SymbolicLu {
     }
 
     /// The longest the stack of updates gets while these supernodes are factored one by one.
-    fn stack_size(&self, done: &[usize], todo: std::ops::Range<usize>) -> usize {
+    fn stack_size(&self, done: &[usize], todo: Range<usize>) -> usize {
         let square = |s: usize| self.tree.supernodes[s].rows.len().pow(2);
         let mut size: usize = done.iter().map(|&s| square(s)).sum();
         let mut largest = size;
@@ -273,73 +303,122 @@ impl SymbolicLu {
     }
 
     /// Solves in place for `K` right-hand sides, stored row by row.
+    ///
+    /// Heavy subtrees are swept in parallel, on the rayon pool the call is made in.
     pub fn solve_in_place<const K: usize>(&self, numeric: &NumericLu, x: &mut [[f64; K]]) {
         debug_assert_eq!(x.len(), self.size());
         let mut permuted: Vec<[f64; K]> = self.tree.order.iter().map(|&node| x[node as usize]).collect();
-        let mut below = Vec::new();
-        for s in 0..self.tree.supernodes.len() {
-            self.substitute_forward(s, numeric, &mut permuted, &mut below);
+        let count = self.tree.supernodes.len();
+        // a forest of several roots is swept in one go
+        let root = (0..count).next_back().filter(|&s| self.tree.supernodes[s].first_descendant == 0);
+        let (branches, rest) = root.map_or((Vec::new(), 0), |root| self.branches(root));
+
+        let beyond = self.sweep_branches(&branches, &mut permuted, |branch, span| {
+            self.substitute_forward(self.tree.supernodes[branch].first_descendant..branch + 1, numeric, span);
+        });
+        for (&branch, changes) in branches.iter().zip(&beyond) {
+            let rows = &self.tree.rows[self.tree.supernodes[branch].rows.clone()];
+            rows.iter().zip(changes).for_each(|(&row, change)| add(&mut permuted[row as usize], change));
         }
-        for s in (0..self.tree.supernodes.len()).rev() {
-            self.substitute_backward(s, numeric, &mut permuted, &mut below);
-        }
+        let mut whole = Span { start: 0, inside: &mut permuted, rows: &[], beyond: Vec::new() };
+        self.substitute_forward(rest..count, numeric, &mut whole);
+        self.substitute_backward(rest..count, numeric, &mut whole);
+        let known = permuted.clone();
+        self.sweep_branches(&branches, &mut permuted, |branch, span| {
+            span.beyond.iter_mut().zip(span.rows).for_each(|(value, &row)| *value = known[row as usize]);
+            self.substitute_backward(
+                self.tree.supernodes[branch].first_descendant..branch + 1,
+                numeric,
+                span,
+            );
+        });
         for (&node, &value) in self.tree.order.iter().zip(&permuted) {
             x[node as usize] = value;
         }
     }
 
-    /// x1 <- inv(L11) x1, x2 <- x2 - L21 x1.
-    fn substitute_forward<const K: usize>(
+    /// Gives each branch its unknowns; returns what each left beyond them.
+    fn sweep_branches<const K: usize>(
         &self,
-        s: usize,
-        numeric: &NumericLu,
+        branches: &[usize],
         x: &mut [[f64; K]],
-        below: &mut Vec<[f64; K]>,
-    ) {
-        let supernode = &self.tree.supernodes[s];
-        let (size, width) = (supernode.front_size(), supernode.columns.len());
-        let lower = &numeric.panels[self.panel_starts[s]..][..size * width];
-        below.clear();
-        below.resize(supernode.rows.len(), [0.0; K]);
-        let pivots = &mut x[supernode.columns.clone()];
-        for (k, column) in lower.chunks_exact(size).enumerate() {
-            let value = pivots[k];
-            subtract_rows(&mut pivots[k + 1..], &column[k + 1..width], value);
-            subtract_rows(below, &column[width..], value);
+        sweep: impl Fn(usize, &mut Span<K>) + Sync,
+    ) -> Vec<Vec<[f64; K]>> {
+        let mut spans = Vec::with_capacity(branches.len());
+        let (mut start, mut left) = (0, x);
+        for &branch in branches {
+            let supernode = &self.tree.supernodes[branch];
+            let (inside, others) = left.split_at_mut(supernode.columns.end - start);
+            let rows = &self.tree.rows[supernode.rows.clone()];
+            spans.push((branch, Span { start, inside, rows, beyond: vec![[0.0; K]; rows.len()] }));
+            (start, left) = (supernode.columns.end, others);
         }
-        for (&row, change) in self.tree.rows[supernode.rows.clone()].iter().zip(&*below) {
-            add(&mut x[row as usize], change);
-        }
+        let swept = spans.into_par_iter().map(|(branch, mut span)| {
+            sweep(branch, &mut span);
+            span.beyond
+        });
+        swept.collect()
     }
 
-    /// x1 <- inv(U11) (x1 - U12 x2).
+    /// For each supernode x1 <- inv(L11) x1, x2 <- x2 - L21 x1.
+    fn substitute_forward<const K: usize>(
+        &self,
+        supernodes: Range<usize>,
+        numeric: &NumericLu,
+        x: &mut Span<K>,
+    ) {
+        vectorized(|| {
+            let mut below = Vec::new();
+            for s in supernodes {
+                let supernode = &self.tree.supernodes[s];
+                let (size, width) = (supernode.front_size(), supernode.columns.len());
+                let lower = &numeric.panels[self.panel_starts[s]..][..size * width];
+                below.clear();
+                below.resize(supernode.rows.len(), [0.0; K]);
+                let pivots = x.pivots(&supernode.columns);
+                for (k, column) in lower.chunks_exact(size).enumerate() {
+                    let value = pivots[k];
+                    subtract_rows(&mut pivots[k + 1..], &column[k + 1..width], value);
+                    subtract_rows(&mut below, &column[width..], value);
+                }
+                for (&row, change) in self.tree.rows[supernode.rows.clone()].iter().zip(&below) {
+                    add(x.row(row), change);
+                }
+            }
+        });
+    }
+
+    /// For each supernode, last first, x1 <- inv(U11) (x1 - U12 x2).
     fn substitute_backward<const K: usize>(
         &self,
-        s: usize,
+        supernodes: Range<usize>,
         numeric: &NumericLu,
-        x: &mut [[f64; K]],
-        below: &mut Vec<[f64; K]>,
+        x: &mut Span<K>,
     ) {
-        let supernode = &self.tree.supernodes[s];
-        let (size, width, height) = (supernode.front_size(), supernode.columns.len(), supernode.rows.len());
-        let panel = &numeric.panels[self.panel_starts[s]..self.panel_starts[s + 1]];
-        let (lower, upper) = panel.split_at(size * width);
-        below.clear();
-        below.extend(self.tree.rows[supernode.rows.clone()].iter().map(|&row| x[row as usize]));
-        let pivots = &mut x[supernode.columns.clone()];
-        for k in 0..width {
-            let right = &upper[k * height..(k + 1) * height];
-            let mut sum = [0.0; K];
-            for (&factor, value) in right.iter().zip(&*below) {
-                (0..K).for_each(|i| sum[i] -= factor * value[i]);
+        vectorized(|| {
+            let mut below = Vec::new();
+            for s in supernodes.rev() {
+                let supernode = &self.tree.supernodes[s];
+                let (size, width) = (supernode.front_size(), supernode.columns.len());
+                let panel = &numeric.panels[self.panel_starts[s]..self.panel_starts[s + 1]];
+                let (lower, upper) = panel.split_at(size * width);
+                below.clear();
+                below.extend(self.tree.rows[supernode.rows.clone()].iter().map(|&row| *x.row(row)));
+                let pivots = x.pivots(&supernode.columns);
+                for (pivot, right) in pivots.iter_mut().zip(upper.chunks_exact(below.len().max(1))) {
+                    let mut sum = [0.0; K];
+                    for (&factor, value) in right.iter().zip(&below) {
+                        (0..K).for_each(|i| sum[i] -= factor * value[i]);
+                    }
+                    add(pivot, &sum);
+                }
+                for (k, column) in lower.chunks_exact(size).enumerate().rev() {
+                    pivots[k].iter_mut().for_each(|x| *x /= column[k]);
+                    let value = pivots[k];
+                    subtract_rows(&mut pivots[..k], &column[..k], value);
+                }
             }
-            add(&mut pivots[k], &sum);
-        }
-        for (k, column) in lower.chunks_exact(size).enumerate().rev() {
-            pivots[k].iter_mut().for_each(|x| *x /= column[k]);
-            let value = pivots[k];
-            subtract_rows(&mut pivots[..k], &column[..k], value);
-        }
+        });
     }
 
     /// Solves `matrix x = rhs` with one step of iterative refinement, which keeps small
@@ -361,6 +440,30 @@ impl SymbolicLu {
         self.solve_in_place(numeric, &mut residual);
         x.iter_mut().zip(&residual).for_each(|(x, change)| add(x, change));
         x
+    }
+}
+
+/// A contiguous part of the unknowns, with copies of the rows after it that its pivots touch.
+struct Span<'x, const K: usize> {
+    start: usize,
+    inside: &'x mut [[f64; K]],
+    /// Ascending.
+    rows: &'x [u32],
+    beyond: Vec<[f64; K]>,
+}
+
+impl<const K: usize> Span<'_, K> {
+    #[inline(always)]
+    fn pivots(&mut self, columns: &Range<usize>) -> &mut [[f64; K]] {
+        &mut self.inside[columns.start - self.start..columns.end - self.start]
+    }
+
+    #[inline(always)]
+    fn row(&mut self, row: u32) -> &mut [f64; K] {
+        match row as usize - self.start {
+            place if place < self.inside.len() => &mut self.inside[place],
+            _ => &mut self.beyond[self.rows.partition_point(|&other| other < row)],
+        }
     }
 }
 

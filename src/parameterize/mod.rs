@@ -16,6 +16,7 @@
 
 mod border;
 mod error;
+mod isometric;
 mod options;
 mod patch;
 mod regularize;
@@ -150,11 +151,11 @@ pub fn parameterize_weighted(
     let mut best: Option<Map> = None;
     let count = lines.len() as f64;
     for (i, (line, uv)) in lines.into_iter().zip(first_maps).enumerate() {
+        let map = Map::new(&patch, line, first_weights.clone(), uv, node_weights, control);
         let mut stage = Stage { control: &mut *control, from: i as f64 / count, to: (i + 1) as f64 / count };
-        let map = Map::new(&patch, line, first_weights.clone(), uv, node_weights);
         let map = lower_stretch(map, &mut system, options, node_weights, &mut stage)?;
         best = Some(match best {
-            Some(best) if (best.folded, best.measure.l2) <= (map.folded, map.measure.l2) => best,
+            Some(best) if best.rank() <= map.rank() => best,
             _ => map,
         });
     }
@@ -162,10 +163,42 @@ pub fn parameterize_weighted(
     let mut report = best.report(mesh, system.factor_count);
     report.remarks.insert_if(Remarks::HOLES_FILLED, patch.points.len() > patch.mesh_node_count);
     report.remarks.insert_if(Remarks::ZERO_AREA, zero_area > 0);
-    report.seconds = start.elapsed().as_secs_f64();
     let mut uv = best.uv;
     uv.truncate(patch.mesh_node_count);
+    if options.border == Border::Free || (options.border == Border::Auto && options.unroll) {
+        let is_wanted = options.border == Border::Free;
+        let least_gain = if is_wanted { f64::NEG_INFINITY } else { LEAST_GAIN };
+        let has_unrolled = unroll(mesh, &mut uv, &mut report, least_gain, control);
+        if is_wanted && !has_unrolled {
+            return Err(ParameterizeError::CannotUnroll);
+        }
+    }
+    report.seconds = start.elapsed().as_secs_f64();
     Ok(Parameterization { uv, report })
+}
+
+/// Takes the unrolled map if there is one that lowers the stretch by this share, and says whether.
+fn unroll(
+    mesh: &Mesh,
+    uv: &mut Vec<DVec2>,
+    report: &mut ParameterizeReport,
+    least_gain: f64,
+    control: &Control,
+) -> bool {
+    let Some(unrolled) = isometric::unroll(mesh, uv, control.pool()) else { return false };
+    let measure = stretch(mesh.points(), mesh.triangles(), &unrolled);
+    let gain = 1.0 - measure.l2 / report.stretch.l2;
+    if !(gain >= least_gain) {
+        return false;
+    }
+    *uv = unrolled;
+    report.stretch = measure;
+    report.border = Border::Free;
+    report.border_slid = false;
+    (report.flipped_triangles, report.degenerate_triangles) = (0, 0);
+    report.remarks.0 &= !(Remarks::FOLDED.0 | Remarks::HIGH_STRETCH.0);
+    report.remarks.insert_if(Remarks::HIGH_STRETCH, measure.l2 > HIGH_STRETCH);
+    true
 }
 
 /// A map with what the next step starts from.
@@ -173,10 +206,7 @@ struct Map {
     line: BorderLine,
     weights: Vec<f64>,
     uv: Vec<DVec2>,
-    /// What steps work against: the triangles that can move, fans included.
     stretch: PatchStretch,
-    /// What counts in the end: the triangles of the mesh.
-    measure: StretchMeasure,
     /// Triangles of the mesh that are not counter-clockwise.
     folded: usize,
     steps: usize,
@@ -189,29 +219,34 @@ impl Map {
         weights: Vec<f64>,
         uv: Vec<DVec2>,
         node_weights: Option<&[f64]>,
+        control: &Control,
     ) -> Self {
-        let stretch = PatchStretch::new(patch, &uv, node_weights);
+        let stretch = PatchStretch::new(patch, &uv, node_weights, control);
         let triangles = &patch.triangles[..patch.mesh_triangle_count];
-        let measure = stretch::stretch(&patch.points, triangles, &uv);
         let is_folded = |t: &&[u32; 3]| triangle_orientation(&uv, t) != Orientation::Positive;
         let folded = triangles.iter().filter(is_folded).count();
-        Self { line, weights, uv, stretch, measure, folded, steps: 0 }
+        Self { line, weights, uv, stretch, folded, steps: 0 }
     }
 
     /// The stretch that steps lower.
     fn l2(&self) -> f64 {
-        self.stretch.measure.l2
+        self.stretch.movable_l2
+    }
+
+    /// What decides between borders.
+    fn rank(&self) -> (usize, f64) {
+        (self.folded, self.stretch.of_mesh.l2)
     }
 
     fn report(&self, mesh: &Mesh, solves: usize) -> ParameterizeReport {
         let (flipped_triangles, degenerate_triangles) = folds(mesh.triangles(), &self.uv);
         let mut remarks = Remarks::default();
         remarks.insert_if(Remarks::FOLDED, flipped_triangles + degenerate_triangles > 0);
-        remarks.insert_if(Remarks::HIGH_STRETCH, self.measure.l2 > HIGH_STRETCH);
+        remarks.insert_if(Remarks::HIGH_STRETCH, self.stretch.of_mesh.l2 > HIGH_STRETCH);
         ParameterizeReport {
             flipped_triangles,
             degenerate_triangles,
-            stretch: self.measure,
+            stretch: self.stretch.of_mesh,
             border: self.line.kind,
             border_slid: self.line.slide > 0.0,
             solves,
@@ -284,7 +319,7 @@ fn next_map(
     line.place(&mut uv);
     system.set_weights(weights.clone(), control)?;
     system.solve(&mut uv, control);
-    Ok(Map::new(patch, line, weights, uv, node_weights))
+    Ok(Map::new(patch, line, weights, uv, node_weights, control))
 }
 
 fn triangle_orientation(uv: &[DVec2], triangle: &[u32; 3]) -> Orientation {

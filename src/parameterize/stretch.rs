@@ -10,7 +10,9 @@
 //! E is the L2 stretch, max G sqrt(sum A2 / sum A3) the Linf stretch; both ignore scale.
 
 use super::patch::Patch;
+use crate::Control;
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 /// Triangles of less area in space than this share of the mean count as if they had it.
 const LEAST_AREA: f64 = 1e-12;
@@ -74,19 +76,20 @@ fn singular_values(x: DVec3, y: DVec3) -> (f64, f64) {
 /// Measures a map on all triangles; the sign of parameter areas does not matter here.
 pub fn stretch(points: &[DVec3], triangles: &[[u32; 3]], uv: &[DVec2]) -> StretchMeasure {
     let parts: Vec<TriangleStretch> = triangles.iter().map(|t| triangle_stretch(points, uv, t)).collect();
-    summed(&parts, |_| 1.0)
+    summed(parts.iter().map(|part| (part, 1.0)))
 }
 
 pub(super) fn triangle_stretch(points: &[DVec3], uv: &[DVec2], triangle: &[u32; 3]) -> TriangleStretch {
     TriangleStretch::new(triangle.map(|node| points[node as usize]), triangle.map(|node| uv[node as usize]))
 }
 
-fn summed(parts: &[TriangleStretch], weight_sq: impl Fn(usize) -> f64) -> StretchMeasure {
-    let floor = area_floor(parts);
+/// Sums triangles, each with the square of its weight.
+fn summed<'a>(parts: impl Iterator<Item = (&'a TriangleStretch, f64)> + Clone) -> StretchMeasure {
+    let floor = area_floor(parts.clone().map(|(part, _)| part));
     let (mut area, mut weighted_area, mut parameter_area, mut square) = (0.0, 0.0, 0.0, 0.0);
     let (mut largest, mut most, mut least) = (0.0_f64, 0.0_f64, f64::INFINITY);
-    for (i, part) in parts.iter().enumerate() {
-        let weight = weight_sq(i) * part.area.max(floor);
+    for (part, weight_sq) in parts {
+        let weight = weight_sq * part.area.max(floor);
         area += part.area;
         weighted_area += weight;
         parameter_area += part.parameter_area.abs();
@@ -103,40 +106,47 @@ fn summed(parts: &[TriangleStretch], weight_sq: impl Fn(usize) -> f64) -> Stretc
     }
 }
 
-fn area_floor(parts: &[TriangleStretch]) -> f64 {
-    LEAST_AREA * parts.iter().map(|part| part.area).sum::<f64>() / parts.len().max(1) as f64
+fn area_floor<'a>(parts: impl Iterator<Item = &'a TriangleStretch>) -> f64 {
+    let (sum, count) = parts.fold((0.0, 0_usize), |(sum, count), part| (sum + part.area, count + 1));
+    LEAST_AREA * sum / count.max(1) as f64
 }
 
-/// A patch's triangles that a map can change, with their stretch.
+/// A patch's triangles with their stretch under a map.
 pub(super) struct PatchStretch {
-    triangles: Vec<[u32; 3]>,
     parts: Vec<TriangleStretch>,
-    pub measure: StretchMeasure,
+    /// L2 stretch of the triangles that can move, fans included: what steps work against.
+    pub movable_l2: f64,
+    /// The stretch of the triangles of the mesh: what counts in the end.
+    pub of_mesh: StretchMeasure,
 }
 
 impl PatchStretch {
     /// `node_weights`: b of section 5; E is weighted by b^2.
-    pub fn new(patch: &Patch, uv: &[DVec2], node_weights: Option<&[f64]>) -> Self {
-        let triangles: Vec<[u32; 3]> =
-            patch.triangles.iter().copied().filter(|triangle| patch.is_movable(triangle)).collect();
-        let parts: Vec<TriangleStretch> =
-            triangles.iter().map(|triangle| triangle_stretch(&patch.points, uv, triangle)).collect();
-        let weight_sq = |i: usize| {
-            let square = |&node: &u32| node_weights.map_or(1.0, |b| weight_of(b, node).powi(2));
-            triangles[i].iter().map(square).sum::<f64>() / 3.0
+    pub fn new(patch: &Patch, uv: &[DVec2], node_weights: Option<&[f64]>, control: &Control) -> Self {
+        let part = |triangle| triangle_stretch(&patch.points, uv, triangle);
+        let parts: Vec<TriangleStretch> = control.run(|| patch.triangles.par_iter().map(part).collect());
+        let weight_sq = |triangle: &[u32; 3]| match node_weights {
+            Some(b) => triangle.iter().map(|&node| weight_of(b, node).powi(2)).sum::<f64>() / 3.0,
+            None => 1.0,
         };
-        let mut measure = summed(&parts, weight_sq);
-        if parts.iter().any(|part| !(part.parameter_area > 0.0)) {
-            measure.l2 = f64::INFINITY;
-        }
-        Self { triangles, parts, measure }
+        let movable = patch.triangles.iter().zip(&parts).filter(|(triangle, _)| patch.is_movable(triangle));
+        let collapsed = !movable.clone().all(|(_, part)| part.parameter_area > 0.0);
+        let movable_l2 = if collapsed {
+            f64::INFINITY
+        } else {
+            summed(movable.map(|(triangle, part)| (part, weight_sq(triangle)))).l2
+        };
+        let of_mesh = summed(parts[..patch.mesh_triangle_count].iter().map(|part| (part, 1.0)));
+        Self { parts, movable_l2, of_mesh }
     }
 
     /// The stretch of each node over its geometric mean, smoothed by `rings` sweeps.
     pub fn of_nodes(&self, patch: &Patch, node_weights: Option<&[f64]>, rings: usize) -> Vec<f64> {
-        let floor = area_floor(&self.parts);
+        let movable =
+            patch.triangles.iter().zip(&self.parts).filter(|(triangle, _)| patch.is_movable(triangle));
+        let floor = area_floor(movable.clone().map(|(_, part)| part));
         let mut sums = vec![(0.0, 0.0); patch.points.len()];
-        for (triangle, part) in self.triangles.iter().zip(&self.parts) {
+        for (triangle, part) in movable {
             let area = part.area.max(floor);
             for &node in triangle {
                 let (square, total) = &mut sums[node as usize];

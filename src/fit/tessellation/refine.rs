@@ -174,7 +174,7 @@ impl Problem<'_> {
         remarks.add_if(best.errors.max > tolerance, Remarks::TOLERANCE_NOT_MET);
         remarks.add_if(stop == StopReason::Stagnated, Remarks::STAGNATED);
         remarks.add_if(raised, Remarks::TOLERANCE_RAISED);
-        remarks.add_if(best.used_plate, Remarks::PLATE_ENERGY_USED);
+        remarks.add_if(self.energy != self.options.energy, Remarks::PLATE_ENERGY_USED);
         remarks.add_if(empty_cell_count > 0, Remarks::EMPTY_CELLS);
         remarks.add_if(interior.max_excess > tolerance, Remarks::ROUGH_BETWEEN_NODES);
         let [grid_u, grid_v] = best.counts();

@@ -2,13 +2,14 @@
 
 use super::grid::{Ends, UniformBasis, UniformGrid};
 use super::normal_equations::{NormalEquations, Samples, TensorBasis};
-use super::{Energy, FitError, Method, Problem, SMOOTHING_LADDER, ferguson};
+use super::{FitError, Method, Problem, SMOOTHING_LADDER, ferguson};
 use crate::control::{Pool, Watch};
 use crate::fit::errors::{DataErrors, data_errors};
 use crate::knots::KnotVector;
 use crate::linalg::SymbolicCholesky;
 use crate::surface::Surface;
 use crate::surface::tensor::TensorSurface;
+use std::borrow::Cow;
 
 /// A surface on some grid, measured.
 pub struct Candidate {
@@ -17,7 +18,6 @@ pub struct Candidate {
     pub errors: DataErrors,
     pub smoothing: f64,
     pub coefficient_count: usize,
-    pub used_plate: bool,
 }
 
 impl Candidate {
@@ -66,7 +66,6 @@ impl Problem<'_> {
             surface,
             smoothing,
             coefficient_count: counts[0] * counts[1],
-            used_plate: false,
         })
     }
 
@@ -84,13 +83,21 @@ impl Problem<'_> {
     }
 }
 
+/// Weight of a place inside a triangle against that of a node, as a multiple of the smoothing: well above the
+/// bending energy, which would let the surface swing, and so far below the nodes that it does not pull them.
+const INTERIOR_PER_SMOOTHING: f64 = 50.0;
+/// Its limit: places inside are estimates.
+const INTERIOR_MOST: f64 = 0.05;
+
 /// The normal equations of one grid, ready to be solved with any smoothing.
 struct LeastSquares<'a> {
     problem: &'a Problem<'a>,
     pool: &'a Pool,
     watch: &'a Watch,
     basis: TensorBasis,
-    equations: NormalEquations,
+    nodes: NormalEquations,
+    /// Of places inside large triangles.
+    interior: Option<NormalEquations>,
     symbolic: SymbolicCholesky,
 }
 
@@ -104,18 +111,17 @@ impl<'a> LeastSquares<'a> {
         let grid = problem.grid(counts);
         let [u, v] = grid.map(|grid| UniformBasis { grid, ends: problem.options.ends });
         let basis = TensorBasis { u, v };
-        let data = problem.fitted_data(&grid);
-        let samples = Samples {
-            uv: &data.uv,
-            values: &data.values,
-            dim: problem.dim,
-            weights: data.weights.as_deref(),
-        };
+        let (dim, values) = (problem.dim, problem.frame.inward(problem.values));
+        let nodes = Samples { uv: &problem.uv, values: &values, dim, weights: problem.options.weights };
         watch.check()?;
-        let equations = NormalEquations::assemble(basis, &samples, pool);
+        let nodes = NormalEquations::assemble(basis, &nodes, pool);
         watch.check()?;
-        let symbolic = equations.analyse();
-        Ok(Self { problem, pool, watch, basis, equations, symbolic })
+        let data = problem.interior_data(&grid, &values);
+        let interior = Samples { uv: &data.uv, values: &data.values, dim, weights: Some(&data.weights) };
+        let interior = (!data.uv.is_empty()).then(|| NormalEquations::assemble(basis, &interior, pool));
+        watch.check()?;
+        let symbolic = nodes.analyse();
+        Ok(Self { problem, pool, watch, basis, nodes, interior, symbolic })
     }
 
     /// The calmest fit that meets the tolerance, or the closest one if none does.
@@ -147,16 +153,14 @@ impl<'a> LeastSquares<'a> {
     fn fit(&self, smoothing: f64) -> Result<Candidate, FitError> {
         let problem = self.problem;
         self.watch.check()?;
-        let energy = problem.options.energy;
-        let (unknowns, used_plate) = match self.equations.solve(&self.symbolic, smoothing, energy) {
-            Ok(unknowns) => (unknowns, false),
-            // a + bu + cv + duv may vanish at all data; the plate leaves only a + bu + cv free
-            Err(_) if energy == Energy::Beam => {
-                let plate = self.equations.solve(&self.symbolic, smoothing, Energy::Plate);
-                (plate.map_err(|_| FitError::Singular)?, true)
+        let equations = match &self.interior {
+            None => Cow::Borrowed(&self.nodes),
+            Some(interior) => {
+                Cow::Owned(self.nodes.plus(interior, (INTERIOR_PER_SMOOTHING * smoothing).min(INTERIOR_MOST)))
             }
-            Err(_) => return Err(FitError::Singular),
         };
+        let solved = equations.solve(&self.symbolic, smoothing, problem.energy);
+        let unknowns = solved.map_err(|_| FitError::Singular)?;
         self.watch.check()?;
         let grid = [self.basis.u.grid, self.basis.v.grid];
         let mut control_points = control_points(&self.basis, &unknowns, problem.dim);
@@ -168,7 +172,6 @@ impl<'a> LeastSquares<'a> {
             surface,
             smoothing,
             coefficient_count: self.basis.len(),
-            used_plate,
         })
     }
 }
