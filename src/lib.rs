@@ -7,6 +7,8 @@
 //! * [`linalg`]: banded and sparse systems.
 //! * [`mesh`]: triangle meshes, their topology and files.
 //! * [`parameterize`]: where a mesh gets its (u,v) from.
+//! * [`surface`]: what every surface can do, and the families.
+//! * [`query`]: tessellation, closest points, deviation; fits measure themselves with it.
 
 #![deny(unsafe_code)]
 
@@ -25,6 +27,7 @@ pub mod mesh;
 pub mod parameterize;
 pub mod query;
 pub mod samples;
+pub mod summary;
 pub mod surface;
 
 pub use control::Control;

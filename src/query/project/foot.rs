@@ -88,11 +88,14 @@ fn constrained_step(form: &Form, here: &Local, at: [f64; 2], damping: f64) -> [f
 fn boxed_step(here: &Local, [a, b, c]: [f64; 3], at: [f64; 2]) -> [f64; 2] {
     let [p, q] = here.slope;
     let determinant = a * c - b * b;
+    let clip = |k: usize, step: f64| step.clamp(-at[k], 1.0 - at[k]);
     if !(determinant > 1e-14 * a * c) {
-        return [single_step(p, a), single_step(q, c)];
+        // parallel tangents: down the slope to the minimum of the model along it
+        let curvature = (a * p + 2.0 * b * q) * p + c * q * q;
+        let length = if curvature > 0.0 { (p * p + q * q) / curvature } else { 1.0 };
+        return [clip(0, -length * p), clip(1, -length * q)];
     }
     let mut step = [(b * q - c * p) / determinant, (b * p - a * q) / determinant];
-    let clip = |k: usize, step: f64| step.clamp(-at[k], 1.0 - at[k]);
     // beyond a side the other parameter's best place moves with the one that is held
     let excess = [0, 1].map(|k| (step[k] - clip(k, step[k])).abs());
     if excess[0] > 0.0 && excess[0] >= excess[1] {
