@@ -124,5 +124,6 @@ set_target_properties(
   Planish::planish_static
   PROPERTIES IMPORTED_LOCATION "${PLANISH_LIB_DIR}/${PLANISH_STATIC_FILE}"
              INTERFACE_INCLUDE_DIRECTORIES "${PLANISH_INCLUDE_DIR}"
+             INTERFACE_COMPILE_DEFINITIONS PLANISH_STATIC
              INTERFACE_LINK_LIBRARIES "${PLANISH_SYSTEM_LIBS}")
 add_dependencies(Planish::planish_static planish_cargo)

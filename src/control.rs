@@ -1,6 +1,7 @@
 //! How a long call runs: on how many threads, and who hears of its progress.
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::cell::Cell;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -48,10 +49,20 @@ impl Pool {
         self.threads.get_or_init(|| {
             ThreadPoolBuilder::new()
                 .num_threads(self.thread_count)
+                .start_handler(|_| IS_POOL_THREAD.set(true))
                 .build()
                 .expect("the system has a thread for each core it reports")
         })
     }
+}
+
+thread_local! {
+    static IS_POOL_THREAD: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Whether this thread belongs to a [`Pool`]: a panic here is passed on to the thread that waits for the work.
+pub fn is_pool_thread() -> bool {
+    IS_POOL_THREAD.try_with(Cell::get).unwrap_or(false)
 }
 
 /// How a long call runs: a pool of threads, and a listener that is told on the thread that called.

@@ -7,6 +7,7 @@
 //! * [`linalg`]: banded and sparse systems.
 //! * [`mesh`]: triangle meshes, their topology and files.
 //! * [`parameterize`]: where a mesh gets its (u,v) from.
+//! * [`ffi`]: the C ABI, documented in `include/planish.h`.
 
 #![deny(unsafe_code)]
 
@@ -15,6 +16,8 @@ pub mod control;
 pub mod curve;
 pub mod error;
 pub mod export;
+#[allow(unsafe_code, reason = "the border to C; nothing else may be unsafe")]
+pub mod ffi;
 pub mod fit;
 pub mod geometry;
 pub mod hermite;
