@@ -4,6 +4,7 @@
 //! same bits on every machine.
 
 use crate::mesh::{Mesh, MeshError};
+use crate::surface::{Domain, Trims};
 use glam::{DVec2, DVec3};
 use spade::{DelaunayTriangulation, Point2, Triangulation};
 use std::f64::consts::PI;
@@ -160,42 +161,44 @@ pub fn wing() -> Result<Mesh, MeshError> {
 
 /// A cap of the unit sphere with three round holes over stereographic parameters, about `count` nodes.
 pub fn sphere_with_holes(count: usize, seed: u64) -> Result<Mesh, MeshError> {
-    const HOLES: [(f64, f64, f64); 3] = [(-0.35, 0.2, 0.16), (0.3, -0.25, 0.2), (0.25, 0.4, 0.1)];
-    const RIM: (f64, f64, f64) = (0.0, 0.0, 0.9);
-    let spacing = (4.0 * RIM.2 * RIM.2 * 0.8 / count as f64).sqrt();
-    let mut random = Random::new(seed);
-    let away = |p: DVec2, (x, y, _): (f64, f64, f64)| p.distance(DVec2::new(x, y));
-    let mut places = Vec::new();
-    let lines = (2.0 / spacing) as usize;
-    for i in 0..=lines {
-        for j in 0..=(lines as f64 * 2.0 / 3.0_f64.sqrt()) as usize {
-            let offset = if j % 2 == 1 { spacing / 2.0 } else { 0.0 };
-            let regular =
-                DVec2::new(i as f64 * spacing + offset, j as f64 * spacing * 3.0_f64.sqrt() / 2.0) - 1.0;
-            let p = regular + 0.15 * spacing * DVec2::new(random.signed(), random.signed());
-            let is_free = HOLES.iter().all(|&hole| away(p, hole) > hole.2 + 0.6 * spacing);
-            if is_free && away(p, RIM) < RIM.2 - 0.6 * spacing {
-                places.push(p);
-            }
-        }
-    }
-    for (x, y, radius) in HOLES.into_iter().chain([RIM]) {
+    const CIRCLES: [(f64, f64, f64); 4] =
+        [(0.0, 0.0, 0.9), (-0.35, 0.2, 0.16), (0.3, -0.25, 0.2), (0.25, 0.4, 0.1)];
+    let spacing = (4.0 * CIRCLES[0].2 * CIRCLES[0].2 * 0.8 / count as f64).sqrt();
+    let circle = |(x, y, radius): (f64, f64, f64)| {
         let count = ((2.0 * PI * radius / spacing) as usize).max(8);
-        places.extend(
-            (0..count)
-                .map(|k| DVec2::new(x, y) + radius * DVec2::from_angle(2.0 * PI * k as f64 / count as f64)),
-        );
-    }
-    let keep =
-        |middle: DVec2| away(middle, RIM) < RIM.2 && HOLES.iter().all(|&hole| away(middle, hole) > hole.2);
-    let triangles = delaunay(&places, spacing)
-        .into_iter()
-        .filter(|triangle| keep(triangle.iter().map(|&n| places[n as usize]).sum::<DVec2>() / 3.0));
-    let triangles = triangles.collect();
-    mesh_over((places, triangles), |p| {
+        let place = move |k: usize| DVec2::from_angle(2.0 * PI * k as f64 / count as f64);
+        (0..count).map(|k| DVec2::new(x, y) + radius * place(k)).collect()
+    };
+    mesh_over(outlined(&CIRCLES.map(circle), spacing, seed), |p| {
         let d = 1.0 + p.length_squared();
         (DVec3::new(2.0 * p.x, 2.0 * p.y, 2.0 - d) / d, p)
     })
+}
+
+/// A triangulation between outlines, the outer one first: the outlines' corners, and inside nodes of a jittered
+/// hexagonal pattern `spacing` apart.
+fn outlined(outlines: &[Vec<DVec2>], spacing: f64, seed: u64) -> (Vec<DVec2>, Vec<[u32; 3]>) {
+    let domain = Domain::around(outlines[0].iter().copied());
+    let Ok(inside) = Trims::new(outlines.to_vec(), &domain) else { return Default::default() };
+    let mut random = Random::new(seed);
+    let mut places = Vec::new();
+    let row_height = spacing * 3.0_f64.sqrt() / 2.0;
+    let size = domain.size();
+    for i in 0..=(size.x / spacing) as usize {
+        for j in 0..=(size.y / row_height) as usize {
+            let offset = if j % 2 == 1 { spacing / 2.0 } else { 0.0 };
+            let regular = domain.min + DVec2::new(i as f64 * spacing + offset, j as f64 * row_height);
+            let place = regular + 0.15 * spacing * DVec2::new(random.signed(), random.signed());
+            let is_free = |q: &DVec2| q.distance(place) > 0.6 * spacing;
+            if inside.contains(place) && outlines.iter().flatten().all(is_free) {
+                places.push(place);
+            }
+        }
+    }
+    places.extend(outlines.iter().flatten());
+    let middle = |t: &[u32; 3]| t.iter().map(|&n| places[n as usize]).sum::<DVec2>() / 3.0;
+    let triangles = delaunay(&places, spacing).into_iter().filter(|t| inside.contains(middle(t))).collect();
+    (places, triangles)
 }
 
 /// Delaunay triangles of places about `spacing` apart, without flat ones.
@@ -214,26 +217,51 @@ fn delaunay(places: &[DVec2], spacing: f64) -> Vec<[u32; 3]> {
 }
 
 /// A panel of a fuselage: double curvature, a notch for a door and three windows with round corners; no
-/// parameters. 5,800 nodes.
+/// parameters. About 6,000 nodes.
 pub fn fuselage_panel(seed: u64) -> Result<Mesh, MeshError> {
     const LENGTH: f64 = 6.0;
-    const ANGLE: f64 = 2.0;
-    let keep = |place: DVec2| {
-        let (x, y) = (LENGTH * place.x, place.y);
-        let notch = (x - 4.9).abs() < 0.45 && y < 0.42;
-        let window = |center: f64| {
-            // a superellipse: straight sides, round corners
-            ((x - center) / 0.34).abs().powi(4) + ((y - 0.56) / 0.13).abs().powi(4) < 1.0
+    const HEIGHT: f64 = 3.8;
+    const SPACING: f64 = 0.062;
+    let corners = [(0.0, 0.0), (4.4, 0.0), (4.4, 1.5), (5.3, 1.5), (5.3, 0.0), (LENGTH, 0.0)];
+    let outer = corners.into_iter().chain([(LENGTH, HEIGHT), (0.0, HEIGHT)]);
+    let outer: Vec<DVec2> = outer.map(|(x, y)| DVec2::new(x, y)).collect();
+    // superellipses of fourth degree: straight sides, round corners
+    let window = |center: DVec2| -> Vec<DVec2> {
+        let at = |angle: f64| {
+            let (sin, cos) = angle.sin_cos();
+            center
+                + DVec2::new(0.32 * cos.signum() * cos.abs().sqrt(), 0.46 * sin.signum() * sin.abs().sqrt())
         };
-        !(notch || window(1.0) || window(2.2) || window(3.4))
+        (0..720).map(|k| at(2.0 * PI * f64::from(k) / 720.0)).collect()
     };
-    let mut mesh = mesh_over(grid([100, 66], 0.2, seed, keep), |place| {
-        let (x, angle) = (LENGTH * place.x, ANGLE * (place.y - 0.5));
-        let radius = 1.9 - 0.05 * (x - 2.0).powi(2) / 4.0;
-        (DVec3::new(x, radius * angle.sin(), radius * angle.cos()), place)
+    let windows = [1.0, 2.2, 3.4].map(|x| window(DVec2::new(x, 2.1)));
+    let outlines: Vec<Vec<DVec2>> =
+        [outer].into_iter().chain(windows).map(|outline| even(&outline, SPACING)).collect();
+    let mut mesh = mesh_over(outlined(&outlines, SPACING, seed), |place| {
+        let radius = 1.95 - 0.012 * (place.x - 2.0).powi(2);
+        let angle = (place.y - HEIGHT / 2.0) / 1.95;
+        (DVec3::new(place.x, radius * angle.sin(), radius * angle.cos()), place)
     })?;
     mesh.clear_parameters();
     Ok(mesh)
+}
+
+/// Points about `spacing` apart along a closed outline; sharp corners are kept.
+fn even(outline: &[DVec2], spacing: f64) -> Vec<DVec2> {
+    let (mut points, mut left) = (Vec::new(), 0.0);
+    for (k, &a) in outline.iter().enumerate() {
+        let b = outline[(k + 1) % outline.len()];
+        let length = a.distance(b);
+        if length > spacing {
+            let count = (length / spacing).round();
+            points.extend((0..count as usize).map(|k| a.lerp(b, k as f64 / count)));
+        } else if left <= 0.0 {
+            points.push(a);
+            left += spacing;
+        }
+        left -= length.min(spacing);
+    }
+    points
 }
 
 /// A graph over the unit square: `bumps` Gaussian hills and dales of random place, height and width. Returns the

@@ -8,7 +8,7 @@ use glam::{DMat3, DVec2, DVec3};
 
 /// Colours of a scale from its low to its high end, dark blue over green to yellow and red.
 const SCALE: [[f64; 3]; 6] = [
-    [0.15, 0.18, 0.45],
+    [0.22, 0.30, 0.62],
     [0.12, 0.42, 0.65],
     [0.16, 0.66, 0.55],
     [0.62, 0.80, 0.28],
@@ -234,7 +234,7 @@ impl Picture {
 fn shade(normal: DVec3, share: f64) -> [f64; 3] {
     let light = DVec3::new(-0.35, 0.45, 0.82);
     let facing = if normal.z < 0.0 { -normal } else { normal };
-    let brightness = 0.35 + 0.65 * facing.normalize_or_zero().dot(light.normalize()).max(0.0);
+    let brightness = 0.5 + 0.5 * facing.normalize_or_zero().dot(light.normalize()).max(0.0);
     let color = if share.is_nan() { PLAIN } else { scale_color(share) };
     color.map(|c| c * brightness)
 }

@@ -53,13 +53,15 @@ pub(super) fn candidates(
         slide,
     };
     let slide = options.boundary_slide;
-    if !matches!(options.border, Border::Auto | Border::Circle | Border::Kept) && nodes.len() < 4 {
+    if !matches!(options.border, Border::Auto | Border::Circle | Border::Free | Border::Kept)
+        && nodes.len() < 4
+    {
         return Err(ParameterizeError::ShortBorder { count: nodes.len() });
     }
     let turns = || Some(corners_by_turns(&points, &lengths));
     let arcs = || Some(corners_by_arc(&lengths));
     Ok(match options.border {
-        Border::Auto => {
+        Border::Auto | Border::Free => {
             let mut lines = vec![line(Border::Circle, None, 0.0)];
             if nodes.len() >= 4 {
                 lines.push(line(Border::SquareByTurns, turns(), 0.0));

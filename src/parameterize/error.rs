@@ -54,6 +54,9 @@ pub enum ParameterizeError {
         /// The node.
         node: usize,
     },
+    /// The unrolled map folds or overlaps itself.
+    #[error("the shape cannot be unrolled without folds; use another border")]
+    CannotUnroll,
     /// The border has no length.
     #[error("the boundary loop of {count} nodes has zero length")]
     ZeroBorder {
@@ -117,7 +120,7 @@ impl ParameterizeError {
             }
             Self::Unused { .. } | Self::ShortBorder { .. } => ErrorKind::Topology,
             Self::ZeroArea { .. } | Self::ZeroWeight { .. } | Self::Untied { .. } => ErrorKind::Degenerate,
-            Self::ZeroBorder { .. } | Self::FlatParameters => ErrorKind::Degenerate,
+            Self::ZeroBorder { .. } | Self::FlatParameters | Self::CannotUnroll => ErrorKind::Degenerate,
             Self::Corner { .. } | Self::NoParameters | Self::Option { .. } | Self::NodeWeight { .. } => {
                 ErrorKind::InvalidArgument
             }

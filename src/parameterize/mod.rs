@@ -16,6 +16,7 @@
 
 mod border;
 mod error;
+mod isometric;
 mod options;
 mod patch;
 mod regularize;
@@ -162,10 +163,42 @@ pub fn parameterize_weighted(
     let mut report = best.report(mesh, system.factor_count);
     report.remarks.insert_if(Remarks::HOLES_FILLED, patch.points.len() > patch.mesh_node_count);
     report.remarks.insert_if(Remarks::ZERO_AREA, zero_area > 0);
-    report.seconds = start.elapsed().as_secs_f64();
     let mut uv = best.uv;
     uv.truncate(patch.mesh_node_count);
+    if options.border == Border::Free || (options.border == Border::Auto && options.unroll) {
+        let is_wanted = options.border == Border::Free;
+        let least_gain = if is_wanted { f64::NEG_INFINITY } else { LEAST_GAIN };
+        let has_unrolled = unroll(mesh, &mut uv, &mut report, least_gain, control);
+        if is_wanted && !has_unrolled {
+            return Err(ParameterizeError::CannotUnroll);
+        }
+    }
+    report.seconds = start.elapsed().as_secs_f64();
     Ok(Parameterization { uv, report })
+}
+
+/// Takes the unrolled map if there is one that lowers the stretch by this share, and says whether.
+fn unroll(
+    mesh: &Mesh,
+    uv: &mut Vec<DVec2>,
+    report: &mut ParameterizeReport,
+    least_gain: f64,
+    control: &Control,
+) -> bool {
+    let Some(unrolled) = isometric::unroll(mesh, uv, control.pool()) else { return false };
+    let measure = stretch(mesh.points(), mesh.triangles(), &unrolled);
+    let gain = 1.0 - measure.l2 / report.stretch.l2;
+    if !(gain >= least_gain) {
+        return false;
+    }
+    *uv = unrolled;
+    report.stretch = measure;
+    report.border = Border::Free;
+    report.border_slid = false;
+    (report.flipped_triangles, report.degenerate_triangles) = (0, 0);
+    report.remarks.0 &= !(Remarks::FOLDED.0 | Remarks::HIGH_STRETCH.0);
+    report.remarks.insert_if(Remarks::HIGH_STRETCH, measure.l2 > HIGH_STRETCH);
+    true
 }
 
 /// A map with what the next step starts from.

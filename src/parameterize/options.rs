@@ -28,6 +28,8 @@ pub enum Border {
     SquareByArc,
     /// The unit square with these nodes of the loop at (0,0), (1,0), (1,1), (0,1), in loop order.
     Corners([u32; 4]),
+    /// No border at all: unrolled so that lengths are kept best. Refused if that folds or overlaps itself.
+    Free,
     /// All boundary nodes, those of holes too, keep the parameters given with the mesh.
     Kept,
 }
@@ -53,6 +55,9 @@ pub struct ParameterizeOptions {
     /// How far border nodes slide with the stretch, 0 (default) to 1. With [`Border::Auto`] a sliding
     /// circle is then one more candidate beside the three that do not slide.
     pub boundary_slide: f64,
+    /// With [`Border::Auto`]: whether the best map is also unrolled with a free border, and that map taken if
+    /// it neither folds nor overlaps itself and stretches less. Default: yes for tensor surfaces.
+    pub unroll: bool,
 }
 
 impl Default for ParameterizeOptions {
@@ -75,13 +80,14 @@ impl ParameterizeOptions {
         bulge: Self::DEFAULT_BULGE,
         fill_holes: true,
         boundary_slide: 0.0,
+        unroll: true,
     };
 
     /// For PHT surfaces: one smoothed step, since quadtrees absorb scale but not anisotropy.
-    pub const PHT: Self = Self { stretch_steps: 1, rings: 30, ..Self::TENSOR };
+    pub const PHT: Self = Self { stretch_steps: 1, rings: 30, unroll: false, ..Self::TENSOR };
 
     /// The mean value map alone.
-    pub const MEAN_VALUE: Self = Self { stretch_steps: 0, ..Self::TENSOR };
+    pub const MEAN_VALUE: Self = Self { stretch_steps: 0, unroll: false, ..Self::TENSOR };
 
     /// The harmonic map alone.
     pub const HARMONIC: Self = Self { method: Method::Harmonic, ..Self::MEAN_VALUE };
@@ -119,6 +125,11 @@ impl ParameterizeOptions {
     /// The same with sliding border nodes.
     pub const fn with_boundary_slide(self, boundary_slide: f64) -> Self {
         Self { boundary_slide, ..self }
+    }
+
+    /// The same with or without unrolling.
+    pub const fn with_unroll(self, unroll: bool) -> Self {
+        Self { unroll, ..self }
     }
 
     pub(super) fn check(&self) -> Result<(), ParameterizeError> {

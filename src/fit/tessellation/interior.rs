@@ -109,12 +109,17 @@ fn interior_samples(mesh: &Mesh, uv: &[DVec2], values: &[f64], dim: usize) -> (V
 fn triangle_sagittas(mesh: &Mesh) -> Vec<f64> {
     let normals = node_normals(mesh);
     let mut heights = vec![0.0_f64; normals.len()];
+    let mut is_border = vec![false; normals.len()];
+    mesh.loops().iter().flatten().for_each(|&node| is_border[node as usize] = true);
     for &[a, b, c] in mesh.triangles() {
         for (a, b) in [(a, b), (b, c), (c, a)] {
             let (a, b) = (a as usize, b as usize);
             let angle = normals[a].angle_between(normals[b]);
             let angle = if angle.is_finite() { angle } else { 0.0 };
             let height = mesh.points()[a].distance(mesh.points()[b]) / 2.0 * (angle / 4.0).tan();
+            // a normal at the border is that of one side only, half an edge away
+            let is_border = is_border[a] || is_border[b];
+            let height = if is_border { 2.0 * height } else { height };
             heights[a] = heights[a].max(height);
             heights[b] = heights[b].max(height);
         }

@@ -130,6 +130,13 @@ impl NormalEquations {
         }
     }
 
+    /// These and `weight` times others over the same basis.
+    pub fn plus(&self, other: &Self, weight: f64) -> Self {
+        let add = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a + weight * b).collect();
+        let (matrix, right) = (add(&self.matrix, &other.matrix), add(&self.right, &other.right));
+        Self { matrix, right, ..*self }
+    }
+
     /// Solves with `smoothing / 12` times the energy added; the unknowns come in columns, one for each
     /// component. `symbolic` is made by [`NormalEquations::analyse`] for the same basis.
     pub fn solve(

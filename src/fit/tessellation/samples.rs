@@ -1,74 +1,55 @@
-//! What is fitted: the data, and where triangles are larger than cells, places inside them.
+//! What is fitted beside the nodes: where triangles are larger than cells, places inside them.
 //!
 //! With cells smaller than triangles the nodes alone leave the surface free between them; it then swings by
 //! many times the tolerance. Triangles are cut until their parts are as small as a cell, and the middles of the
-//! parts are fitted with a small weight.
+//! parts are fitted with a weight so small that nodes are not pulled off, but above the bending energy's.
 
 use super::Problem;
 use super::grid::UniformGrid;
 use super::interior::node_normals;
 use glam::{DVec2, DVec3};
-use std::borrow::Cow;
 
-/// Data of a fit in the frame.
-pub struct FittedData<'a> {
-    pub uv: Cow<'a, [DVec2]>,
+/// Places inside triangles, in the frame, with the weights of their triangles.
+#[derive(Default)]
+pub struct InteriorData {
+    pub uv: Vec<DVec2>,
     pub values: Vec<f64>,
-    pub weights: Option<Cow<'a, [f64]>>,
+    pub weights: Vec<f64>,
 }
-
-/// Weight of a place inside a triangle against that of a node. Much smaller ones leave the surface to the
-/// bending energy, which is weaker still; larger ones pull it off the nodes.
-const INTERIOR_WEIGHT: f64 = 0.05;
 
 /// Most parts along one side of a triangle; a guard against triangles of absurd length.
 const MOST_PARTS: usize = 256;
 
 impl Problem<'_> {
-    /// The data to fit on a grid.
-    pub fn fitted_data(&self, grid: &[UniformGrid; 2]) -> FittedData<'_> {
-        let mut data = FittedData {
-            uv: Cow::Borrowed(&self.uv),
-            values: self.frame.inward(self.values),
-            weights: self.options.weights.map(Cow::Borrowed),
-        };
-        self.add_interior(grid, &mut data);
-        data
-    }
-
-    fn add_interior(&self, grid: &[UniformGrid; 2], data: &mut FittedData) {
-        let Some(mesh) = self.mesh else { return };
+    /// The places inside triangles that are larger than the cells of a grid; `values` are those of the nodes.
+    pub fn interior_data(&self, grid: &[UniformGrid; 2], values: &[f64]) -> InteriorData {
+        let mut data = InteriorData::default();
+        let Some(mesh) = self.mesh else { return data };
         let cell = DVec2::new(grid[0].step, grid[1].step);
-        let mut shape = None;
+        let mut shape_normals = None;
         for triangle in mesh.triangles() {
             let nodes = triangle.map(|node| node as usize);
-            let corners = nodes.map(|n| self.uv[n] / cell);
-            let parts = part_count(corners);
+            let parts = part_count(nodes.map(|n| self.uv[n] / cell));
             if parts < 2 {
                 continue;
             }
-            let weight = data.weights.get_or_insert_with(|| Cow::Owned(vec![1.0; self.uv.len()]));
-            let weight = INTERIOR_WEIGHT * nodes.iter().map(|&n| weight[n]).sum::<f64>() / 3.0;
+            let weight = self.options.weights.map_or(1.0, |w| nodes.iter().map(|&n| w[n]).sum::<f64>() / 3.0);
             for shares in part_middles(parts) {
-                let mean = |k: usize| -> f64 {
-                    let values = nodes.iter().map(|&n| data.values[n * self.dim + k]);
-                    values.zip(shares).map(|(x, share)| share * x).sum()
-                };
-                let mut value: Vec<f64> = (0..self.dim).map(mean).collect();
+                data.uv.push(nodes.iter().zip(shares).map(|(&n, share)| share * self.uv[n]).sum());
+                data.weights.push(weight);
                 if self.is_shape {
-                    let normals = shape.get_or_insert_with(|| node_normals(mesh));
-                    let corners = nodes.map(|n| DVec3::from_slice(&data.values[3 * n..]));
+                    let normals = shape_normals.get_or_insert_with(|| node_normals(mesh));
+                    let corners = nodes.map(|n| DVec3::from_slice(&values[3 * n..]));
                     let normals = nodes.map(|n| normals[n].normalize_or_zero());
-                    bulge(corners, normals, shares).write_to_slice(&mut value);
-                }
-                data.values.extend(value);
-                let uv = nodes.iter().zip(shares).map(|(&n, share)| share * self.uv[n]).sum();
-                data.uv.to_mut().push(uv);
-                if let Some(weights) = &mut data.weights {
-                    weights.to_mut().push(weight);
+                    data.values.extend(bulge(corners, normals, shares).to_array());
+                } else {
+                    data.values.extend((0..self.dim).map(|k| -> f64 {
+                        nodes.iter().zip(shares).map(|(&n, share)| share * values[n * self.dim + k]).sum()
+                    }));
                 }
             }
         }
+        data
     }
 }
 

@@ -9,6 +9,7 @@ use crate::knots::KnotVector;
 use crate::linalg::SymbolicCholesky;
 use crate::surface::Surface;
 use crate::surface::tensor::TensorSurface;
+use std::borrow::Cow;
 
 /// A surface on some grid, measured.
 pub struct Candidate {
@@ -84,13 +85,21 @@ impl Problem<'_> {
     }
 }
 
+/// Weight of a place inside a triangle against that of a node, as a multiple of the smoothing: well above the
+/// bending energy, which would let the surface swing, and so far below the nodes that it does not pull them.
+const INTERIOR_PER_SMOOTHING: f64 = 50.0;
+/// Its limit: places inside are estimates.
+const INTERIOR_MOST: f64 = 0.05;
+
 /// The normal equations of one grid, ready to be solved with any smoothing.
 struct LeastSquares<'a> {
     problem: &'a Problem<'a>,
     pool: &'a Pool,
     watch: &'a Watch,
     basis: TensorBasis,
-    equations: NormalEquations,
+    nodes: NormalEquations,
+    /// Of places inside large triangles.
+    interior: Option<NormalEquations>,
     symbolic: SymbolicCholesky,
 }
 
@@ -104,18 +113,17 @@ impl<'a> LeastSquares<'a> {
         let grid = problem.grid(counts);
         let [u, v] = grid.map(|grid| UniformBasis { grid, ends: problem.options.ends });
         let basis = TensorBasis { u, v };
-        let data = problem.fitted_data(&grid);
-        let samples = Samples {
-            uv: &data.uv,
-            values: &data.values,
-            dim: problem.dim,
-            weights: data.weights.as_deref(),
-        };
+        let (dim, values) = (problem.dim, problem.frame.inward(problem.values));
+        let nodes = Samples { uv: &problem.uv, values: &values, dim, weights: problem.options.weights };
         watch.check()?;
-        let equations = NormalEquations::assemble(basis, &samples, pool);
+        let nodes = NormalEquations::assemble(basis, &nodes, pool);
         watch.check()?;
-        let symbolic = equations.analyse();
-        Ok(Self { problem, pool, watch, basis, equations, symbolic })
+        let data = problem.interior_data(&grid, &values);
+        let interior = Samples { uv: &data.uv, values: &data.values, dim, weights: Some(&data.weights) };
+        let interior = (!data.uv.is_empty()).then(|| NormalEquations::assemble(basis, &interior, pool));
+        watch.check()?;
+        let symbolic = nodes.analyse();
+        Ok(Self { problem, pool, watch, basis, nodes, interior, symbolic })
     }
 
     /// The calmest fit that meets the tolerance, or the closest one if none does.
@@ -148,11 +156,17 @@ impl<'a> LeastSquares<'a> {
         let problem = self.problem;
         self.watch.check()?;
         let energy = problem.options.energy;
-        let (unknowns, used_plate) = match self.equations.solve(&self.symbolic, smoothing, energy) {
+        let equations = match &self.interior {
+            None => Cow::Borrowed(&self.nodes),
+            Some(interior) => {
+                Cow::Owned(self.nodes.plus(interior, (INTERIOR_PER_SMOOTHING * smoothing).min(INTERIOR_MOST)))
+            }
+        };
+        let (unknowns, used_plate) = match equations.solve(&self.symbolic, smoothing, energy) {
             Ok(unknowns) => (unknowns, false),
             // a + bu + cv + duv may vanish at all data; the plate leaves only a + bu + cv free
             Err(_) if energy == Energy::Beam => {
-                let plate = self.equations.solve(&self.symbolic, smoothing, Energy::Plate);
+                let plate = equations.solve(&self.symbolic, smoothing, Energy::Plate);
                 (plate.map_err(|_| FitError::Singular)?, true)
             }
             Err(_) => return Err(FitError::Singular),

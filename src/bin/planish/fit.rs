@@ -1,0 +1,231 @@
+//! `planish fit`.
+
+use crate::output::{self, Table};
+use crate::{Failure, Outcome};
+use clap::{Args, ValueEnum};
+use indicatif::{ProgressBar, ProgressStyle};
+use planish::Control;
+use planish::fit::report::{FitReport, Remarks, StopReason, Tolerance, ToleranceScale};
+use planish::fit::tessellation::{Ends, Method, Regularize, TensorFit, TensorOptions, fit_mesh};
+use planish::mesh::{Mesh, MeshOptions, MeshRepairs, read};
+use planish::parameterize::{Border, ParameterizeOptions};
+use serde_json::json;
+use std::io::IsTerminal;
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub struct FitArguments {
+    /// Mesh file: OFF, OBJ, PLY or STL.
+    mesh: PathBuf,
+    /// Largest error allowed at the nodes, as a fraction of the bounding box's diagonal.
+    #[arg(long, default_value_t = 1e-3, value_name = "T")]
+    tolerance: f64,
+    /// Take the tolerance in model units.
+    #[arg(long)]
+    absolute: bool,
+    /// Write a file: .vtu (the mesh on the surface with its deviation), .obj (a tessellation),
+    /// .planish (the surface itself); may be given several times.
+    #[arg(long, value_name = "FILE")]
+    out: Vec<PathBuf>,
+    /// Write a picture of the surface coloured by deviation.
+    #[arg(long, value_name = "PNG")]
+    picture: Option<PathBuf>,
+    /// Border of the map for meshes without parameters.
+    #[arg(long, value_enum, default_value_t = BorderName::Auto)]
+    border: BorderName,
+    /// Ignore parameters that the file has.
+    #[arg(long)]
+    ignore_parameters: bool,
+    /// Most knots along one direction.
+    #[arg(long, default_value_t = 257, value_name = "N")]
+    max_grid: usize,
+    /// Weight of the bending energy; 0 finds one.
+    #[arg(long, default_value_t = 0.0, value_name = "MU")]
+    smoothing: f64,
+    /// Leave the ends of the knots free instead of straight.
+    #[arg(long)]
+    free_ends: bool,
+    /// Use the equations of Dannenhoffer and Haimes instead of least squares.
+    #[arg(long)]
+    ferguson: bool,
+    /// Sweeps of parameter correction on each grid.
+    #[arg(long, default_value_t = 0, value_name = "N")]
+    sweeps: usize,
+    /// Join nodes closer than this.
+    #[arg(long, default_value_t = 0.0, value_name = "DISTANCE")]
+    weld: f64,
+    /// Repair inconsistent orientation.
+    #[arg(long)]
+    orient: bool,
+    /// Threads; 0 for all cores.
+    #[arg(long, default_value_t = 0, value_name = "N")]
+    threads: usize,
+    /// Print the report as JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum BorderName {
+    /// The least stretched of the others.
+    Auto,
+    Circle,
+    /// Square with its corners at the sharpest turns.
+    Turns,
+    /// Square with its corners at quarters of the length.
+    Arc,
+}
+
+pub fn run(arguments: &FitArguments) -> Result<Outcome, Failure> {
+    output::check_names(&arguments.out)?;
+    let mesh_options =
+        MeshOptions::default().with_weld_distance(arguments.weld).with_orient(arguments.orient);
+    let (mut mesh, repairs) = read(&arguments.mesh, &mesh_options)?;
+    if arguments.ignore_parameters {
+        mesh.clear_parameters();
+    }
+    let fit = fit_with_bar(&mesh, &options(arguments), arguments.threads)?;
+    for path in &arguments.out {
+        output::write_fit(&mesh, &fit, path)?;
+    }
+    if let Some(path) = &arguments.picture {
+        output::write_picture(&mesh, &fit, path)?;
+    }
+    if arguments.json {
+        println!("{}", json_report(&mesh, &fit.report));
+    } else {
+        print!("{}", table(arguments, &mesh, &repairs, &fit.report));
+    }
+    let is_met = !fit.report.remarks.has(Remarks::TOLERANCE_NOT_MET);
+    Ok(if is_met { Outcome::Done } else { Outcome::ToleranceNotMet })
+}
+
+fn options(arguments: &FitArguments) -> TensorOptions<'static> {
+    let scale = if arguments.absolute { ToleranceScale::Absolute } else { ToleranceScale::Relative };
+    let border = match arguments.border {
+        BorderName::Auto => Border::Auto,
+        BorderName::Circle => Border::Circle,
+        BorderName::Turns => Border::SquareByTurns,
+        BorderName::Arc => Border::SquareByArc,
+    };
+    TensorOptions {
+        tolerance: Tolerance { value: arguments.tolerance, scale },
+        method: if arguments.ferguson { Method::Ferguson } else { Method::LeastSquares },
+        ends: if arguments.free_ends { Ends::Free } else { Ends::Natural },
+        smoothing: arguments.smoothing,
+        max_grid: arguments.max_grid,
+        max_coefficients: arguments.max_grid.saturating_mul(arguments.max_grid),
+        correction_sweeps: arguments.sweeps,
+        regularize: Regularize::Auto,
+        parameterize: ParameterizeOptions::TENSOR.with_border(border),
+        ..TensorOptions::default()
+    }
+}
+
+/// Fits with a bar on a terminal, silently elsewhere.
+fn fit_with_bar(mesh: &Mesh, options: &TensorOptions, threads: usize) -> Result<TensorFit, Failure> {
+    const STEPS: f64 = 1000.0;
+    if !std::io::stderr().is_terminal() {
+        return Ok(fit_mesh(mesh, options, &mut Control::new(threads))?);
+    }
+    let bar = ProgressBar::new(STEPS as u64);
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent:>3} %  {msg}") {
+        bar.set_style(style);
+    }
+    let mut progress = |fraction: f64, error: f64| {
+        bar.set_position((fraction * STEPS) as u64);
+        if error.is_finite() {
+            bar.set_message(format!("error {error:.2e}"));
+        }
+        ControlFlow::Continue(())
+    };
+    let fit = fit_mesh(mesh, options, &mut Control::new(threads).with_progress(&mut progress));
+    bar.finish_and_clear();
+    Ok(fit?)
+}
+
+fn table(arguments: &FitArguments, mesh: &Mesh, repairs: &MeshRepairs, report: &FitReport) -> String {
+    let mut table = Table::default();
+    let both = |error: f64| format!("{error:.3e}   {:.2e} of the diagonal", error / report.diagonal);
+    let (points, triangles) = (mesh.points().len(), mesh.triangles().len());
+    table.row("mesh", format!("{}", arguments.mesh.display()));
+    table.row("nodes, triangles", format!("{points}, {triangles}, {} boundary loops", mesh.loops().len()));
+    if !repairs.is_empty() {
+        table.row("repaired", output::repairs(repairs));
+    }
+    table.row("map", format!("stretch {:.3}, {} flipped triangles", report.stretch, report.flipped_count));
+    let grid = format!("{} x {} knots", report.grid_u, report.grid_v);
+    table.row("surface", format!("{grid}, {} coefficients", report.coefficient_count));
+    table.row("tolerance", both(report.tolerance));
+    table.row("max error", both(report.max_error));
+    table.row("rms, mean error", format!("{:.3e}, {:.3e}", report.rms_error, report.mean_error));
+    table.row(
+        "between nodes",
+        format!("{:.3e}, of which facets explain {:.3e}", report.max_interior_error, report.facet_sagitta),
+    );
+    let (map, all) = (report.parameterize_seconds, report.seconds);
+    table.row("seconds", format!("{map:.2} map, {:.2} fit, {} passes", all - map, report.passes));
+    table.row("result", verdict(report));
+    for remark in remarks(report.remarks) {
+        table.row("remark", remark.to_owned());
+    }
+    table.to_string()
+}
+
+fn verdict(report: &FitReport) -> String {
+    let reason = match report.stop {
+        StopReason::ToleranceMet => "tolerance met",
+        StopReason::FixedGrid => "grid as asked",
+        StopReason::Limit => "grid limit reached",
+        StopReason::DataExhausted => "more coefficients than data",
+        StopReason::Stagnated => "refinement no longer helps",
+    };
+    match report.remarks.has(Remarks::TOLERANCE_NOT_MET) {
+        true => format!("TOLERANCE NOT MET: {reason}"),
+        false => reason.to_owned(),
+    }
+}
+
+fn remarks(remarks: Remarks) -> impl Iterator<Item = &'static str> {
+    [
+        (Remarks::FOLDED_PARAMETERS, "the map folds: the surface may overlap itself"),
+        (Remarks::PARAMETERIZED, "the mesh had no parameters and was parameterized"),
+        (Remarks::REGULARIZED, "the given parameters were uneven and have been regularized"),
+        (Remarks::TOLERANCE_RAISED, "the tolerance was below rounding and has been raised"),
+        (Remarks::EMPTY_CELLS, "some cells inside the boundary hold no nodes"),
+        (Remarks::ROUGH_BETWEEN_NODES, "the surface departs from the facets between nodes"),
+        (Remarks::SEGMENTATION_ADVISED, "the map is very compressed: cut the mesh into several charts"),
+        (Remarks::PLATE_ENERGY_USED, "the plate energy was used: the beam energy leaves the data free"),
+    ]
+    .into_iter()
+    .filter(move |(remark, _)| remarks.has(*remark))
+    .map(|(_, sentence)| sentence)
+}
+
+fn json_report(mesh: &Mesh, report: &FitReport) -> serde_json::Value {
+    json!({
+        "nodes": mesh.points().len(),
+        "triangles": mesh.triangles().len(),
+        "tolerance_met": !report.remarks.has(Remarks::TOLERANCE_NOT_MET),
+        "tolerance": report.tolerance,
+        "diagonal": report.diagonal,
+        "max_error": report.max_error,
+        "rms_error": report.rms_error,
+        "mean_error": report.mean_error,
+        "worst_node": report.worst_index,
+        "max_interior_error": report.max_interior_error,
+        "facet_sagitta": report.facet_sagitta,
+        "grid": [report.grid_u, report.grid_v],
+        "coefficient_count": report.coefficient_count,
+        "smoothing": report.smoothing,
+        "empty_cell_count": report.empty_cell_count,
+        "passes": report.passes,
+        "stop": verdict(report),
+        "stretch": report.stretch,
+        "flipped_count": report.flipped_count,
+        "parameterize_seconds": report.parameterize_seconds,
+        "seconds": report.seconds,
+        "remarks": remarks(report.remarks).collect::<Vec<_>>(),
+    })
+}

@@ -1,0 +1,87 @@
+//! `planish info`.
+
+use crate::output::{self, Table};
+use crate::{Failure, Outcome};
+use clap::Args;
+use planish::export::native;
+use planish::mesh::{MeshOptions, read};
+use planish::surface::Surface;
+use planish::surface::tensor::{Axis, TensorSurface};
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, Args)]
+pub struct InfoArguments {
+    /// Mesh file (OFF, OBJ, PLY, STL) or saved surface (.planish).
+    file: PathBuf,
+    /// Join nodes closer than this.
+    #[arg(long, default_value_t = 0.0, value_name = "DISTANCE")]
+    weld: f64,
+    /// Repair inconsistent orientation.
+    #[arg(long)]
+    orient: bool,
+}
+
+pub fn run(arguments: &InfoArguments) -> Result<Outcome, Failure> {
+    let is_surface = arguments.file.extension().is_some_and(|extension| extension == "planish");
+    let table = if is_surface {
+        surface_table(&arguments.file, &native::load_file(&arguments.file)?)
+    } else {
+        mesh_table(arguments)?
+    };
+    print!("{table}");
+    Ok(Outcome::Done)
+}
+
+fn mesh_table(arguments: &InfoArguments) -> Result<Table, Failure> {
+    let options = MeshOptions::default().with_weld_distance(arguments.weld).with_orient(arguments.orient);
+    let (mesh, repairs) = read(&arguments.file, &options)?;
+    let mut table = Table::default();
+    table.row("mesh", arguments.file.display().to_string());
+    table.row("nodes", mesh.points().len().to_string());
+    table.row("triangles", mesh.triangles().len().to_string());
+    table.row("edges", mesh.edge_count().to_string());
+    table.row("components", mesh.component_count().to_string());
+    table.row("genus", mesh.genus().to_string());
+    let loops: Vec<String> = mesh.loops().iter().take(12).map(|nodes| nodes.len().to_string()).collect();
+    let more = if mesh.loops().len() > loops.len() { ", ..." } else { "" };
+    table.row(
+        "boundary loops",
+        match loops.len() {
+            0 => "none: closed".to_owned(),
+            _ => format!("{} ({}{more} nodes)", mesh.loops().len(), loops.join(", ")),
+        },
+    );
+    let bounds = mesh.bounds();
+    let sides: Vec<String> = bounds.sides().map(|side| format!("{side:.6}")).collect();
+    table.row("bounding box", format!("{}, diagonal {:.6}", sides.join(" x "), bounds.diagonal()));
+    table.row("parameters", if mesh.parameters().is_some() { "yes" } else { "no" }.to_owned());
+    let fields: Vec<&str> = mesh.fields().iter().map(|field| field.name.as_str()).collect();
+    table.row("fields", if fields.is_empty() { "none".to_owned() } else { fields.join(", ") });
+    for (what, nodes) in [("unused nodes", mesh.unused_nodes()), ("pinched nodes", mesh.pinched_nodes())] {
+        if !nodes.is_empty() {
+            table.row(what, nodes.len().to_string());
+        }
+    }
+    if !repairs.is_empty() {
+        table.row("repaired", output::repairs(&repairs));
+    }
+    Ok(table)
+}
+
+fn surface_table(path: &Path, surface: &TensorSurface) -> Table {
+    let mut table = Table::default();
+    let (knots_u, knots_v) = (surface.knots(Axis::U), surface.knots(Axis::V));
+    let domain = surface.domain();
+    table.row("surface", path.display().to_string());
+    table.row("kind", "tensor".to_owned());
+    table.row("dimension", surface.dim().to_string());
+    table.row("degrees", format!("{} x {}", knots_u.degree(), knots_v.degree()));
+    table.row("control points", format!("{} x {}", knots_u.basis_count(), knots_v.basis_count()));
+    table.row("weights", if surface.weights().is_some() { "yes" } else { "no" }.to_owned());
+    table.row(
+        "domain",
+        format!("u {} to {}, v {} to {}", domain.min.x, domain.max.x, domain.min.y, domain.max.y),
+    );
+    table.row("trims", surface.region().trims.loops().len().to_string());
+    table
+}

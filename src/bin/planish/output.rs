@@ -1,0 +1,109 @@
+//! What the commands print and write.
+
+use crate::Failure;
+use glam::DVec3;
+use planish::export::picture::{Picture, View};
+use planish::export::{native, obj, vtk};
+use planish::fit::tessellation::TensorFit;
+use planish::mesh::{Mesh, MeshRepairs};
+use planish::query::tessellate::{TessellateOptions, tessellate};
+use planish::surface::Surface;
+use std::fmt;
+use std::path::Path;
+
+/// Names on the left, values on the right.
+#[derive(Debug, Default)]
+pub struct Table(Vec<(&'static str, String)>);
+
+impl Table {
+    pub fn row(&mut self, name: &'static str, value: String) {
+        self.0.push((name, value));
+    }
+}
+
+impl fmt::Display for Table {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let width = self.0.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
+        self.0.iter().try_for_each(|(name, value)| writeln!(f, "{name:width$}  {value}"))
+    }
+}
+
+/// What was repaired while reading.
+pub fn repairs(repairs: &MeshRepairs) -> String {
+    let mut parts = Vec::new();
+    for (count, what) in [
+        (repairs.welded_nodes, "nodes welded"),
+        (repairs.dropped_triangles, "triangles dropped"),
+        (repairs.flipped_triangles, "triangles turned over"),
+    ] {
+        if count > 0 {
+            parts.push(format!("{count} {what}"));
+        }
+    }
+    if repairs.dropped_parameters {
+        parts.push("parameters left out: they have seams".to_owned());
+    }
+    parts.join(", ")
+}
+
+const KNOWN: [&str; 3] = ["vtu", "obj", "planish"];
+
+/// Refuses names whose format is not known before any work is done.
+pub fn check_names(paths: &[impl AsRef<Path>]) -> Result<(), Failure> {
+    match paths.iter().map(AsRef::as_ref).find(|path| !KNOWN.contains(&extension(path).as_str())) {
+        None => Ok(()),
+        Some(path) => Err(Failure::new(format!(
+            "cannot tell the format of {}, known are .{}",
+            path.display(),
+            KNOWN.join(", .")
+        ))),
+    }
+}
+
+fn extension(path: &Path) -> String {
+    path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
+}
+
+/// Writes a fit in the format of the name.
+pub fn write_fit(mesh: &Mesh, fit: &TensorFit, path: &Path) -> Result<(), Failure> {
+    match extension(path).as_str() {
+        "vtu" => {
+            let data = vtk::PointData { name: "deviation", dim: 1, values: &fit.errors };
+            vtk::write_mesh(&on_surface(mesh, fit)?, &[data], path)?;
+        }
+        "obj" => obj::write(&tessellate(&fit.surface, &TessellateOptions::default())?.mesh, path)?,
+        _ => native::save_file(&fit.surface, path)?,
+    }
+    Ok(())
+}
+
+/// The mesh with its nodes on the surface.
+fn on_surface(mesh: &Mesh, fit: &TensorFit) -> Result<Mesh, Failure> {
+    let mut rows = vec![0.0; 3 * fit.parameters.len()];
+    fit.surface.eval_rows(&fit.parameters, 0, &mut rows);
+    let points = rows.chunks_exact(3).map(DVec3::from_slice).collect();
+    let mut moved = Mesh::new(points, mesh.triangles().to_vec())?;
+    moved.set_parameters(fit.parameters.clone())?;
+    Ok(moved)
+}
+
+/// Writes a picture of the surface coloured by the error at the nodes.
+pub fn write_picture(mesh: &Mesh, fit: &TensorFit, path: &Path) -> Result<(), Failure> {
+    let moved = on_surface(mesh, fit)?;
+    let mut picture = Picture::new(1200, 900, &View::facing(&moved), &moved);
+    let range = (0.0, fit.report.max_error);
+    picture.draw_mesh(&moved, Some(&fit.errors), range);
+    picture.draw_scale("deviation", range);
+    write_png(&picture, path)
+}
+
+fn write_png(picture: &Picture, path: &Path) -> Result<(), Failure> {
+    let fail = |reason: &dyn fmt::Display| Failure::new(format!("cannot write {}: {reason}", path.display()));
+    let (width, height, pixels) = picture.finish();
+    let file = std::fs::File::create(path).map_err(|error| fail(&error))?;
+    let mut encoder = png::Encoder::new(std::io::BufWriter::new(file), width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    let mut writer = encoder.write_header().map_err(|error| fail(&error))?;
+    writer.write_image_data(&pixels).map_err(|error| fail(&error))?;
+    writer.finish().map_err(|error| fail(&error))
+}

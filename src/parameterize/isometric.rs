@@ -1,0 +1,298 @@
+//! Unrolling: a map with a free border that keeps lengths as well as it can.
+//!
+//! L. Liu, L. Zhang, Y. Xu, C. Gotsman, S. Gortler, "A local/global approach to mesh parameterization", Comput.
+//! Graph. Forum 27 (2008), 1495-1504 (as-rigid-as-possible). Each triangle is laid flat; in turns every one is
+//! rotated to fit the map best, and the map is fitted to all of them by a Laplace system that never changes:
+//! ```text
+//! sum_j w_ij (u_i - u_j) = sum_j (cot_t R_t + cot_t' R_t') (x_i - x_j) / 2
+//! ```
+//! On nearly developable sheets with notches and holes nothing is better (`parameterization.md` 4); on deep shapes
+//! triangles flip. So the result is a candidate only: it is taken if no triangle flips, no two pieces of the
+//! boundary cross, and the stretch is less.
+
+use crate::control::Pool;
+use crate::geometry::{Orientation, orientation};
+use crate::linalg::SymbolicCholesky;
+use crate::mesh::Mesh;
+use glam::{DMat2, DVec2, DVec3};
+use rayon::prelude::*;
+use sprs::{CsMat, TriMat};
+
+/// Turns at most; nearly developable sheets need about ten.
+const TURNS: usize = 40;
+/// A turn that moves no node by this share of the map's size is the last.
+const STILL: f64 = 1e-4;
+/// A triangle of less than this share of the mean area is left out: its angles are noise.
+const LEAST_AREA: f64 = 1e-12;
+
+/// A length-keeping map of the mesh, started from `start`; None if it folds or overlaps itself. It is turned so
+/// that its smallest bounding rectangle is upright, and lies in the unit square.
+pub fn unroll(mesh: &Mesh, start: &[DVec2], pool: &Pool) -> Option<Vec<DVec2>> {
+    let sheet = Sheet::new(mesh);
+    let matrix = sheet.laplacian(mesh);
+    let symbolic = SymbolicCholesky::new(&matrix.view(), None);
+    let factor = symbolic.factor(&matrix.view()).ok()?;
+    let n = mesh.points().len();
+    let mut uv = sheet.scaled(start);
+    for _ in 0..TURNS {
+        let mut columns = pool.run(|| sheet.right_sides(mesh, &uv));
+        factor.solve(&mut columns, 2);
+        let moved: Vec<DVec2> = (0..n).map(|i| DVec2::new(columns[i], columns[n + i])).collect();
+        // both maps are known up to a shift only; the system pins the first used node to the origin
+        let shift = uv[sheet.pinned] - moved[sheet.pinned];
+        let step = uv.iter().zip(&moved).map(|(a, b)| (*b + shift).distance(*a)).fold(0.0, f64::max);
+        uv = moved;
+        if step <= STILL * sheet.size {
+            break;
+        }
+    }
+    let mut upright = in_unit_square(mesh, &uv);
+    mesh.unused_nodes().iter().for_each(|&node| upright[node as usize] = start[node as usize]);
+    let is_open = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(|n| upright[n as usize]);
+        orientation(a, b, c) == Orientation::Positive
+    };
+    let is_valid = upright.iter().all(|p| p.is_finite())
+        && mesh.triangles().iter().all(is_open)
+        && !boundary_crosses(mesh, &upright);
+    is_valid.then_some(upright)
+}
+
+/// The triangles, each laid flat in a frame of its own, with the cotangents of its angles.
+struct Sheet {
+    flat: Vec<[DVec2; 3]>,
+    cotangents: Vec<[f64; 3]>,
+    area: f64,
+    size: f64,
+    pinned: usize,
+}
+
+impl Sheet {
+    fn new(mesh: &Mesh) -> Self {
+        let corners = |t: &[u32; 3]| t.map(|n| mesh.points()[n as usize]);
+        let twice_area = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).length();
+        let areas: Vec<f64> = mesh.triangles().iter().map(|t| twice_area(corners(t))).collect();
+        let total: f64 = areas.iter().sum();
+        let least = LEAST_AREA * total / areas.len() as f64;
+        let flat = |[a, b, c]: [DVec3; 3]| {
+            let (along, across) = (b - a, c - a);
+            let length = along.length();
+            let x = along.dot(across) / length;
+            [DVec2::ZERO, DVec2::new(length, 0.0), DVec2::new(x, along.cross(across).length() / length)]
+        };
+        let cotangents = |corners: [DVec3; 3], area: f64| {
+            std::array::from_fn(|k| {
+                let [p, q, r] = [0, 1, 2].map(|d| corners[(k + d) % 3]);
+                if area > least { (q - p).dot(r - p) / area } else { 0.0 }
+            })
+        };
+        let triangles = mesh.triangles();
+        Self {
+            flat: triangles.iter().map(|t| flat(corners(t))).collect(),
+            cotangents: triangles.iter().zip(&areas).map(|(t, &area)| cotangents(corners(t), area)).collect(),
+            area: total / 2.0,
+            size: mesh.diagonal(),
+            pinned: triangles[0][0] as usize,
+        }
+    }
+
+    /// The map with the area of the shape.
+    fn scaled(&self, uv: &[DVec2]) -> Vec<DVec2> {
+        let (min, max) = uv
+            .iter()
+            .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(min, max), p| (min.min(*p), max.max(*p)));
+        let scale = (self.area / (max - min).element_product().max(f64::MIN_POSITIVE)).sqrt();
+        uv.iter().map(|p| (*p - min) * scale).collect()
+    }
+
+    /// Lower triangle of the cotangent Laplacian. The first used node is held; nodes without triangles stay at
+    /// the origin.
+    fn laplacian(&self, mesh: &Mesh) -> CsMat<f64> {
+        let n = mesh.points().len();
+        let mut entries = TriMat::new((n, n));
+        for (triangle, cotangents) in mesh.triangles().iter().zip(&self.cotangents) {
+            for k in 0..3 {
+                let (i, j) = (triangle[(k + 1) % 3] as usize, triangle[(k + 2) % 3] as usize);
+                let weight = cotangents[k] / 2.0;
+                entries.add_triplet(i, i, weight);
+                entries.add_triplet(j, j, weight);
+                entries.add_triplet(i.max(j), i.min(j), -weight);
+            }
+        }
+        entries.add_triplet(self.pinned, self.pinned, 1.0);
+        mesh.unused_nodes().iter().for_each(|&node| entries.add_triplet(node as usize, node as usize, 1.0));
+        entries.to_csc()
+    }
+
+    /// The edges of the flat triangles, each turned to fit the map best, summed at the nodes.
+    fn right_sides(&self, mesh: &Mesh, uv: &[DVec2]) -> Vec<f64> {
+        let pulls: Vec<[DVec2; 3]> = (mesh.triangles(), &self.flat, &self.cotangents)
+            .into_par_iter()
+            .map(|(triangle, flat, cotangents)| pulls(triangle.map(|n| uv[n as usize]), flat, cotangents))
+            .collect();
+        let n = uv.len();
+        let mut columns = vec![0.0; 2 * n];
+        for (triangle, pulls) in mesh.triangles().iter().zip(pulls) {
+            for (&node, pull) in triangle.iter().zip(pulls) {
+                columns[node as usize] += pull.x;
+                columns[n + node as usize] += pull.y;
+            }
+        }
+        columns
+    }
+}
+
+/// What a triangle adds to the right-hand sides of its corners.
+fn pulls(places: [DVec2; 3], flat: &[DVec2; 3], cotangents: &[f64; 3]) -> [DVec2; 3] {
+    let edge = |points: &[DVec2; 3], k: usize| points[(k + 1) % 3] - points[(k + 2) % 3];
+    // the rotation nearest to sum cot (u_i - u_j) (x_i - x_j)^T
+    let (mut cos, mut sin) = (0.0, 0.0);
+    for k in 0..3 {
+        let (u, x) = (edge(&places, k), edge(flat, k));
+        cos += cotangents[k] * u.dot(x);
+        sin += cotangents[k] * x.perp_dot(u);
+    }
+    let turn = DMat2::from_angle(if cos == 0.0 && sin == 0.0 { 0.0 } else { sin.atan2(cos) });
+    let mut pulls = [DVec2::ZERO; 3];
+    for k in 0..3 {
+        let pull = turn * edge(flat, k) * (cotangents[k] / 2.0);
+        pulls[(k + 1) % 3] += pull;
+        pulls[(k + 2) % 3] -= pull;
+    }
+    pulls
+}
+
+/// Turns the smallest bounding rectangle upright, its longer side along u, and scales it into the unit square.
+fn in_unit_square(mesh: &Mesh, uv: &[DVec2]) -> Vec<DVec2> {
+    let border: Vec<DVec2> = mesh.loops()[0].iter().map(|&n| uv[n as usize]).collect();
+    let hull = convex_hull(border);
+    let box_along = |direction: DVec2| {
+        let turn =
+            DMat2::from_cols(DVec2::new(direction.x, -direction.y), DVec2::new(direction.y, direction.x));
+        let (min, max) = hull
+            .iter()
+            .map(|&p| turn * p)
+            .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(min, max), p| (min.min(p), max.max(p)));
+        (turn, min, max - min)
+    };
+    let sides = hull.iter().zip(hull.iter().cycle().skip(1)).map(|(a, b)| (*b - *a).normalize_or_zero());
+    let boxes =
+        sides.filter(|side| *side != DVec2::ZERO).flat_map(|side| [box_along(side), box_along(side.perp())]);
+    let best = boxes
+        .filter(|(_, _, size)| size.x >= size.y)
+        .min_by(|a, b| a.2.element_product().total_cmp(&b.2.element_product()));
+    let Some((turn, min, size)) = best else { return uv.to_vec() };
+    uv.iter().map(|&p| (turn * p - min) / size.x).collect()
+}
+
+/// The corners of the convex hull, counter-clockwise (A. Andrew's monotone chain).
+fn convex_hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
+    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    let mut hull: Vec<DVec2> = Vec::new();
+    let upper = points.iter().rev().skip(1);
+    let mut start = 0;
+    for (k, &p) in points.iter().chain(upper).enumerate() {
+        if k == points.len() {
+            start = hull.len() - 1;
+        }
+        while hull.len() >= start + 2
+            && orientation(hull[hull.len() - 2], hull[hull.len() - 1], p) != Orientation::Positive
+        {
+            hull.pop();
+        }
+        hull.push(p);
+    }
+    hull.pop();
+    hull
+}
+
+/// Whether any two pieces of the boundary meet other than at a common node. Without flips and without such
+/// crossings the map covers no place twice.
+fn boundary_crosses(mesh: &Mesh, uv: &[DVec2]) -> bool {
+    let mut pieces: Vec<[u32; 2]> = mesh
+        .loops()
+        .iter()
+        .flat_map(|nodes| nodes.iter().zip(nodes.iter().cycle().skip(1)).map(|(&a, &b)| [a, b]))
+        .collect();
+    let place = |node: u32| uv[node as usize];
+    let left = |piece: &[u32; 2]| place(piece[0]).x.min(place(piece[1]).x);
+    let right = |piece: &[u32; 2]| place(piece[0]).x.max(place(piece[1]).x);
+    pieces.sort_by(|a, b| left(a).total_cmp(&left(b)));
+    // sweep along u: only pieces that have not ended yet can meet the next
+    let mut active: Vec<[u32; 2]> = Vec::new();
+    for piece in pieces {
+        active.retain(|other| right(other) >= left(&piece));
+        if active.iter().any(|other| pieces_meet(other.map(place), piece.map(place), *other, piece)) {
+            return true;
+        }
+        active.push(piece);
+    }
+    false
+}
+
+fn pieces_meet([a, b]: [DVec2; 2], [c, d]: [DVec2; 2], first: [u32; 2], second: [u32; 2]) -> bool {
+    if first.iter().any(|node| second.contains(node)) {
+        return false;
+    }
+    let apart = |p: DVec2, q: DVec2, r: DVec2, s: DVec2| {
+        let (one, other) = (orientation(p, q, r), orientation(p, q, s));
+        one == other && one != Orientation::Zero
+    };
+    let overlap = |min1: f64, max1: f64, min2: f64, max2: f64| min1 <= max2 && min2 <= max1;
+    !apart(a, b, c, d)
+        && !apart(c, d, a, b)
+        && overlap(a.x.min(b.x), a.x.max(b.x), c.x.min(d.x), c.x.max(d.x))
+        && overlap(a.y.min(b.y), a.y.max(b.y), c.y.min(d.y), c.y.max(d.y))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parameterize::stretch;
+
+    fn start(mesh: &Mesh) -> Vec<DVec2> {
+        mesh.parameters().unwrap().to_vec()
+    }
+
+    #[test]
+    fn a_developable_sheet_with_holes_unrolls_without_stretch() {
+        // the notched plane rolled onto a cylinder of radius 3
+        let flat = crate::samples::planar(1).unwrap();
+        let rolled = |uv: &DVec2| DVec3::new(3.0 * (uv.x / 3.0).sin(), uv.y, 3.0 * (uv.x / 3.0).cos());
+        let points = start(&flat).iter().map(rolled).collect();
+        let mesh = Mesh::new(points, flat.triangles().to_vec()).unwrap();
+        let squeezed: Vec<DVec2> = start(&flat).iter().map(|p| DVec2::new(p.x, 0.5 * p.y)).collect();
+        let uv = unroll(&mesh, &squeezed, &Pool::new(1)).unwrap();
+        let l2 = stretch(mesh.points(), mesh.triangles(), &uv).l2;
+        // chords of edges 0.1 long on radius 3 are shorter than their arcs by 5e-5
+        assert!((l2 - 1.0).abs() < 1e-4, "{l2}");
+    }
+
+    #[test]
+    fn a_strip_that_winds_over_itself_is_refused() {
+        // a spiral ramp of one and a half turns lies flat only over itself
+        let (places, triangles) = crate::samples::grid([120, 6], 0.0, 1, |_| true);
+        let ramp = |p: &DVec2| {
+            let angle = 9.0 * p.x;
+            let radius = 1.0 + p.y;
+            DVec3::new(radius * angle.cos(), radius * angle.sin(), 0.02 * angle)
+        };
+        let points: Vec<DVec3> = places.iter().map(ramp).collect();
+        let seen_from_above: Vec<DVec2> = points.iter().map(|p| p.truncate()).collect();
+        let mesh = Mesh::new(points, triangles).unwrap();
+        assert!(unroll(&mesh, &seen_from_above, &Pool::new(1)).is_none());
+    }
+
+    #[test]
+    fn a_half_sphere_keeps_its_triangles_open_or_is_refused() {
+        let (places, triangles) = crate::samples::grid([30, 30], 0.2, 1, |_| true);
+        let dome = |p: &DVec2| {
+            let q = 2.0 * *p - 1.0;
+            DVec3::new(q.x, q.y, 2.0 - q.length_squared())
+        };
+        let mesh = Mesh::new(places.iter().map(dome).collect(), triangles).unwrap();
+        let uv = unroll(&mesh, &places, &Pool::new(1)).unwrap();
+        assert_eq!(crate::parameterize::folds(mesh.triangles(), &uv), (0, 0));
+        assert!(uv.iter().all(|p| p.min_element() >= -1e-12 && p.max_element() <= 1.0 + 1e-12));
+    }
+}
