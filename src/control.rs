@@ -113,6 +113,7 @@ impl<'a> Control<'a> {
     /// From now on progress runs from `from` to `to` of the whole call.
     pub fn set_stage(&mut self, from: f64, to: f64) {
         self.stage = (from, to);
+        self.last = (from, f64::NAN);
     }
 
     /// Tells the listener; `fraction` is of the present stage.

@@ -37,6 +37,8 @@ pub(super) enum ArgumentError {
     RecordSize { record: &'static str, size: usize },
     #[error("{record} has {size} bytes, this version knows {known} and the rest is not zero")]
     RecordVersion { record: &'static str, size: usize, known: usize },
+    #[error("a reserved field of {record} is {given}, this version knows only 0")]
+    Reserved { record: &'static str, given: u32 },
     #[error("the surface is of the family {found:?}, this call needs {needed:?}")]
     WrongKind { found: Kind, needed: Kind },
     #[error("no memory for {count} elements of {name}")]
@@ -50,7 +52,7 @@ impl ArgumentError {
             Self::Overflow { .. } => planish_status::TooLarge,
             Self::TooSmall { .. } => planish_status::BufferTooSmall,
             Self::NoSuch { .. } => planish_status::Index,
-            Self::RecordVersion { .. } => planish_status::Version,
+            Self::RecordVersion { .. } | Self::Reserved { .. } => planish_status::Version,
             Self::WrongKind { .. } => planish_status::WrongKind,
             Self::OutOfMemory { .. } => planish_status::OutOfMemory,
             _ => planish_status::InvalidArgument,

@@ -7,15 +7,15 @@ use std::ops::ControlFlow;
 
 /// Hears how far a call is and may end it.
 ///
-/// fraction: how much is done, 0 to 1. It may stay for a while, and falls back never.
-/// error:    for fits the largest error so far in model units, for maps the stretch; NaN while unknown.
+/// fraction: how much is done, 0 to 1; it never falls.
+/// error:    while a surface is fitted the largest error so far in model units, while a mesh is parameterized
+///           the L2 stretch so far; NaN while unknown.
 /// user:     the pointer from the options.
-/// Returns 0 to go on; anything else cancels, and the call returns PLANISH_STATUS_CANCELLED within about
-/// 50 milliseconds, or when the factorization in progress ends.
+/// Returns 0 to go on; anything else cancels, and the call returns PLANISH_STATUS_CANCELLED when the step in
+/// progress, such as a factorization, has ended.
 ///
-/// It is called on the thread that made the call, at least every 50 milliseconds while other threads work. It
-/// must not throw or longjmp: a C++ exception that leaves it ends the process. It may call the library, but
-/// not change the handles of the call it hears of.
+/// It is called on the thread that made the call. It must not throw or longjmp: a C++ exception that leaves it
+/// ends the process. It may call the library, but not change or destroy what the call was given.
 pub type planish_progress =
     Option<unsafe extern "C-unwind" fn(fraction: f64, error: f64, user: *mut c_void) -> i32>;
 

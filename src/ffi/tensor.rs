@@ -1,7 +1,7 @@
 //! Tensor product B-spline surfaces: fits, parts in and out.
 
 use super::arguments::{
-    ArgumentError, array_len, choice, copy, copy_rows, deref, flag, init_options, options, out, rows_mut,
+    ArgumentError, Record, array_len, choice, copy, copy_rows, deref, flag, init_options, options, out, rows_mut,
     slice,
 };
 use super::guard::{Failure, guard};
@@ -183,6 +183,9 @@ impl planish_tensor_options {
     /// # Safety
     /// The pointers are NULL or as the header says, for `count` data, until the options are no longer used.
     unsafe fn to_core<'a>(self, count: usize) -> Result<TensorOptions<'a>, ArgumentError> {
+        if self.reserved != 0 {
+            return Err(ArgumentError::Reserved { record: Self::NAME, given: self.reserved });
+        }
         let scales = [ToleranceScale::Relative, ToleranceScale::Absolute];
         let scale = choice(self.tolerance_scale, &scales, "tolerance_scale")?;
         // SAFETY: the caller's promise.
