@@ -237,7 +237,8 @@ typedef enum planish_map_method {
  */
 typedef enum planish_border {
     /**
-     * The one of circle, square by turns and square by arc with the least L2 stretch.
+     * The one of circle, square by turns, square by arc and (if `unroll` says so) free with the least L2
+     * stretch.
      */
     PLANISH_BORDER_AUTO = 0,
     /**
@@ -260,6 +261,11 @@ typedef enum planish_border {
      * All boundary nodes, those of holes too, keep the parameters that the mesh has.
      */
     PLANISH_BORDER_KEPT = 5,
+    /**
+     * No border at all: unrolled so that lengths are kept best, in the units of the mesh. Refused if that
+     * folds or overlaps itself.
+     */
+    PLANISH_BORDER_FREE = 6,
 } planish_border;
 
 /**
@@ -417,6 +423,14 @@ typedef enum planish_regularize {
 } planish_regularize;
 
 /**
+ * A B-spline curve: a map from an interval of parameters u to R^dim. Made by planish_curve_fit(), destroyed by
+ * planish_curve_free().
+ *
+ * Calls that take it const may run at once on any threads.
+ */
+typedef struct planish_curve planish_curve;
+
+/**
  * A triangle mesh: manifold and consistently oriented, possibly with several components, holes and nodes
  * without triangles. Made by planish_mesh_new() and others, destroyed by planish_mesh_free().
  *
@@ -508,15 +522,15 @@ typedef struct planish_mesh_options {
 /**
  * Hears how far a call is and may end it.
  *
- * fraction: how much is done, 0 to 1. It may stay for a while, and falls back never.
- * error:    for fits the largest error so far in model units, for maps the stretch; NaN while unknown.
+ * fraction: how much is done, 0 to 1; it never falls.
+ * error:    while a surface is fitted the largest error so far in model units, while a mesh is parameterized
+ *           the L2 stretch so far; NaN while unknown.
  * user:     the pointer from the options.
- * Returns 0 to go on; anything else cancels, and the call returns PLANISH_STATUS_CANCELLED within about
- * 50 milliseconds, or when the factorization in progress ends.
+ * Returns 0 to go on; anything else cancels, and the call returns PLANISH_STATUS_CANCELLED when the step in
+ * progress, such as a factorization, has ended.
  *
- * It is called on the thread that made the call, at least every 50 milliseconds while other threads work. It
- * must not throw or longjmp: a C++ exception that leaves it ends the process. It may call the library, but
- * not change the handles of the call it hears of.
+ * It is called on the thread that made the call. It must not throw or longjmp: a C++ exception that leaves it
+ * ends the process. It may call the library, but not change or destroy what the call was given.
  */
 typedef int32_t (*planish_progress)(double fraction, double error, void *user);
 
@@ -575,9 +589,18 @@ typedef struct planish_parameterize_options {
      */
     uint32_t fill_holes;
     /**
+     * With PLANISH_BORDER_AUTO: 1 (default) also unrolls the map with a free border, and takes that if it
+     * neither folds nor overlaps itself and stretches less; 0 does not.
+     */
+    uint32_t unroll;
+    /**
      * Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
      */
     uint32_t thread_count;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
 } planish_parameterize_options;
 
 /**
@@ -1245,8 +1268,7 @@ enum planish_status planish_parameterize_options_init(struct planish_parameteriz
                                                       size_t struct_size);
 
 /**
- * Gives each node of a disk, possibly with holes, its (u,v) in the unit square (bulged sides reach a little
- * beyond it). Parameters that the mesh has are replaced.
+ * Gives each node of a disk, possibly with holes, its (u,v). Parameters that the mesh has are replaced.
  *
  * mesh:       not NULL; changed on success.
  * options:    NULL for the defaults.
@@ -1674,6 +1696,130 @@ PLANISH_NODISCARD
 enum planish_status planish_tensor_copy_weights(const struct planish_surface *surface,
                                                 double *out_weights,
                                                 size_t count);
+
+/**
+ * Fits a cubic curve to values at parameters, by the method of planish_tensor_fit() in one parameter.
+ *
+ * u:          count parameters, in any order.
+ * values:     count rows of dim numbers.
+ * count:      at least 3.
+ * dim:        numbers of a value, at least 1.
+ * options:    NULL for the defaults. grid_u fixes the grid, and 0 refines; energy, grid_v, max_coefficients,
+ *             correction_sweeps, regularize, parameterize and measure_distance are not used; out_parameters
+ *             must be NULL.
+ * out_curve:  receives a new curve; destroy with planish_curve_free().
+ * out_report: receives what the fit did and how good it is; grid_v is 1. NULL for no report.
+ * Returns what planish_tensor_fit_points() returns.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_curve_fit(const double *u,
+                                      const double *values,
+                                      size_t count,
+                                      size_t dim,
+                                      const struct planish_tensor_options *options,
+                                      struct planish_curve **out_curve,
+                                      struct planish_fit_report *out_report);
+
+/**
+ * Numbers of a value; 0 for NULL.
+ */
+PLANISH_API size_t planish_curve_dim(const struct planish_curve *curve);
+
+/**
+ * Degree of the polynomial pieces; 0 for NULL.
+ */
+PLANISH_API uint32_t planish_curve_degree(const struct planish_curve *curve);
+
+/**
+ * Number of knots, each as often as it occurs; 0 for NULL.
+ */
+PLANISH_API size_t planish_curve_knot_count(const struct planish_curve *curve);
+
+/**
+ * Number of control points; 0 for NULL.
+ */
+PLANISH_API size_t planish_curve_control_point_count(const struct planish_curve *curve);
+
+/**
+ * Copies the knots of a curve.
+ *
+ * curve:     not NULL.
+ * out_knots: receives planish_curve_knot_count() knots.
+ * count:     knots that out_knots has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_curve_copy_knots(const struct planish_curve *curve,
+                                             double *out_knots,
+                                             size_t count);
+
+/**
+ * Copies the control points of a curve.
+ *
+ * curve:              not NULL.
+ * out_control_points: receives planish_curve_control_point_count() rows of dim numbers.
+ * count:              rows that out_control_points has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_curve_copy_control_points(const struct planish_curve *curve,
+                                                      double *out_control_points,
+                                                      size_t count);
+
+/**
+ * The interval on which the curve is defined.
+ *
+ * curve:        not NULL.
+ * out_interval: receives 2 numbers: least u, largest u.
+ * Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_curve_domain(const struct planish_curve *curve,
+                                         double *out_interval);
+
+/**
+ * Evaluates the curve and its derivatives at parameters.
+ *
+ * curve:          not NULL.
+ * u:              count parameters, options->uv_stride doubles apart (0 for 1).
+ * count:          may be 0.
+ * max_derivative: 0 to 3.
+ * options:        NULL for the defaults; thread_count is not used.
+ * out:            receives for each parameter max_derivative + 1 rows of dim numbers: C, C', C'', C''';
+ *                 parameters start options->out_stride doubles apart. It must not overlap u.
+ * Returns what planish_surface_eval() returns; PLANISH_STATUS_INVALID_ARGUMENT also for max_derivative.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_curve_eval(const struct planish_curve *curve,
+                                       const double *u,
+                                       size_t count,
+                                       uint32_t max_derivative,
+                                       const struct planish_eval_options *options,
+                                       double *out);
+
+/**
+ * Makes a copy of a curve.
+ *
+ * curve:     not NULL.
+ * out_curve: receives a new curve; destroy with planish_curve_free().
+ * Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_curve_clone(const struct planish_curve *curve,
+                                        struct planish_curve **out_curve);
+
+/**
+ * Destroys a curve.
+ *
+ * curve: from this library and not destroyed yet; NULL does nothing.
+ */
+PLANISH_API void planish_curve_free(struct planish_curve *curve);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -111,7 +111,8 @@ pub(super) unsafe fn out<'a, T>(at: *mut T, name: &'static str) -> Argument<&'a 
 /// `count * width`, if an array of so many `T` can exist.
 pub(super) fn array_len<T>(count: usize, width: usize, name: &'static str) -> Argument<usize> {
     let len = count.checked_mul(width);
-    let len = len.filter(|len| len.checked_mul(size_of::<T>()).is_some_and(|size| size <= isize::MAX as usize));
+    let len =
+        len.filter(|len| len.checked_mul(size_of::<T>()).is_some_and(|size| size <= isize::MAX as usize));
     len.ok_or(ArgumentError::Overflow { name, count, width })
 }
 
@@ -287,7 +288,7 @@ macro_rules! record {
             const NAME: &'static str = stringify!($record);
 
             fn defaults() -> Self {
-                Self::default()
+                Self { struct_size: size_of::<Self>(), ..Self::default() }
             }
         }
 

@@ -6,11 +6,15 @@
 //! argument must be is said there once, for readers of the header.
 
 #![allow(non_camel_case_types, reason = "these are the names of the header")]
-#![allow(clippy::missing_safety_doc, reason = "each function's documentation of its arguments is that section")]
+#![allow(
+    clippy::missing_safety_doc,
+    reason = "each function's documentation of its arguments is that section"
+)]
 #![allow(clippy::too_many_arguments, reason = "C passes an array as two arguments")]
 
 #[macro_use]
 mod arguments;
+mod curve;
 mod guard;
 mod mesh;
 mod parameterize;
@@ -22,6 +26,7 @@ mod tensor;
 #[cfg(test)]
 mod tests;
 
+pub use curve::*;
 pub use mesh::*;
 pub use parameterize::*;
 pub use progress::*;

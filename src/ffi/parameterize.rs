@@ -1,7 +1,7 @@
 //! Where a mesh gets its (u,v) from.
 
 use super::arguments::{
-    ArgumentError, ReportOut, choice, deref_mut, flag, init_options, options, slice,
+    ArgumentError, Record, ReportOut, choice, deref_mut, flag, init_options, options, slice,
 };
 use super::guard::guard;
 use super::mesh::planish_mesh;
@@ -27,7 +27,8 @@ pub enum planish_map_method {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum planish_border {
-    /// The one of circle, square by turns and square by arc with the least L2 stretch.
+    /// The one of circle, square by turns, square by arc and (if `unroll` says so) free with the least L2
+    /// stretch.
     Auto = 0,
     /// The circle inscribed in the unit square, spaced by chord length.
     Circle = 1,
@@ -39,6 +40,9 @@ pub enum planish_border {
     Corners = 4,
     /// All boundary nodes, those of holes too, keep the parameters that the mesh has.
     Kept = 5,
+    /// No border at all: unrolled so that lengths are kept best, in the units of the mesh. Refused if that
+    /// folds or overlaps itself.
+    Free = 6,
 }
 
 /// The value of stretch_steps that goes on until the stretch no longer falls.
@@ -74,13 +78,19 @@ pub struct planish_parameterize_options {
     pub rings: u32,
     /// 1 (default) closes holes by fans of triangles while the map is computed; 0 lets them become convex.
     pub fill_holes: u32,
+    /// With PLANISH_BORDER_AUTO: 1 (default) also unrolls the map with a free border, and takes that if it
+    /// neither folds nor overlaps itself and stretches less; 0 does not.
+    pub unroll: u32,
     /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
     pub thread_count: u32,
+    /// 0.
+    pub reserved: u32,
 }
 
-record!(planish_parameterize_options, 88, {
+record!(planish_parameterize_options, 96, {
     struct_size: 0, node_weights: 8, progress: 16, user: 24, bulge: 32, boundary_slide: 40, method: 48,
-    border: 52, corners: 56, stretch_steps: 72, rings: 76, fill_holes: 80, thread_count: 84,
+    border: 52, corners: 56, stretch_steps: 72, rings: 76, fill_holes: 80, unroll: 84,
+    thread_count: 88, reserved: 92,
 });
 
 impl Default for planish_parameterize_options {
@@ -99,13 +109,18 @@ impl Default for planish_parameterize_options {
             stretch_steps: PLANISH_UNLIMITED,
             rings: core.rings as u32,
             fill_holes: core.fill_holes.into(),
+            unroll: core.unroll.into(),
             thread_count: 0,
+            reserved: 0,
         }
     }
 }
 
 impl planish_parameterize_options {
     pub(super) fn to_core(self) -> Result<ParameterizeOptions, ArgumentError> {
+        if self.reserved != 0 {
+            return Err(ArgumentError::Reserved { record: Self::NAME, given: self.reserved });
+        }
         let borders = [
             Border::Auto,
             Border::Circle,
@@ -113,6 +128,7 @@ impl planish_parameterize_options {
             Border::SquareByArc,
             Border::Corners(self.corners),
             Border::Kept,
+            Border::Free,
         ];
         Ok(ParameterizeOptions {
             method: choice(self.method, &[Method::MeanValue, Method::Harmonic], "method")?,
@@ -125,6 +141,7 @@ impl planish_parameterize_options {
             bulge: self.bulge,
             fill_holes: flag(self.fill_holes, "fill_holes")?,
             boundary_slide: self.boundary_slide,
+            unroll: flag(self.unroll, "unroll")?,
         })
     }
 }
@@ -138,6 +155,7 @@ impl From<Border> for planish_border {
             Border::SquareByArc => Self::SquareByArc,
             Border::Corners(_) => Self::Corners,
             Border::Kept => Self::Kept,
+            Border::Free => Self::Free,
         }
     }
 }
@@ -222,8 +240,7 @@ pub unsafe extern "C" fn planish_parameterize_options_init(
     guard(|| unsafe { init_options(options, struct_size) })
 }
 
-/// Gives each node of a disk, possibly with holes, its (u,v) in the unit square (bulged sides reach a little
-/// beyond it). Parameters that the mesh has are replaced.
+/// Gives each node of a disk, possibly with holes, its (u,v). Parameters that the mesh has are replaced.
 ///
 /// mesh:       not NULL; changed on success.
 /// options:    NULL for the defaults.

@@ -1,10 +1,11 @@
 //! What fits say of themselves, and what they hand back.
 
 use super::arguments::{ArgumentError, ReportOut, out, slice_mut_or_none};
+use super::curve::planish_curve;
 use super::planish_status;
 use super::surface::{Family, planish_surface};
 use crate::fit::report::{FitReport, Remarks, StopReason};
-use crate::fit::tessellation::TensorFit;
+use crate::fit::tessellation::{CurveFit, TensorFit};
 use glam::DVec2;
 use std::mem::MaybeUninit;
 
@@ -182,19 +183,19 @@ pub(super) fn gravest(remarks: u64) -> planish_status {
     found.map_or(planish_status::Ok, |(_, status)| status)
 }
 
-/// Where the caller wants the results of a fit.
-pub(super) struct FitOutputs<'a> {
-    surface: &'a mut MaybeUninit<*mut planish_surface>,
+/// Where the caller wants the results of a fit: of a surface or, as `T`, of a curve.
+pub(super) struct FitOutputs<'a, T> {
+    handle: &'a mut MaybeUninit<*mut T>,
     report: ReportOut<planish_fit_report>,
     parameters: Option<&'a mut [f64]>,
     errors: Option<&'a mut [f64]>,
 }
 
-impl FitOutputs<'_> {
+impl<T> FitOutputs<'_, T> {
     /// # Safety
     /// Each is NULL or as the header says, for `count` data.
     pub unsafe fn new(
-        surface: *mut *mut planish_surface,
+        handle: (*mut *mut T, &'static str),
         report: *mut planish_fit_report,
         parameters: *mut f64,
         errors: *mut f64,
@@ -203,7 +204,7 @@ impl FitOutputs<'_> {
         // SAFETY: the caller's promise.
         unsafe {
             Ok(Self {
-                surface: out(surface, "out_surface")?,
+                handle: out(handle.0, handle.1)?,
                 report: ReportOut::new(report)?,
                 parameters: slice_mut_or_none(parameters, count.saturating_mul(2), "out_parameters")?,
                 errors: slice_mut_or_none(errors, count, "out_errors")?,
@@ -212,16 +213,29 @@ impl FitOutputs<'_> {
     }
 
     /// Hands everything over.
-    pub fn store(self, fit: TensorFit) -> planish_status {
-        if let Some(parameters) = self.parameters {
-            write_pairs(&fit.parameters, parameters);
+    fn store(self, uv: &[DVec2], errors: &[f64], report: &FitReport, handle: *mut T) -> planish_status {
+        if let Some(out) = self.parameters {
+            write_pairs(uv, out);
         }
-        if let Some(errors) = self.errors {
-            errors.copy_from_slice(&fit.errors);
+        if let Some(out) = self.errors {
+            out.copy_from_slice(errors);
         }
-        self.report.store((&fit.report).into());
-        self.surface.write(planish_surface::into_raw(Family::Tensor(fit.surface)));
-        gravest(fit.report.remarks.0)
+        self.report.store(report.into());
+        self.handle.write(handle);
+        gravest(report.remarks.0)
+    }
+}
+
+impl FitOutputs<'_, planish_surface> {
+    pub fn store_surface(self, fit: TensorFit) -> planish_status {
+        let handle = planish_surface::into_raw(Family::Tensor(fit.surface));
+        self.store(&fit.parameters, &fit.errors, &fit.report, handle)
+    }
+}
+
+impl FitOutputs<'_, planish_curve> {
+    pub fn store_curve(self, fit: CurveFit) -> planish_status {
+        self.store(&[], &fit.errors, &fit.report, planish_curve::into_raw(fit.curve))
     }
 }
 

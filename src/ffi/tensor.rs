@@ -1,8 +1,8 @@
 //! Tensor product B-spline surfaces: fits, parts in and out.
 
 use super::arguments::{
-    ArgumentError, Record, array_len, choice, copy, copy_rows, deref, flag, init_options, options, out, rows_mut,
-    slice,
+    ArgumentError, Record, array_len, choice, copy, copy_rows, deref, flag, init_options, options, out,
+    rows_mut, slice,
 };
 use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;
@@ -182,7 +182,7 @@ impl Default for planish_tensor_options {
 impl planish_tensor_options {
     /// # Safety
     /// The pointers are NULL or as the header says, for `count` data, until the options are no longer used.
-    unsafe fn to_core<'a>(self, count: usize) -> Result<TensorOptions<'a>, ArgumentError> {
+    pub(super) unsafe fn to_core<'a>(self, count: usize) -> Result<TensorOptions<'a>, ArgumentError> {
         if self.reserved != 0 {
             return Err(ArgumentError::Reserved { record: Self::NAME, given: self.reserved });
         }
@@ -239,12 +239,12 @@ unsafe fn fit(
     unsafe {
         let given = self::options(options)?;
         let (parameters, errors) = (given.out_parameters, given.out_errors);
-        let outputs = FitOutputs::new(out_surface, out_report, parameters, errors, count)?;
+        let outputs = FitOutputs::new((out_surface, "out_surface"), out_report, parameters, errors, count)?;
         let options = given.to_core(count)?;
         let fit = with_control(given.thread_count, given.progress, given.user, |control| {
             method(&options, control)
         })??;
-        Ok(outputs.store(fit))
+        Ok(outputs.store_surface(fit))
     }
 }
 
@@ -405,8 +405,7 @@ pub unsafe extern "C" fn planish_tensor_new(
         let count = array_len::<f64>(knots_u.basis_count(), knots_v.basis_count(), "control_points")?;
         let len = array_len::<f64>(count, dim, "control_points")?;
         let control_points = copy(control_points, len, "control_points")?;
-        let weights =
-            if weights.is_null() { None } else { Some(copy(weights, count, "weights")?) };
+        let weights = if weights.is_null() { None } else { Some(copy(weights, count, "weights")?) };
         let tensor = TensorSurface::new(dim, knots_u, knots_v, control_points, weights)?;
         out_surface.write(planish_surface::into_raw(Family::Tensor(tensor)));
         Ok(())
@@ -435,9 +434,7 @@ pub unsafe extern "C" fn planish_tensor_degree(surface: *const planish_surface, 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_tensor_knot_count(surface: *const planish_surface, axis: u32) -> usize {
     // SAFETY: the caller's promise.
-    unsafe {
-        query_surface(surface, |surface| Ok(surface.tensor()?.knots(self::axis(axis)?).knots().len()))
-    }
+    unsafe { query_surface(surface, |surface| Ok(surface.tensor()?.knots(self::axis(axis)?).knots().len())) }
 }
 
 /// Number of control points of a tensor surface along one axis; 0 for NULL, another family or an axis that does
@@ -450,9 +447,7 @@ pub unsafe extern "C" fn planish_tensor_control_point_count(
     axis: u32,
 ) -> usize {
     // SAFETY: the caller's promise.
-    unsafe {
-        query_surface(surface, |surface| Ok(surface.tensor()?.knots(self::axis(axis)?).basis_count()))
-    }
+    unsafe { query_surface(surface, |surface| Ok(surface.tensor()?.knots(self::axis(axis)?).basis_count())) }
 }
 
 /// Copies the knots of a tensor surface.
@@ -530,8 +525,7 @@ pub unsafe extern "C" fn planish_tensor_copy_weights(
     guard(|| unsafe {
         let surface = deref(surface, "surface")?;
         let tensor = surface.tensor()?;
-        let out_weights =
-            rows_mut(out_weights, count, surface.any().coefficient_count(), 1, "out_weights")?;
+        let out_weights = rows_mut(out_weights, count, surface.any().coefficient_count(), 1, "out_weights")?;
         match tensor.weights() {
             Some(weights) => out_weights.copy_from_slice(weights),
             None => out_weights.fill(1.0),

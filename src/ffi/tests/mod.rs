@@ -1,5 +1,6 @@
 //! The contract from the caller's side: statuses, sentences, indices, and what stays untouched.
 
+mod curves;
 mod fits;
 mod meshes;
 mod records;
@@ -188,11 +189,7 @@ impl Sheet {
         MeshHandle(out)
     }
 
-    fn mesh_with(
-        &self,
-        options: *const planish_mesh_options,
-        out: *mut *mut planish_mesh,
-    ) -> planish_status {
+    fn mesh_with(&self, options: *const planish_mesh_options, out: *mut *mut planish_mesh) -> planish_status {
         // SAFETY: the arrays have these lengths.
         unsafe {
             planish_mesh_new(

@@ -15,9 +15,7 @@ fn eval_with(options: *const planish_eval_options) -> (planish_status, [f64; 3])
     let mut out: [f64; 3] = canary();
     let uv = [0.5, 0.5];
     // SAFETY: one point.
-    let status = unsafe {
-        planish_surface_eval(surface.0, uv.as_ptr(), 1, options, (&raw mut out).cast())
-    };
+    let status = unsafe { planish_surface_eval(surface.0, uv.as_ptr(), 1, options, (&raw mut out).cast()) };
     (status, out)
 }
 
@@ -54,7 +52,7 @@ fn every_init_refuses_null() {
     // SAFETY: NULL is refused.
     unsafe {
         null_refused(planish_mesh_options_init(null_mut(), 56), "options");
-        null_refused(planish_parameterize_options_init(null_mut(), 88), "options");
+        null_refused(planish_parameterize_options_init(null_mut(), 96), "options");
         null_refused(planish_eval_options_init(null_mut(), 40), "options");
         null_refused(planish_tensor_options_init(null_mut(), 136), "options");
     }
@@ -75,7 +73,8 @@ fn defaults_are_those_of_the_header() {
     assert_eq!((mesh.orient, mesh.index_base), (0, 0));
     assert!(mesh.out_repairs.is_null() && mesh.out_node_map.is_null());
     assert_eq!((map.bulge, map.boundary_slide, map.method, map.border), (0.02, 0.0, 0, 0));
-    assert_eq!((map.stretch_steps, map.rings, map.fill_holes, map.thread_count), (PLANISH_UNLIMITED, 0, 1, 0));
+    assert_eq!((map.stretch_steps, map.rings, map.fill_holes, map.unroll), (PLANISH_UNLIMITED, 0, 1, 1));
+    assert_eq!((map.thread_count, map.reserved), (0, 0));
     assert!(map.node_weights.is_null() && map.progress.is_none() && map.user.is_null());
     assert_eq!((tensor.tolerance, tensor.smoothing, tensor.buffer), (1e-3, 0.0, 0.1));
     assert_eq!((tensor.max_coefficients, tensor.max_grid), (66049, 257));

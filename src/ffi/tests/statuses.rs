@@ -81,9 +81,12 @@ fn messages_keep_whole_letters() {
     let path = c("/nowhere/\u{e9}\u{e9}.off");
     let mut out = canary();
     // SAFETY: a terminated text.
-    refused(unsafe { planish_mesh_read(path.as_ptr(), null(), &mut out) }, planish_status::File, -1, &[
-        "\u{e9}",
-    ]);
+    refused(
+        unsafe { planish_mesh_read(path.as_ptr(), null(), &mut out) },
+        planish_status::File,
+        -1,
+        &["\u{e9}"],
+    );
     assert_untouched(&out);
     let whole = message();
     for size in 1..=whole.len() + 1 {
@@ -109,9 +112,8 @@ fn messages_and_indices_are_those_of_the_thread() {
                 let mut node = 0;
                 let mut count = 0;
                 // SAFETY: one element.
-                let status = unsafe {
-                    planish_mesh_shortest_path(mesh.0, 0, 9 + k, &mut node, 1, &mut count)
-                };
+                let status =
+                    unsafe { planish_mesh_shortest_path(mesh.0, 0, 9 + k, &mut node, 1, &mut count) };
                 refused(status, planish_status::Index, 9 + i64::from(k), &[&format!("node {}", 9 + k)]);
             }
         })
@@ -155,7 +157,9 @@ fn panics_everywhere() {
     assert_eq!(guard(|| -> Result<(), _> { panic!("in the guard") }), planish_status::Internal);
     let nested = guard(|| {
         assert_eq!(guard(|| -> Result<(), _> { panic!("in the inner guard") }), planish_status::Internal);
-        if planish_error_index() == -1 { panic!("after the inner guard") }
+        if planish_error_index() == -1 {
+            panic!("after the inner guard")
+        }
         Ok(())
     });
     assert_eq!(nested, planish_status::Internal);

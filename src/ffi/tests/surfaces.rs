@@ -273,9 +273,7 @@ fn threads_do_not_change_the_bits() {
         let mut flags = vec![CANARY; count];
         let options = planish_eval_options { thread_count, out_flags: flags.as_mut_ptr(), ..record() };
         // SAFETY: the arrays have these lengths.
-        ok(unsafe {
-            planish_surface_curvatures(saddle.0, uv.as_ptr(), count, &options, out.as_mut_ptr())
-        });
+        ok(unsafe { planish_surface_curvatures(saddle.0, uv.as_ptr(), count, &options, out.as_mut_ptr()) });
         (out.into_iter().map(f64::to_bits).collect::<Vec<_>>(), flags)
     };
     let one = run(1);
@@ -417,13 +415,14 @@ fn bad_parts_are_no_tensor() {
     use planish_status::*;
     let knots = [0.0, 0.0, 1.0, 1.0];
     let mut out = canary();
-    let make = |dim, degrees: [u32; 2], u: &[f64], v: &[f64], points: *const f64, weights: *const f64, out| {
-        // SAFETY: the arrays have these lengths, and points and weights are long enough.
-        unsafe {
-            let [p, q] = degrees;
-            planish_tensor_new(dim, p, q, u.as_ptr(), u.len(), v.as_ptr(), v.len(), points, weights, out)
-        }
-    };
+    let make =
+        |dim, degrees: [u32; 2], u: &[f64], v: &[f64], points: *const f64, weights: *const f64, out| {
+            // SAFETY: the arrays have these lengths, and points and weights are long enough.
+            unsafe {
+                let [p, q] = degrees;
+                planish_tensor_new(dim, p, q, u.as_ptr(), u.len(), v.as_ptr(), v.len(), points, weights, out)
+            }
+        };
     let (points, weights) = ([0.0, 1.0, 2.0, NAN], [1.0, 1.0, -2.0, 1.0]);
     let (p, w) = (points.as_ptr(), weights.as_ptr());
     let flat = [1.0; 4];
@@ -438,7 +437,12 @@ fn bad_parts_are_no_tensor() {
     refused(make(1, [1, 1], &knots, &falling, p, null(), out), InvalidArgument, 3, &["in V", "knot 3"]);
     refused(make(1, [1, 1], &[0., 0., NAN, 1.], &knots, p, null(), out), NotFinite, 2, &["in U", "knot 2"]);
     let empty = [0.0, 1.0, 1.0, 2.0];
-    refused(make(1, [1, 1], &empty, &knots, p, null(), out), Degenerate, -1, &["in U", "begins and ends at 1"]);
+    refused(
+        make(1, [1, 1], &empty, &knots, p, null(), out),
+        Degenerate,
+        -1,
+        &["in U", "begins and ends at 1"],
+    );
     refused(make(1, [1, 1], &knots, &knots, p, null(), out), NotFinite, 3, &["control point 3"]);
     refused(make(1, [1, 1], &knots, &knots, f, w, out), InvalidArgument, 2, &["weight 2 is -2"]);
     refused(make(1, [1, 1], &knots, &knots, f, p, out), InvalidArgument, 0, &["weight 0 is 0"]);

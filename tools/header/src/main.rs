@@ -6,8 +6,16 @@ use std::path::Path;
 use std::process::ExitCode;
 
 /// The files of `src/ffi` in the order of the header.
-const SOURCES: [&str; 7] =
-    ["status.rs", "progress.rs", "mesh.rs", "parameterize.rs", "report.rs", "surface.rs", "tensor.rs"];
+const SOURCES: [&str; 8] = [
+    "status.rs",
+    "progress.rs",
+    "mesh.rs",
+    "parameterize.rs",
+    "report.rs",
+    "surface.rs",
+    "tensor.rs",
+    "curve.rs",
+];
 
 fn main() -> ExitCode {
     let verify = match std::env::args().skip(1).collect::<Vec<_>>().as_slice() {
