@@ -43,8 +43,10 @@ FOLLOWS(planish_parameterize_options, border, corners);
 FOLLOWS(planish_parameterize_options, corners, stretch_steps);
 FOLLOWS(planish_parameterize_options, stretch_steps, rings);
 FOLLOWS(planish_parameterize_options, rings, fill_holes);
-FOLLOWS(planish_parameterize_options, fill_holes, thread_count);
-LAST(planish_parameterize_options, thread_count);
+FOLLOWS(planish_parameterize_options, fill_holes, unroll);
+FOLLOWS(planish_parameterize_options, unroll, thread_count);
+FOLLOWS(planish_parameterize_options, thread_count, reserved);
+LAST(planish_parameterize_options, reserved);
 
 FIRST(planish_parameterize_report);
 FOLLOWS(planish_parameterize_report, struct_size, stretch);

@@ -500,8 +500,8 @@ TEST(MeshParameterize, RefusesByName) {
   options.method = 2;
   refuse(mesh.get(), options, invalid, -1, "method is 2");
   options = parameterize_options();
-  options.border = 6;
-  refuse(mesh.get(), options, invalid, -1, "border is 6");
+  options.border = 7;
+  refuse(mesh.get(), options, invalid, -1, "border is 7");
   options = parameterize_options();
   options.border = PLANISH_BORDER_KEPT;
   refuse(mesh.get(), options, invalid, -1, "no given parameters");
@@ -517,6 +517,12 @@ TEST(MeshParameterize, RefusesByName) {
   options = parameterize_options();
   options.fill_holes = 2;
   refuse(mesh.get(), options, invalid, -1, "fill_holes is 2");
+  options = parameterize_options();
+  options.unroll = 2;
+  refuse(mesh.get(), options, invalid, -1, "unroll is 2");
+  options = parameterize_options();
+  options.reserved = 1;
+  refuse(mesh.get(), options, invalid, -1, "planish_parameterize_options");
   options = parameterize_options();
   options.thread_count = 2000;
   refuse(mesh.get(), options, invalid, -1, "thread_count is 2000");

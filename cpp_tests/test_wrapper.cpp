@@ -218,6 +218,29 @@ TEST(WrapperFit, TakesPointsAndFields) {
         PLANISH_STATUS_INVALID_ARGUMENT);
 }
 
+TEST(WrapperCurve, FitsAndEvaluates) {
+  std::vector<double> u, values;
+  for (int i = 0; i <= 20; ++i) {
+    u.push_back(i / 20.0);
+    values.insert(values.end(), {2 * u.back(), 1 - u.back()});
+  }
+  const auto [curve, report, status] = planish::curve_fit(u, values, 2);
+  CHECK(status == PLANISH_STATUS_OK);
+  CHECK(report.max_error < 1e-13);
+  const planish::curve copy = curve;
+  CHECK_EQUAL(copy.dim(), 2u);
+  CHECK_EQUAL(copy.degree(), 3u);
+  CHECK_EQUAL(copy.knots().size(), copy.control_point_count() + 4);
+  CHECK_EQUAL(copy.control_points().size(), 2 * copy.control_point_count());
+  CHECK(copy.domain()[0] < 0 && copy.domain()[1] > 1);
+  CHECK_NEAR(copy.value(0.25)[1], 0.75, 1e-13);
+  CHECK_NEAR(copy.eval(u, 1)[2], 2.0, 1e-12);
+  CHECK(thrown_by([&] { copy.value(5); }).status() == PLANISH_STATUS_OUTSIDE);
+  CHECK(thrown_by([&] { copy.eval(u, 4); }).status() == PLANISH_STATUS_INVALID_ARGUMENT);
+  values.pop_back();
+  CHECK(thrown_by([&] { planish::curve_fit(u, values, 2); }).status() == PLANISH_STATUS_INVALID_ARGUMENT);
+}
+
 TEST(WrapperMap, ReportsAndParameterizes) {
   planish::mesh mesh = make(shapes::graph(15, 15, 0.2, 4), false);
   const planish::parameterized map = mesh.parameterize();

@@ -186,9 +186,20 @@ class listener {
   std::exception_ptr thrown_;
 };
 
+// The numbers that `call` writes for `count` points of `width` numbers, at the stride of the options.
+template <class Call>
+std::vector<double> filled(std::size_t count, std::size_t width, const planish_eval_options &options,
+                           const Call &call) {
+  const std::size_t stride = std::max(options.out_stride, width);
+  std::vector<double> out(count == 0 ? 0 : (count - 1) * stride + width);
+  checked(call(out.data()));
+  return out;
+}
+
 struct destroy {
   void operator()(planish_mesh *mesh) const noexcept { planish_mesh_free(mesh); }
   void operator()(planish_surface *surface) const noexcept { planish_surface_free(surface); }
+  void operator()(planish_curve *curve) const noexcept { planish_curve_free(curve); }
 };
 
 } // namespace detail
@@ -470,7 +481,7 @@ class surface {
   /// is an error unless options.outside says otherwise; options.out_flags tells which ones are.
   std::vector<double> eval(const rows<double, 2> &uv,
                            const planish_eval_options &options = defaults<planish_eval_options>()) const {
-    return filled(uv.count(), dim(), options, [&](double *out) {
+    return detail::filled(uv.count(), dim(), options, [&](double *out) {
       return planish_surface_eval(get(), uv.data(), uv.count(), &options, out);
     });
   }
@@ -498,7 +509,7 @@ class surface {
       const planish_eval_options &options = defaults<planish_eval_options>()) const {
     const std::size_t degree = std::min<std::size_t>(max_derivative, 2); // the call refuses more
     const std::size_t row_count = (degree + 1) * (degree + 2) / 2;
-    return filled(uv.count(), row_count * dim(), options, [&](double *out) {
+    return detail::filled(uv.count(), row_count * dim(), options, [&](double *out) {
       return planish_surface_eval_derivatives(get(), uv.data(), uv.count(), max_derivative, &options, out);
     });
   }
@@ -507,7 +518,7 @@ class surface {
   std::vector<double> eval_grid(
       const values<double> &u, const values<double> &v,
       const planish_eval_options &options = defaults<planish_eval_options>()) const {
-    return filled(u.count() * v.count(), dim(), options, [&](double *out) {
+    return detail::filled(u.count() * v.count(), dim(), options, [&](double *out) {
       return planish_surface_eval_grid(get(), u.data(), u.count(), v.data(), v.count(), &options, out);
     });
   }
@@ -591,16 +602,78 @@ class surface {
   }
 
  private:
-  template <class Call>
-  static std::vector<double> filled(std::size_t count, std::size_t width, const planish_eval_options &options,
-                                    const Call &call) {
-    const std::size_t stride = std::max(options.out_stride, width);
-    std::vector<double> out(count == 0 ? 0 : (count - 1) * stride + width);
-    detail::checked(call(out.data()));
-    return out;
+  std::unique_ptr<planish_surface, detail::destroy> handle_;
+};
+
+/// A B-spline curve: a map from an interval of parameters u to R^dim. Copies are deep; one that was moved from
+/// may only be assigned to or destroyed. Const members may run at once on any threads.
+class curve {
+ public:
+  /// Takes a curve of planish.h over.
+  explicit curve(planish_curve *handle) noexcept : handle_(handle) {}
+
+  /// A deep copy.
+  curve(const curve &other) {
+    planish_curve *copy = nullptr;
+    detail::checked(planish_curve_clone(other.get(), &copy));
+    handle_.reset(copy);
+  }
+  /// A deep copy.
+  curve &operator=(const curve &other) { return *this = curve(other); }
+  /// Takes over.
+  curve(curve &&other) noexcept = default;
+  /// Takes over.
+  curve &operator=(curve &&other) noexcept = default;
+  ~curve() = default;
+
+  /// The handle, for calls of planish.h; it stays this object's.
+  const planish_curve *get() const noexcept { return handle_.get(); }
+  /// Gives the handle up; the caller destroys it.
+  planish_curve *release() noexcept { return handle_.release(); }
+
+  /// Numbers of a value.
+  std::size_t dim() const noexcept { return planish_curve_dim(get()); }
+  /// Degree of the polynomial pieces.
+  std::uint32_t degree() const noexcept { return planish_curve_degree(get()); }
+  /// Number of control points.
+  std::size_t control_point_count() const noexcept { return planish_curve_control_point_count(get()); }
+
+  /// Least u, largest u.
+  std::array<double, 2> domain() const {
+    std::array<double, 2> interval{};
+    detail::checked(planish_curve_domain(get(), interval.data()));
+    return interval;
   }
 
-  std::unique_ptr<planish_surface, detail::destroy> handle_;
+  /// The knots, each as often as it occurs.
+  std::vector<double> knots() const {
+    std::vector<double> knots(planish_curve_knot_count(get()));
+    detail::checked(planish_curve_copy_knots(get(), knots.data(), knots.size()));
+    return knots;
+  }
+
+  /// The control points, rows of dim numbers.
+  std::vector<double> control_points() const {
+    std::vector<double> points(control_point_count() * dim());
+    detail::checked(planish_curve_copy_control_points(get(), points.data(), control_point_count()));
+    return points;
+  }
+
+  /// Values and derivatives up to `max_derivative` (at most 3) at parameters: for each the rows C, C', C'',
+  /// C''' of dim numbers. A parameter outside is an error unless options.outside says otherwise.
+  std::vector<double> eval(const values<double> &u, std::uint32_t max_derivative = 0,
+                           const planish_eval_options &options = defaults<planish_eval_options>()) const {
+    const std::size_t row_count = std::min<std::size_t>(max_derivative, 3) + 1; // the call refuses more
+    return detail::filled(u.count(), row_count * dim(), options, [&](double *out) {
+      return planish_curve_eval(get(), u.data(), u.count(), max_derivative, &options, out);
+    });
+  }
+
+  /// The value at one parameter.
+  std::vector<double> value(double u) const { return eval(std::array<double, 1>{u}); }
+
+ private:
+  std::unique_ptr<planish_curve, detail::destroy> handle_;
 };
 
 /// What came of a fit.
@@ -613,19 +686,41 @@ struct fitted {
   planish_status status;
 };
 
+/// What came of fitting a curve.
+struct fitted_curve {
+  /// The best curve found.
+  planish::curve curve;
+  /// What the fit did and how good it is.
+  planish_fit_report report;
+  /// PLANISH_STATUS_OK, or the gravest remark, such as PLANISH_STATUS_TOLERANCE_NOT_MET.
+  planish_status status;
+};
+
 /// @cond
 namespace detail {
 
-template <class Call>
-fitted fit(planish_tensor_options options, const progress &hear, const Call &call) {
+template <class Fitted, class Owner, class Handle, class Call>
+Fitted fit_any(planish_tensor_options options, const progress &hear, const Call &call) {
   listener listener(hear);
   listener.attach(options);
   auto report = sized<planish_fit_report>();
-  planish_surface *made = nullptr;
+  Handle *made = nullptr;
   const planish_status status = call(&options, &made, &report);
-  surface surface(made); // freed even if the callback's last call has thrown
+  Owner owner(made); // freed even if the callback's last call has thrown
   listener.checked(status);
-  return {std::move(surface), report, status};
+  return {std::move(owner), report, status};
+}
+
+template <class Call>
+fitted fit(const planish_tensor_options &options, const progress &hear, const Call &call) {
+  return fit_any<fitted, surface, planish_surface>(options, hear, call);
+}
+
+inline void check_rows(std::size_t value_count, std::size_t row_count, std::size_t dim) {
+  if (value_count == row_count * dim) return;
+  const std::string text = std::to_string(value_count) + " values do not fit " + std::to_string(row_count) +
+                           " rows of " + std::to_string(dim);
+  throw error(PLANISH_STATUS_INVALID_ARGUMENT, text, -1);
 }
 
 } // namespace detail
@@ -644,11 +739,7 @@ inline fitted tensor_fit(const mesh &mesh,
 inline fitted tensor_fit_points(const rows<double, 2> &uv, const values<double> &values, std::size_t dim,
                                 const planish_tensor_options &options = defaults<planish_tensor_options>(),
                                 const progress &hear = {}) {
-  if (values.count() != uv.count() * dim) {
-    const std::string text = std::to_string(values.count()) + " values do not fit " +
-                             std::to_string(uv.count()) + " rows of " + std::to_string(dim);
-    throw error(PLANISH_STATUS_INVALID_ARGUMENT, text, -1);
-  }
+  detail::check_rows(values.count(), uv.count(), dim);
   return detail::fit(options, hear, [&](const planish_tensor_options *given, auto out, auto report) {
     return planish_tensor_fit_points(uv.data(), values.data(), uv.count(), dim, given, out, report);
   });
@@ -658,13 +749,21 @@ inline fitted tensor_fit_points(const rows<double, 2> &uv, const values<double> 
 inline fitted tensor_fit_field(const mesh &mesh, const values<double> &values, std::size_t dim,
                                const planish_tensor_options &options = defaults<planish_tensor_options>(),
                                const progress &hear = {}) {
-  if (dim == 0 || values.count() % dim != 0) {
-    const std::string text = std::to_string(values.count()) + " values are not rows of " + std::to_string(dim);
-    throw error(PLANISH_STATUS_INVALID_ARGUMENT, text, -1);
-  }
+  detail::check_rows(values.count(), mesh.point_count(), dim);
   return detail::fit(options, hear, [&](const planish_tensor_options *given, auto out, auto report) {
-    return planish_tensor_fit_field(mesh.get(), values.data(), values.count() / dim, dim, given, out, report);
+    return planish_tensor_fit_field(mesh.get(), values.data(), mesh.point_count(), dim, given, out, report);
   });
+}
+
+/// Fits a cubic curve to rows of `dim` numbers at parameters in any order.
+inline fitted_curve curve_fit(const values<double> &u, const values<double> &values, std::size_t dim,
+                              const planish_tensor_options &options = defaults<planish_tensor_options>(),
+                              const progress &hear = {}) {
+  detail::check_rows(values.count(), u.count(), dim);
+  return detail::fit_any<fitted_curve, curve, planish_curve>(
+      options, hear, [&](const planish_tensor_options *given, auto out, auto report) {
+        return planish_curve_fit(u.data(), values.data(), u.count(), dim, given, out, report);
+      });
 }
 
 /// Makes a tensor surface from its parts. Control points are rows of `dim` numbers, v running fastest; no
