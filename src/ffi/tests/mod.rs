@@ -3,6 +3,7 @@
 mod curves;
 mod fits;
 mod meshes;
+mod queries;
 mod records;
 mod statuses;
 mod surfaces;
