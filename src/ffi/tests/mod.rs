@@ -47,6 +47,10 @@ impl Surface for OtherFamily {
     fn eval_rows(&self, _: &[DVec2], _: usize, out: &mut [f64]) {
         out.fill(0.0);
     }
+
+    fn eval_grid(&self, _: &[f64], _: &[f64], out: &mut [f64]) {
+        out.fill(0.0);
+    }
 }
 
 /// Every byte of an output before a call that must not touch it.
