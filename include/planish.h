@@ -826,8 +826,8 @@ typedef struct planish_fit_report {
      */
     double diagonal;
     /**
-     * Largest distance between the surface and the facets at the centroids of triangles and the middles of
-     * edges; 0 for data without triangles.
+     * Largest distance from a triangle's centroid or an edge's middle to the surface's tangent plane at the
+     * mean of the nodes' (u,v) (for a field: to its value there); 0 for data without triangles.
      */
     double max_interior_error;
     /**
@@ -1277,7 +1277,7 @@ enum planish_status planish_parameterize_options_init(struct planish_parameteriz
  * turned over or flat) or an error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, a
  * corner, a node weight, or no parameters to keep), PLANISH_STATUS_TOPOLOGY (closed, several components, a
  * handle, a node where the surface touches itself or that no triangle has), PLANISH_STATUS_DEGENERATE (zero
- * areas or lengths), PLANISH_STATUS_SINGULAR, PLANISH_STATUS_VERSION or PLANISH_STATUS_CANCELLED.
+ * areas or lengths, or a free border that would fold or overlap itself), PLANISH_STATUS_SINGULAR, PLANISH_STATUS_VERSION or PLANISH_STATUS_CANCELLED.
  */
 PLANISH_API
 PLANISH_NODISCARD

@@ -24,8 +24,9 @@ pub fn basis_functions(knots: &KnotVector, span: usize, u: f64) -> BasisRow {
     values
 }
 
-/// From the functions of degree `p - 1` on a span to those of degree `p`: one column of the triangle.
-fn raise(t: &[f64], span: usize, u: f64, p: usize, values: &mut BasisRow) {
+/// From the functions of degree `p - 1` on a span to those of degree `p`: one column of the triangle. With
+/// another `u` for each `p` the last column weighs the control points of a blossom's value.
+pub(crate) fn raise(t: &[f64], span: usize, u: f64, p: usize, values: &mut BasisRow) {
     let mut carried = 0.0;
     for r in 0..p {
         let (left, right) = (t[span + 1 + r - p], t[span + 1 + r]);

@@ -12,6 +12,8 @@ use crate::fit::tessellation::FitError;
 use crate::knots::KnotError;
 use crate::mesh::{CutError, MeshError, ReadError};
 use crate::parameterize::ParameterizeError;
+use crate::query::deviation::DeviationError;
+use crate::query::project::ProjectError;
 use crate::query::tessellate::TessellateError;
 use crate::surface::TrimError;
 use crate::surface::evaluate::EvalError;
@@ -79,6 +81,12 @@ pub enum Error {
     /// Points cannot be evaluated.
     #[error(transparent)]
     Eval(#[from] EvalError),
+    /// A surface cannot be measured against a mesh.
+    #[error(transparent)]
+    Deviation(#[from] DeviationError),
+    /// Points cannot be projected.
+    #[error(transparent)]
+    Project(#[from] ProjectError),
     /// A surface cannot be tessellated.
     #[error(transparent)]
     Tessellate(#[from] TessellateError),
@@ -120,6 +128,8 @@ impl Error {
             Self::Curve(error) => (error.kind(), error.index()),
             Self::Tensor(error) => (error.kind(), error.index()),
             Self::Eval(error) => (error.kind(), error.index()),
+            Self::Deviation(error) => (error.kind(), error.index()),
+            Self::Project(error) => (error.kind(), error.index()),
             Self::Tessellate(error) => (error.kind(), None),
             Self::Export(error) => (error.kind(), None),
             Self::Load(error) => (error.kind(), error.index()),

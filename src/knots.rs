@@ -165,8 +165,18 @@ impl KnotVector {
     }
 
     /// The spans of positive length in the domain, in order.
-    pub fn spans(&self) -> impl Iterator<Item = usize> + '_ {
-        (self.degree..self.basis_count()).filter(|&k| self.knots[k] < self.knots[k + 1])
+    pub fn spans(&self) -> impl ExactSizeIterator<Item = usize> + '_ {
+        self.finder.spans.iter().map(|&k| k as usize)
+    }
+
+    /// The span of positive length that has `rank` others before it.
+    pub fn span_of_rank(&self, rank: usize) -> usize {
+        self.finder.spans[rank] as usize
+    }
+
+    /// How many spans of positive length lie before the one of `u`.
+    pub fn rank_at(&self, u: f64) -> usize {
+        self.finder.rank_at(&self.knots, u)
     }
 
     /// The different knots of the domain, in order.
@@ -192,8 +202,10 @@ impl KnotVector {
 struct SpanFinder {
     start: f64,
     buckets_per_unit: f64,
-    /// The span at the begin of each bucket, and the last span at the end.
-    first_span: Vec<u32>,
+    /// The spans of positive length; a rank is a place in this list.
+    spans: Vec<u32>,
+    /// The rank at the begin of each bucket, and the last rank at the end.
+    first_rank: Vec<u32>,
 }
 
 impl SpanFinder {
@@ -202,33 +214,37 @@ impl SpanFinder {
 
     fn new(knots: &[f64], degree: usize) -> Self {
         let end = knots.len() - degree - 1;
-        let spans: Vec<usize> = (degree..end).filter(|&k| knots[k] < knots[k + 1]).collect();
+        let spans: Vec<u32> = (degree..end).filter(|&k| knots[k] < knots[k + 1]).map(|k| k as u32).collect();
         let bucket_count = Self::BUCKETS_PER_SPAN * spans.len();
         let (start, length) = (knots[degree], knots[end] - knots[degree]);
         let buckets_per_unit = bucket_count as f64 / length;
-        let mut first_span = Vec::with_capacity(bucket_count + 1);
-        for &k in &spans {
-            // `find` puts a parameter into a bucket by this same rounding, so the bucket that holds
+        let mut first_rank = Vec::with_capacity(bucket_count + 1);
+        for (rank, &k) in spans.iter().enumerate() {
+            // `rank_at` puts a parameter into a bucket by this same rounding, so the bucket that holds
             // the end of a span may begin in it
-            let bucket = ((knots[k + 1] - start) * buckets_per_unit) as usize;
-            while first_span.len() <= bucket.min(bucket_count) {
-                first_span.push(k as u32);
+            let bucket = ((knots[k as usize + 1] - start) * buckets_per_unit) as usize;
+            while first_rank.len() <= bucket.min(bucket_count) {
+                first_rank.push(rank as u32);
             }
         }
-        first_span.resize(bucket_count + 1, *spans.last().unwrap_or(&degree) as u32);
-        Self { start, buckets_per_unit, first_span }
+        first_rank.resize(bucket_count + 1, spans.len().saturating_sub(1) as u32);
+        Self { start, buckets_per_unit, spans, first_rank }
     }
 
     fn find(&self, knots: &[f64], u: f64) -> usize {
+        self.spans[self.rank_at(knots, u)] as usize
+    }
+
+    fn rank_at(&self, knots: &[f64], u: f64) -> usize {
         // a negative or NaN position becomes bucket 0
         let bucket = ((u - self.start) * self.buckets_per_unit) as usize;
-        let Some(next) = self.first_span.get(bucket + 1) else {
-            return self.first_span[self.first_span.len() - 1] as usize;
+        let Some(next) = self.first_rank.get(bucket + 1) else {
+            return self.first_rank[self.first_rank.len() - 1] as usize;
         };
-        let (mut low, mut high) = (self.first_span[bucket] as usize, *next as usize);
+        let (mut low, mut high) = (self.first_rank[bucket] as usize, *next as usize);
         while low < high {
             let middle = (low + high).div_ceil(2);
-            if knots[middle] <= u { low = middle } else { high = middle - 1 }
+            if knots[self.spans[middle] as usize] <= u { low = middle } else { high = middle - 1 }
         }
         low
     }

@@ -211,7 +211,7 @@ pub unsafe extern "C" fn planish_curve_eval(
         let u: Vec<f64> = u.iter().step_by(u_stride).copied().collect();
         let out = slice_mut(out, strided_len::<f64>(count, out_stride, width, "out")?, "out")?;
         let flags = slice_mut_or_none(options.out_flags, count, "out_flags")?;
-        Ok(eval(curve, &u, order, rule, out, (out_stride, width), flags)?)
+        eval(curve, &u, order, rule, out, (out_stride, width), flags)
     })
 }
 

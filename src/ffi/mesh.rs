@@ -664,8 +664,8 @@ pub unsafe extern "C" fn planish_mesh_shortest_path(
     count: usize,
     out_count: *mut usize,
 ) -> planish_status {
-    // SAFETY: the caller's promises.
     guard(|| -> Result<(), Failure> {
+        // SAFETY: the caller's promises.
         unsafe {
             let mesh = &deref(mesh, "mesh")?.0;
             let out_count = out(out_count, "out_count")?;

@@ -15,10 +15,12 @@
 #[macro_use]
 mod arguments;
 mod curve;
+mod export;
 mod guard;
 mod mesh;
 mod parameterize;
 mod progress;
+mod query;
 mod report;
 mod status;
 mod surface;
@@ -27,9 +29,11 @@ mod tensor;
 mod tests;
 
 pub use curve::*;
+pub use export::*;
 pub use mesh::*;
 pub use parameterize::*;
 pub use progress::*;
+pub use query::*;
 pub use report::*;
 pub use status::*;
 pub use surface::*;

@@ -249,7 +249,7 @@ pub unsafe extern "C" fn planish_parameterize_options_init(
 /// turned over or flat) or an error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, a
 /// corner, a node weight, or no parameters to keep), PLANISH_STATUS_TOPOLOGY (closed, several components, a
 /// handle, a node where the surface touches itself or that no triangle has), PLANISH_STATUS_DEGENERATE (zero
-/// areas or lengths), PLANISH_STATUS_SINGULAR, PLANISH_STATUS_VERSION or PLANISH_STATUS_CANCELLED.
+/// areas or lengths, or a free border that would fold or overlap itself), PLANISH_STATUS_SINGULAR, PLANISH_STATUS_VERSION or PLANISH_STATUS_CANCELLED.
 #[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_mesh_parameterize(

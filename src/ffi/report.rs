@@ -85,8 +85,8 @@ pub struct planish_fit_report {
     pub tolerance: f64,
     /// Diagonal of the data's bounding box: an error divided by it is relative.
     pub diagonal: f64,
-    /// Largest distance between the surface and the facets at the centroids of triangles and the middles of
-    /// edges; 0 for data without triangles.
+    /// Largest distance from a triangle's centroid or an edge's middle to the surface's tangent plane at the
+    /// mean of the nodes' (u,v) (for a field: to its value there); 0 for data without triangles.
     pub max_interior_error: f64,
     /// The part of max_interior_error that flat facets on a curved shape explain.
     pub facet_sagitta: f64,

@@ -31,6 +31,7 @@ const _: () = {
 
 /// The families behind the handle.
 #[derive(Clone)]
+#[cfg_attr(test, allow(clippy::large_enum_variant, reason = "handles hold it in a box"))]
 pub(super) enum Family {
     Tensor(TensorSurface),
     /// Stands for every other family while tensors are the only one.

@@ -1,7 +1,9 @@
 //! Points, boxes and exact predicates.
 
 mod bounds;
+mod domain;
 mod orientation;
 
 pub use bounds::Bounds;
+pub use domain::Domain;
 pub use orientation::{Orientation, orientation};

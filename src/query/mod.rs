@@ -1,3 +1,6 @@
 //! Questions to a surface that take more than an evaluation: tessellation, closest points, deviation.
 
+pub mod deviation;
+pub mod project;
 pub mod tessellate;
+pub mod triangles;

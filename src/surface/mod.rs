@@ -9,9 +9,11 @@ pub mod evaluate;
 mod region;
 pub mod tensor;
 
+pub use crate::geometry::Domain;
 pub use differential::{Curvatures, curvatures, normal};
-pub use region::{Domain, Region, TrimError, Trims};
+pub use region::{Region, TrimError, Trims};
 
+use crate::bezier::BezierPatch;
 use glam::DVec2;
 
 /// The family of a surface.
@@ -60,6 +62,11 @@ pub trait Surface: Send + Sync {
     /// polynomials are continued.
     fn eval_rows(&self, uv: &[DVec2], max_derivative: usize, out: &mut [f64]);
 
+    /// The surface as Bezier patches; None for a family that is not polynomial on rectangles.
+    fn patches(&self) -> Option<&dyn Patches> {
+        None
+    }
+
     /// Values at all pairs of `u` and `v`, `v` running fastest.
     fn eval_grid(&self, u: &[f64], v: &[f64], out: &mut [f64]) {
         let row = v.len() * self.dim();
@@ -68,4 +75,18 @@ pub trait Surface: Send + Sync {
             self.eval_rows(&uv, 0, out);
         }
     }
+}
+
+/// The common view of tensor surfaces, T-splines and PHT-splines: Bezier patches over rectangles that cover
+/// the domain without overlap.
+pub trait Patches: Send + Sync {
+    /// Number of patches.
+    fn patch_count(&self) -> usize;
+
+    /// The exact patch of a number below [`Patches::patch_count`].
+    fn patch(&self, index: usize) -> BezierPatch;
+
+    /// The patch over a parameter pair, in constant or logarithmic time; beyond the domain the one whose
+    /// polynomial is continued there.
+    fn patch_at(&self, uv: DVec2) -> usize;
 }

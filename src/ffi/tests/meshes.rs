@@ -579,7 +579,7 @@ fn closed_and_degenerate_meshes_cannot_be_parameterized() {
 fn folds_are_returned() {
     // two neighbours on the border exchange their parameters, and the border keeps them
     let mut sheet = Sheet::new(5);
-    sheet.uv.swap(2 * 1 + 1, 2 * 2 + 1);
+    sheet.uv.swap(3, 5);
     let mesh = sheet.mesh_with_parameters();
     let kept =
         planish_parameterize_options { border: planish_border::Kept as u32, stretch_steps: 0, ..record() };

@@ -1,6 +1,8 @@
 //! The energies that smooth a fit, as sums of products of one-dimensional matrices.
 
 use super::grid::{Banded4, UniformBasis};
+use crate::surface::Domain;
+use glam::DVec2;
 
 /// Which second derivatives cost energy, per cell of unit size.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -34,5 +36,50 @@ impl Energy {
                 term(1.0, u.gram(0), v.gram(2)),
             ],
         }
+    }
+}
+
+/// Which functions without energy vanish at all data, within rounding: those leave a fit undetermined.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FreeFunctions {
+    /// None of a + bu + cv + duv.
+    None,
+    /// One with d: the data lie on a hyperbola, or are three. The plate energy settles it.
+    Bilinear,
+    /// One without: the data lie on a line.
+    Linear,
+}
+
+/// A pivot below this share of its diagonal entry is zero: data this close to a line (the root of it, as a share
+/// of their range) are on it.
+const LEAST_PIVOT: f64 = 1e-13;
+
+impl FreeFunctions {
+    /// Factors the Gram matrix of 1, u, v, uv over the data and looks for a pivot that vanishes.
+    pub fn of(uv: &[DVec2], data: &Domain) -> Self {
+        let (center, half) = ((data.min + data.max) / 2.0, data.size() / 2.0);
+        let mut gram = [[0.0; 4]; 4];
+        for p in uv {
+            let DVec2 { x: s, y: t } = (*p - center) / half;
+            let row = [1.0, s, t, s * t];
+            for i in 0..4 {
+                for j in 0..4 {
+                    gram[i][j] += row[i] * row[j];
+                }
+            }
+        }
+        let diagonal = [0, 1, 2, 3].map(|k| gram[k][k]);
+        for k in 0..4 {
+            if gram[k][k] <= LEAST_PIVOT * diagonal[k] {
+                return if k < 3 { Self::Linear } else { Self::Bilinear };
+            }
+            for i in k + 1..4 {
+                let share = gram[i][k] / gram[k][k];
+                for j in k + 1..4 {
+                    gram[i][j] -= share * gram[k][j];
+                }
+            }
+        }
+        Self::None
     }
 }

@@ -33,6 +33,7 @@ use crate::parameterize::{
 };
 use crate::surface::tensor::TensorSurface;
 use crate::surface::{Domain, Region, Trims};
+use energy::FreeFunctions;
 use glam::DVec2;
 use std::time::Instant;
 
@@ -259,7 +260,7 @@ pub fn fit_points(
 ) -> Result<TensorFit, FitError> {
     let start = Instant::now();
     check(uv, values, dim, options)?;
-    let mut problem = Problem::new(uv.to_vec(), values, dim, None, options);
+    let mut problem = Problem::new(uv.to_vec(), values, dim, None, options)?;
     let mut fit = problem.fit(control)?;
     fit.report.seconds = start.elapsed().as_secs_f64();
     Ok(fit)
@@ -280,7 +281,7 @@ fn fit_on_mesh(
     let map = node_parameters(mesh, options, control)?;
     let parameterize_seconds = start.elapsed().as_secs_f64();
     check(&map.uv, values, dim, options)?;
-    let mut problem = Problem::new(map.uv, values, dim, Some(mesh), options);
+    let mut problem = Problem::new(map.uv, values, dim, Some(mesh), options)?;
     problem.is_shape = is_shape;
     control.set_stage(0.3, 1.0);
     let mut fit = problem.fit(control)?;
@@ -408,6 +409,8 @@ struct Problem<'a> {
     uv: Vec<DVec2>,
     /// The box of `uv` as it was at first.
     data_box: Domain,
+    /// The energy asked for, or the plate where that leaves the surface undetermined.
+    energy: Energy,
     frame: Frame,
     bounds: Bounds,
     /// The tolerance in model units, and whether it was raised.
@@ -445,11 +448,17 @@ impl<'a> Problem<'a> {
         dim: usize,
         mesh: Option<&'a Mesh>,
         options: &'a TensorOptions<'a>,
-    ) -> Self {
+    ) -> Result<Self, FitError> {
         let bounds = Bounds::of_rows(values, dim);
         let data_box = Domain::around(uv.iter().copied());
-        Self {
+        let energy = match FreeFunctions::of(&uv, &data_box) {
+            FreeFunctions::None => options.energy,
+            FreeFunctions::Bilinear => Energy::Plate,
+            FreeFunctions::Linear => return Err(FitError::Singular),
+        };
+        Ok(Self {
             tolerance: options.tolerance.absolute(&bounds),
+            energy,
             frame: Frame::new(&bounds),
             options,
             mesh,
@@ -459,7 +468,7 @@ impl<'a> Problem<'a> {
             uv,
             data_box,
             bounds,
-        }
+        })
     }
 
     fn region(&self) -> Region {

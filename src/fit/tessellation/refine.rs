@@ -2,13 +2,19 @@
 
 use super::single_grid::Candidate;
 use super::{FitError, Problem, TensorFit};
-use crate::control::Control;
+use crate::control::{Control, Pool};
 use crate::fit::report::{FitReport, Remarks, StopReason};
+use crate::query::project::{ProjectOptions, Projector};
 use crate::surface::tensor::TensorSurface;
 use crate::surface::{Surface, Trims};
+use glam::DVec2;
 
 /// Two rounds in a row that do not lower the error are followed by doubling both ways; this many end the fit.
 const STAGNANT_ROUNDS: usize = 4;
+
+/// Coarse grids see nothing of short waves, and their error stays the same from one to the next. Only with more
+/// than one unknown for this many data is a standstill one.
+const DATA_PER_UNKNOWN: f64 = 4.0;
 
 impl Problem<'_> {
     /// Fits grids of growing size (`ferguson.md` 5).
@@ -31,7 +37,9 @@ impl Problem<'_> {
             if self.options.fixed_grid.is_some() {
                 break StopReason::FixedGrid;
             }
-            if state.stagnant >= STAGNANT_ROUNDS {
+            let could_resolve =
+                DATA_PER_UNKNOWN * self.coefficient_count(counts) as f64 > self.uv.len() as f64;
+            if state.stagnant >= STAGNANT_ROUNDS && could_resolve {
                 break StopReason::Stagnated;
             }
             let next = match self.next_grids(counts, state.stagnant) {
@@ -158,6 +166,22 @@ impl Problem<'_> {
         Trims::new(loops.collect(), &surface.domain()).unwrap_or_default()
     }
 
+    /// Largest closest-point distance from a datum to the surface; NaN unless asked for, and for fields, whose
+    /// values are no places.
+    fn max_distance(&self, surface: &TensorSurface, pool: &Pool) -> f64 {
+        if !self.options.measure_distance || (self.mesh.is_some() && !self.is_shape) {
+            return f64::NAN;
+        }
+        let options = ProjectOptions { guesses: Some(&self.uv), keep_trims: false, ..Default::default() };
+        let count = self.uv.len();
+        let (mut uv, mut distances) = (vec![DVec2::ZERO; count], vec![0.0; count]);
+        let projector = Projector::new(surface);
+        match projector.and_then(|p| p.project(self.values, &options, &mut uv, &mut distances, pool)) {
+            Ok(_) => distances.into_iter().fold(0.0, f64::max),
+            Err(_) => f64::NAN,
+        }
+    }
+
     fn finish(
         &mut self,
         mut best: Candidate,
@@ -174,7 +198,7 @@ impl Problem<'_> {
         remarks.add_if(best.errors.max > tolerance, Remarks::TOLERANCE_NOT_MET);
         remarks.add_if(stop == StopReason::Stagnated, Remarks::STAGNATED);
         remarks.add_if(raised, Remarks::TOLERANCE_RAISED);
-        remarks.add_if(best.used_plate, Remarks::PLATE_ENERGY_USED);
+        remarks.add_if(self.energy != self.options.energy, Remarks::PLATE_ENERGY_USED);
         remarks.add_if(empty_cell_count > 0, Remarks::EMPTY_CELLS);
         remarks.add_if(interior.max_excess > tolerance, Remarks::ROUGH_BETWEEN_NODES);
         let [grid_u, grid_v] = best.counts();
@@ -187,7 +211,7 @@ impl Problem<'_> {
             diagonal: self.bounds.diagonal(),
             max_interior_error: interior.max,
             facet_sagitta: interior.sagitta,
-            max_distance: f64::NAN,
+            max_distance: self.max_distance(&best.surface, control.pool()),
             grid_u,
             grid_v,
             coefficient_count: best.coefficient_count,
@@ -210,7 +234,7 @@ impl Problem<'_> {
 /// The best fit so far, with the parameters it was made for.
 struct Best {
     candidate: Candidate,
-    uv: Vec<glam::DVec2>,
+    uv: Vec<DVec2>,
     /// Whether the latest round found it.
     is_current: bool,
 }

@@ -2,7 +2,7 @@
 
 use super::grid::{Ends, UniformBasis, UniformGrid};
 use super::normal_equations::{NormalEquations, Samples, TensorBasis};
-use super::{Energy, FitError, Method, Problem, SMOOTHING_LADDER, ferguson};
+use super::{FitError, Method, Problem, SMOOTHING_LADDER, ferguson};
 use crate::control::{Pool, Watch};
 use crate::fit::errors::{DataErrors, data_errors};
 use crate::knots::KnotVector;
@@ -18,7 +18,6 @@ pub struct Candidate {
     pub errors: DataErrors,
     pub smoothing: f64,
     pub coefficient_count: usize,
-    pub used_plate: bool,
 }
 
 impl Candidate {
@@ -67,7 +66,6 @@ impl Problem<'_> {
             surface,
             smoothing,
             coefficient_count: counts[0] * counts[1],
-            used_plate: false,
         })
     }
 
@@ -155,22 +153,14 @@ impl<'a> LeastSquares<'a> {
     fn fit(&self, smoothing: f64) -> Result<Candidate, FitError> {
         let problem = self.problem;
         self.watch.check()?;
-        let energy = problem.options.energy;
         let equations = match &self.interior {
             None => Cow::Borrowed(&self.nodes),
             Some(interior) => {
                 Cow::Owned(self.nodes.plus(interior, (INTERIOR_PER_SMOOTHING * smoothing).min(INTERIOR_MOST)))
             }
         };
-        let (unknowns, used_plate) = match equations.solve(&self.symbolic, smoothing, energy) {
-            Ok(unknowns) => (unknowns, false),
-            // a + bu + cv + duv may vanish at all data; the plate leaves only a + bu + cv free
-            Err(_) if energy == Energy::Beam => {
-                let plate = equations.solve(&self.symbolic, smoothing, Energy::Plate);
-                (plate.map_err(|_| FitError::Singular)?, true)
-            }
-            Err(_) => return Err(FitError::Singular),
-        };
+        let solved = equations.solve(&self.symbolic, smoothing, problem.energy);
+        let unknowns = solved.map_err(|_| FitError::Singular)?;
         self.watch.check()?;
         let grid = [self.basis.u.grid, self.basis.v.grid];
         let mut control_points = control_points(&self.basis, &unknowns, problem.dim);
@@ -182,7 +172,6 @@ impl<'a> LeastSquares<'a> {
             surface,
             smoothing,
             coefficient_count: self.basis.len(),
-            used_plate,
         })
     }
 }

@@ -7,7 +7,8 @@
 
 mod evaluate;
 
-use super::{Domain, Kind, Region, Surface};
+use super::{Domain, Kind, Patches, Region, Surface};
+use crate::bezier::{BezierPatch, apply, extraction};
 use crate::knots::KnotVector;
 use glam::DVec2;
 
@@ -199,5 +200,47 @@ impl Surface for TensorSurface {
 
     fn eval_rows(&self, uv: &[DVec2], max_derivative: usize, out: &mut [f64]) {
         self.eval_rows_tensor(uv, max_derivative, out);
+    }
+
+    fn patches(&self) -> Option<&dyn Patches> {
+        Some(self)
+    }
+}
+
+/// Patches in the order of their spans, v running fastest.
+impl Patches for TensorSurface {
+    fn patch_count(&self) -> usize {
+        self.knots_u.spans().len() * self.knots_v.spans().len()
+    }
+
+    fn patch(&self, index: usize) -> BezierPatch {
+        let count = self.knots_v.spans().len();
+        let span_u = self.knots_u.span_of_rank(index / count);
+        let span_v = self.knots_v.span_of_rank(index % count);
+        let degree = [self.knots_u.degree(), self.knots_v.degree()];
+        let (net, width) = match &self.weights {
+            Some(weights) => (&weights.homogeneous, self.dim + 1),
+            None => (&self.control_points, self.dim),
+        };
+        let line = (degree[1] + 1) * width;
+        let mut part = Vec::with_capacity((degree[0] + 1) * line);
+        for i in span_u - degree[0]..=span_u {
+            let first = (i * self.knots_v.basis_count() + span_v - degree[1]) * width;
+            part.extend_from_slice(&net[first..first + line]);
+        }
+        let (rows_u, rows_v) = (extraction(&self.knots_u, span_u), extraction(&self.knots_v, span_v));
+        let corner =
+            |a: usize| DVec2::new(self.knots_u.knots()[span_u + a], self.knots_v.knots()[span_v + a]);
+        BezierPatch {
+            domain: Domain { min: corner(0), max: corner(1) },
+            degree,
+            dim: self.dim,
+            is_rational: self.weights.is_some(),
+            ordinates: apply(&part, degree, width, &rows_u, &rows_v),
+        }
+    }
+
+    fn patch_at(&self, uv: DVec2) -> usize {
+        self.knots_u.rank_at(uv.x) * self.knots_v.spans().len() + self.knots_v.rank_at(uv.y)
     }
 }

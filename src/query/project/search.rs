@@ -1,0 +1,239 @@
+//! Branch and bound for one point.
+
+use super::foot;
+use super::index::{BRANCHES, Index, LEAF};
+use super::kernel::{Square, Verdict};
+use crate::surface::Trims;
+use glam::DVec2;
+
+/// Most cells that one point may look at. A search that ends here has found a local minimum from every leaf that
+/// could hold a lower one, but has not proved that none lies between them. It takes a continuum of nearly
+/// nearest points that no box or polynomial follows.
+const MAX_CELLS: usize = 200_000;
+
+/// Rounding of the distance of a far point, with room.
+const RELATIVE_TOLERANCE: f64 = 1e-14;
+
+/// The nearest place so far.
+#[derive(Debug, Clone, Copy)]
+pub struct Best {
+    pub uv: DVec2,
+    pub distance_sq: f64,
+}
+
+/// Memory that points share one after the other.
+#[derive(Debug, Default)]
+pub struct Workspace {
+    nodes: Vec<(f64, u32)>,
+    /// Cells of the leaf in hand, one after the other.
+    ordinates: Vec<f64>,
+    cells: Vec<Cell>,
+    square: Square,
+}
+
+/// Part of a leaf.
+#[derive(Debug, Clone, Copy)]
+struct Cell {
+    min: [f64; 2],
+    max: [f64; 2],
+    is_whole: bool,
+}
+
+/// A search for the point of a surface nearest to `point`.
+pub struct Search<'a> {
+    pub point: &'a [f64],
+    /// Differences of distance below this do not count.
+    pub tolerance: f64,
+    pub best: Best,
+    /// Places outside do not count.
+    pub trims: Option<&'a Trims>,
+    pub workspace: &'a mut Workspace,
+}
+
+impl Search<'_> {
+    /// The square of the distance that a place must have to be worth a look.
+    fn limit_sq(&self) -> f64 {
+        // coefficients of the squared distance are rounded in proportion to it
+        let limit = (self.best.distance_sq.sqrt() * (1.0 - RELATIVE_TOLERANCE) - self.tolerance).max(0.0);
+        limit * limit
+    }
+
+    fn offer(&mut self, distance_sq: f64, uv: DVec2) {
+        if distance_sq < self.best.distance_sq && self.trims.is_none_or(|trims| trims.contains(uv)) {
+            self.best = Best { uv, distance_sq };
+        }
+    }
+
+    /// Searches all leaves of an index.
+    pub fn run(&mut self, index: &Index) {
+        if index.leaf_count() == 0 {
+            return;
+        }
+        let mut budget = MAX_CELLS;
+        self.workspace.nodes.clear();
+        self.workspace.nodes.push((0.0, 0));
+        while let Some((bound, entry)) = self.workspace.nodes.pop() {
+            if bound >= self.limit_sq() {
+                continue;
+            }
+            if entry & LEAF != 0 {
+                self.search_leaf(index, (entry & !LEAF) as usize, &mut budget);
+            } else {
+                self.open(index, entry);
+            }
+        }
+    }
+
+    /// Puts the children of a node on the stack, the nearest on top.
+    fn open(&mut self, index: &Index, node: u32) {
+        let bounds = index.distances_sq(node, self.point);
+        let limit_sq = self.limit_sq();
+        let mut near = [(0.0, 0); BRANCHES];
+        let mut count = 0;
+        for (&child, &bound) in index.children(node).iter().zip(&bounds) {
+            if bound < limit_sq {
+                let mut k = count;
+                while k > 0 && near[k - 1].0 < bound {
+                    near[k] = near[k - 1];
+                    k -= 1;
+                }
+                near[k] = (bound, child);
+                count += 1;
+            }
+        }
+        self.workspace.nodes.extend_from_slice(&near[..count]);
+    }
+
+    /// Starts from a place given by the caller: what it finds bounds the rest of the search.
+    pub fn try_leaf(&mut self, index: &Index, leaf: usize, at: [f64; 2]) {
+        self.load(index, leaf);
+        let form = index.kernel.form;
+        let foot = foot::find(&form, &self.workspace.ordinates[..form.len()], at);
+        self.offer(foot.distance_sq, index.place(leaf).uv(foot.at));
+    }
+
+    /// Ordinates of a leaf relative to the point.
+    fn load(&mut self, index: &Index, leaf: usize) {
+        let (form, source) = (index.kernel.form, index.ordinates(leaf));
+        let count = form.count();
+        let cell = &mut self.workspace.ordinates;
+        cell.clear();
+        let weights = form.is_rational.then(|| &source[form.dim * count..]);
+        for (component, &x) in source.chunks_exact(count).zip(self.point) {
+            match weights {
+                Some(weights) => cell.extend(component.iter().zip(weights).map(|(a, w)| a - w * x)),
+                None => cell.extend(component.iter().map(|a| a - x)),
+            }
+        }
+        cell.extend_from_slice(weights.unwrap_or(&[]));
+    }
+
+    fn search_leaf(&mut self, index: &Index, leaf: usize, budget: &mut usize) {
+        self.load(index, leaf);
+        self.workspace.cells.clear();
+        self.workspace.cells.push(Cell { min: [0.0; 2], max: [1.0; 2], is_whole: true });
+        while let Some(cell) = self.workspace.cells.pop() {
+            if *budget == 0 {
+                return;
+            }
+            *budget -= 1;
+            self.search_cell(index, leaf, cell);
+        }
+    }
+
+    /// Settles the last cell of the stack, or replaces it by its halves.
+    fn search_cell(&mut self, index: &Index, leaf: usize, cell: Cell) {
+        let form = index.kernel.form;
+        let first = self.workspace.ordinates.len() - form.len();
+        let uv = |at: [f64; 2]| {
+            index.place(leaf).uv([0, 1].map(|k| cell.min[k] + at[k] * (cell.max[k] - cell.min[k])))
+        };
+        if !cell.is_whole || self.best.distance_sq == f64::INFINITY {
+            for at in [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0]] {
+                self.offer(corner_distance_sq(index, &self.workspace.ordinates[first..], at), uv(at));
+            }
+        }
+        let (limit_sq, slack) = (self.limit_sq(), self.tolerance * self.best.distance_sq.sqrt());
+        let workspace = &mut *self.workspace;
+        let ordinates = &workspace.ordinates[first..];
+        let (axis, start) = match index.kernel.judge(ordinates, limit_sq, slack, &mut workspace.square) {
+            Verdict::Beyond => return workspace.ordinates.truncate(first),
+            Verdict::Convex(start) => (None, start),
+            Verdict::Split(axis, start) => (Some(axis), start),
+        };
+        if axis.is_none() || cell.is_whole {
+            let foot = foot::find(&form, ordinates, start);
+            self.offer(foot.distance_sq, uv(foot.at));
+        }
+        let ordinates = &self.workspace.ordinates[first..];
+        match axis {
+            Some(axis) if extent(index, ordinates) > self.tolerance => self.halve(index, cell, first, axis),
+            _ => self.workspace.ordinates.truncate(first),
+        }
+    }
+
+    /// Replaces the cell that begins at `first` by its halves, the nearer one last.
+    fn halve(&mut self, index: &Index, cell: Cell, first: usize, axis: usize) {
+        let form = index.kernel.form;
+        let middle = (cell.min[axis] + cell.max[axis]) / 2.0;
+        let (mut low, mut high) = (Cell { is_whole: false, ..cell }, Cell { is_whole: false, ..cell });
+        (low.max[axis], high.min[axis]) = (middle, middle);
+        let ordinates = &mut self.workspace.ordinates;
+        ordinates.extend_from_within(first..);
+        let (first_half, last_half) = ordinates[first..].split_at_mut(form.len());
+        // the nearer end decides which half comes last
+        let ends = [[0.0, 0.0], [1.0, 1.0]].map(|at| corner_distance_sq(index, first_half, at));
+        if ends[0] < ends[1] {
+            halve_ordinates(&form.degree, axis, last_half, first_half);
+            self.workspace.cells.extend([high, low]);
+        } else {
+            halve_ordinates(&form.degree, axis, first_half, last_half);
+            self.workspace.cells.extend([low, high]);
+        }
+    }
+}
+
+/// De Casteljau's algorithm at the middle: `low` holds a cell and keeps its lower half, `high` receives the
+/// upper one. Equal ordinates stay equal.
+fn halve_ordinates(degree: &[usize; 2], axis: usize, low: &mut [f64], high: &mut [f64]) {
+    let [m, n] = degree.map(|degree| degree + 1);
+    let (length, stride) = if axis == 0 { (m, n) } else { (n, 1) };
+    for base in (0..low.len()).step_by(m * n) {
+        for line in 0..m * n / length {
+            let first = base + if axis == 0 { line } else { line * n };
+            for round in 0..length {
+                high[first + (length - 1 - round) * stride] = low[first + (length - 1) * stride];
+                for k in (round + 1..length).rev() {
+                    let at = first + k * stride;
+                    low[at] = 0.5 * (low[at - stride] + low[at]);
+                }
+            }
+        }
+    }
+}
+
+/// The squared distance at a corner.
+fn corner_distance_sq(index: &Index, ordinates: &[f64], at: [f64; 2]) -> f64 {
+    let form = index.kernel.form;
+    let [p, q] = form.degree;
+    let corner = at[0] as usize * p * (q + 1) + at[1] as usize * q;
+    let component = |k: usize| ordinates[k * form.count() + corner];
+    let sum: f64 = (0..form.dim).map(|k| component(k) * component(k)).sum();
+    if form.is_rational { sum / (component(form.dim) * component(form.dim)) } else { sum }
+}
+
+/// The longest side of the box of a cell.
+fn extent(index: &Index, ordinates: &[f64]) -> f64 {
+    let form = index.kernel.form;
+    let count = form.count();
+    let weights = form.is_rational.then(|| &ordinates[form.dim * count..]);
+    let side = |component: &[f64]| {
+        let (mut min, mut max) = (f64::INFINITY, f64::NEG_INFINITY);
+        for (k, &a) in component.iter().enumerate() {
+            let x = weights.map_or(a, |weights| a / weights[k]);
+            (min, max) = (min.min(x), max.max(x));
+        }
+        max - min
+    };
+    ordinates.chunks_exact(count).take(form.dim).map(side).fold(0.0, f64::max)
+}

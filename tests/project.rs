@@ -1,0 +1,220 @@
+//! Closest points against exhaustive sampling.
+//!
+//! The reference is the exact minimum over a 2,000 x 2,000 sampling (its blocks are skipped only where their box
+//! is farther than a sample already seen), refined by Newton's method through the public evaluation. It may lie in
+//! the wrong basin of two; the answer may not, and it is shown to be a distance to the surface.
+
+mod common;
+
+use glam::{DVec2, DVec3};
+use planish::Control;
+use planish::control::Pool;
+use planish::fit::tessellation::{TensorOptions, fit_mesh};
+use planish::knots::KnotVector;
+use planish::query::project::{ProjectOptions, Projector};
+use planish::samples::{Random, bumps};
+use planish::surface::Surface;
+use planish::surface::tensor::TensorSurface;
+use std::f64::consts::FRAC_PI_2;
+
+const POINTS: usize = 10_000;
+const SAMPLES: usize = 2000;
+/// Samples along a side of a block.
+const BLOCK: usize = 40;
+
+struct Sampling {
+    uv: Vec<DVec2>,
+    points: Vec<DVec3>,
+    blocks: Vec<(DVec3, DVec3, Vec<u32>)>,
+}
+
+impl Sampling {
+    fn new(surface: &dyn Surface) -> Self {
+        let domain = surface.domain();
+        let share = |k: usize| k as f64 / (SAMPLES - 1) as f64;
+        let place = |i: usize, j: usize| domain.min + DVec2::new(share(i), share(j)) * domain.size();
+        let mut uv = Vec::with_capacity(SAMPLES * SAMPLES);
+        let mut blocks = Vec::new();
+        for block in 0..(SAMPLES / BLOCK) * (SAMPLES / BLOCK) {
+            let (bi, bj) = (block / (SAMPLES / BLOCK), block % (SAMPLES / BLOCK));
+            let first = uv.len() as u32;
+            for k in 0..BLOCK * BLOCK {
+                uv.push(place(bi * BLOCK + k / BLOCK, bj * BLOCK + k % BLOCK));
+            }
+            blocks.push((DVec3::INFINITY, DVec3::NEG_INFINITY, (first..uv.len() as u32).collect::<Vec<_>>()));
+        }
+        let mut rows = vec![0.0; 3 * uv.len()];
+        surface.eval_rows(&uv, 0, &mut rows);
+        let points: Vec<DVec3> = rows.chunks_exact(3).map(DVec3::from_slice).collect();
+        for (min, max, samples) in &mut blocks {
+            for &sample in samples.iter() {
+                let point = points[sample as usize];
+                (*min, *max) = (min.min(point), max.max(point));
+            }
+        }
+        Self { uv, points, blocks }
+    }
+
+    fn nearest(&self, point: DVec3) -> DVec2 {
+        let gap = |block: &(DVec3, DVec3, Vec<u32>)| (block.0 - point).max(point - block.1).max(DVec3::ZERO);
+        let mut order: Vec<(f64, usize)> =
+            self.blocks.iter().enumerate().map(|(k, block)| (gap(block).length_squared(), k)).collect();
+        order.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (mut best, mut at) = (f64::INFINITY, DVec2::NAN);
+        for (bound, block) in order {
+            if bound > best {
+                break;
+            }
+            for &sample in &self.blocks[block].2 {
+                let distance = self.points[sample as usize].distance_squared(point);
+                if distance < best {
+                    (best, at) = (distance, self.uv[sample as usize]);
+                }
+            }
+        }
+        at
+    }
+}
+
+/// Damped Newton steps within the domain until none lowers the distance.
+fn refine(surface: &dyn Surface, point: DVec3, mut uv: DVec2) -> f64 {
+    let domain = surface.domain();
+    let at = |uv: DVec2| {
+        let mut rows = [0.0; 18];
+        surface.eval_rows(&[uv], 2, &mut rows);
+        [0, 3, 6, 9, 12, 15].map(|k| DVec3::from_slice(&rows[k..]))
+    };
+    let mut best = at(uv)[0].distance(point);
+    for _ in 0..50 {
+        let [s, su, sv, suu, suv, svv] = at(uv);
+        let r = s - point;
+        let (p, q) = (r.dot(su), r.dot(sv));
+        let (a, b, c) = (su.dot(su) + r.dot(suu), su.dot(sv) + r.dot(suv), sv.dot(sv) + r.dot(svv));
+        let newton = DVec2::new(b * q - c * p, b * p - a * q) / (a * c - b * b);
+        let candidates = [newton, DVec2::new(-p / a, 0.0), DVec2::new(0.0, -q / c)];
+        let mut is_lower = false;
+        for step in candidates.into_iter().filter(|step| step.is_finite()) {
+            let next = domain.clamp(uv + step);
+            let distance = at(next)[0].distance(point);
+            if distance < best {
+                (best, uv, is_lower) = (distance, next, true);
+                break;
+            }
+        }
+        if !is_lower {
+            break;
+        }
+    }
+    best
+}
+
+fn diagonal(sampling: &Sampling) -> f64 {
+    let min = sampling.points.iter().fold(DVec3::INFINITY, |min, &p| min.min(p));
+    let max = sampling.points.iter().fold(DVec3::NEG_INFINITY, |max, &p| max.max(p));
+    min.distance(max)
+}
+
+/// Points at distances from 0 to 2 diagonals, as many near as far.
+fn scattered(sampling: &Sampling, diagonal: f64, count: usize) -> Vec<DVec3> {
+    let mut random = Random::new(7);
+    (0..count)
+        .map(|k| {
+            let near = sampling.points[(random.unit() * sampling.points.len() as f64) as usize];
+            let direction = DVec3::new(random.signed(), random.signed(), random.signed());
+            let length = if k % 50 == 0 { 0.0 } else { 2.0 * diagonal * 10f64.powf(-5.0 * random.unit()) };
+            near + length * direction.normalize_or_zero()
+        })
+        .collect()
+}
+
+fn check(name: &str, surface: &dyn Surface) {
+    let sampling = Sampling::new(surface);
+    let diagonal = diagonal(&sampling);
+    let points = scattered(&sampling, diagonal, POINTS);
+    let rows: Vec<f64> = points.iter().flat_map(|p| p.to_array()).collect();
+    let projector = Projector::new(surface).unwrap();
+    let options = ProjectOptions { keep_trims: false, ..ProjectOptions::default() };
+    let (mut uv, mut distances) = (vec![DVec2::ZERO; POINTS], vec![0.0; POINTS]);
+    assert_eq!(projector.project(&rows, &options, &mut uv, &mut distances, &Pool::new(0)), Ok(0));
+    let mut values = vec![0.0; 3 * POINTS];
+    surface.eval_rows(&uv, 0, &mut values);
+    for (k, point) in points.iter().enumerate() {
+        assert!(surface.domain().contains(uv[k]));
+        // the distance is that of the place returned; a value is a sum of 16 terms of the surface's size
+        let distance = DVec3::from_slice(&values[3 * k..]).distance(*point);
+        let tol = 64.0 * f64::EPSILON * (diagonal + point.length());
+        assert!((distance - distances[k]).abs() <= tol, "{name} {k}: {distance} is not {}", distances[k]);
+        let reference = refine(surface, *point, sampling.nearest(*point));
+        assert!(distances[k] <= reference + 1e-9 * diagonal, "{name} {k}: {} > {reference}", distances[k]);
+    }
+}
+
+fn net(counts: [usize; 2], place: impl Fn(f64, f64) -> DVec3) -> TensorSurface {
+    let knots = |count: usize| {
+        let breaks: Vec<f64> = (0..count - 2).map(|k| k as f64).collect();
+        KnotVector::clamped(&breaks, 3).unwrap()
+    };
+    let share = |k: usize, count: usize| k as f64 / (count - 1) as f64;
+    let points = (0..counts[0] * counts[1])
+        .flat_map(|k| place(share(k / counts[1], counts[0]), share(k % counts[1], counts[1])).to_array());
+    TensorSurface::new(3, knots(counts[0]), knots(counts[1]), points.collect(), None).unwrap()
+}
+
+/// Control points and weights of a circle arc of `quarters` right angles.
+fn arc(quarters: usize) -> (KnotVector, Vec<(DVec2, f64)>) {
+    let knots = [0, 0, 0].into_iter().chain((1..quarters).flat_map(|k| [k, k])).chain([quarters; 3]);
+    let knots = KnotVector::new(knots.map(|k| k as f64).collect(), 2).unwrap();
+    let points = (0..=2 * quarters).map(|k| {
+        let weight = if k % 2 == 0 { 1.0 } else { 0.5_f64.sqrt() };
+        (DVec2::from_angle(k as f64 * FRAC_PI_2 / 2.0) / weight, weight)
+    });
+    (knots, points.collect())
+}
+
+fn torus() -> TensorSurface {
+    let ((knots_u, around), (knots_v, tube)) = (arc(3), arc(4));
+    let (mut points, mut weights) = (Vec::new(), Vec::new());
+    for &(a, weight_a) in &around {
+        for &(t, weight_t) in &tube {
+            let radius = 1.0 + 0.4 * t.x;
+            points.extend([radius * a.x, radius * a.y, 0.4 * t.y]);
+            weights.push(weight_a * weight_t);
+        }
+    }
+    TensorSurface::new(3, knots_u, knots_v, points, Some(weights)).unwrap()
+}
+
+#[test]
+fn a_torus_piece_has_no_nearer_sample() {
+    check("torus", &torus());
+}
+
+#[test]
+fn a_wave_has_no_nearer_sample() {
+    check("wave", &net([30, 20], |u, v| DVec3::new(u, v, 0.1 * (12.0 * u).sin() * (9.0 * v).cos())));
+}
+
+#[test]
+fn a_sheet_folded_over_itself_has_no_nearer_sample() {
+    let fold = |u: f64, v: f64| {
+        let angle = 3.0 * std::f64::consts::PI * u;
+        DVec3::new(angle.cos(), 0.8 * v + 0.02 * (5.0 * u).sin(), 0.05 * angle)
+    };
+    check("fold", &net([40, 12], fold));
+}
+
+#[test]
+fn a_fit_has_no_nearer_sample() {
+    let (mesh, _) = bumps([60, 60], 20, 3).unwrap();
+    let fit = fit_mesh(&mesh, &TensorOptions::default(), &mut Control::new(0)).unwrap();
+    check("bumps", &fit.surface);
+}
+
+#[test]
+fn a_fit_of_a_scan_has_no_nearer_sample() {
+    let Some(path) = common::shared_data("igea_disk_43k.ply") else { return };
+    let (mesh, _) = planish::mesh::read(&path, &planish::mesh::MeshOptions::default()).unwrap();
+    let options = TensorOptions { fixed_grid: Some([65, 65]), ..TensorOptions::default() };
+    let fit = fit_mesh(&mesh, &options, &mut Control::new(0)).unwrap();
+    check("igea", &fit.surface);
+}
