@@ -892,6 +892,175 @@ typedef struct planish_fit_report {
     uint32_t stop_reason;
 } planish_fit_report;
 
+/**
+ * How fine a tessellation is. Fill with planish_tessellate_options_init(), then change what you need.
+ */
+typedef struct planish_tessellate_options {
+    /**
+     * Set by planish_tessellate_options_init().
+     */
+    size_t struct_size;
+    /**
+     * Largest distance between the surface and the middles of the edges, in model units, positive; 0 (default)
+     * takes 1e-3 of the surface's diagonal.
+     */
+    double chord_tolerance;
+    /**
+     * Longest edge in model units, positive; 0 (default) for no limit.
+     */
+    double max_edge_length;
+    /**
+     * Most nodes; with more the call fails. Default 4000000.
+     */
+    size_t max_point_count;
+    /**
+     * 1 (default) keeps to the part inside the trims, 0 covers the whole domain.
+     */
+    uint32_t keep_trims;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} planish_tessellate_options;
+
+/**
+ * How points are projected. Fill with planish_project_options_init(), then change what you need.
+ */
+typedef struct planish_project_options {
+    /**
+     * Set by planish_project_options_init().
+     */
+    size_t struct_size;
+    /**
+     * A row u, v near the answer for each point, or NULL (default). It saves time and may choose between
+     * equally near places; the answer is the nearest place all the same. Borrowed.
+     */
+    const double *guesses;
+    /**
+     * Points farther from the surface than this get NaN, and the call returns
+     * PLANISH_STATUS_POINTS_OUTSIDE. Not negative; default infinity.
+     */
+    double max_distance;
+    /**
+     * 1 (default) looks for the nearest place inside the trims, 0 in the whole domain.
+     */
+    uint32_t keep_trims;
+    /**
+     * Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+     */
+    uint32_t thread_count;
+} planish_project_options;
+
+/**
+ * How a surface is compared with a mesh. Fill with planish_deviation_options_init(), then change what you
+ * need.
+ */
+typedef struct planish_deviation_options {
+    /**
+     * Set by planish_deviation_options_init().
+     */
+    size_t struct_size;
+    /**
+     * Chord tolerance of the tessellation that is measured back from, in model units; 0 (default) takes 1e-3
+     * of the surface's diagonal.
+     */
+    double chord_tolerance;
+    /**
+     * Longest edge of that tessellation in model units; 0 (default) takes 1e-2 of the mesh's diagonal.
+     * Smaller holes may be missed.
+     */
+    double max_edge_length;
+    /**
+     * 1 (default): only the part of the surface inside its trims counts.
+     */
+    uint32_t keep_trims;
+    /**
+     * 1 (default): the mesh's parameters, if it has any, are where searches start. The distances are the
+     * least ones all the same.
+     */
+    uint32_t use_parameters;
+    /**
+     * 1: measure from the surface to the mesh as well, which notices filled holes and surplus sheets.
+     * Default 0.
+     */
+    uint32_t measure_back;
+    /**
+     * Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+     */
+    uint32_t thread_count;
+} planish_deviation_options;
+
+/**
+ * Distances between a surface and a mesh, in model units. Set struct_size to
+ * sizeof(planish_deviation_report) before the call; filled as far as that goes, on success only.
+ */
+typedef struct planish_deviation_report {
+    /**
+     * sizeof(planish_deviation_report) as the caller sees it.
+     */
+    size_t struct_size;
+    /**
+     * Largest distance from a node to its nearest place on the surface.
+     */
+    double max_distance;
+    /**
+     * Square root of the mean of its square.
+     */
+    double rms_distance;
+    /**
+     * Its mean.
+     */
+    double mean_distance;
+    /**
+     * Largest distance from a place on the surface to the mesh; NaN unless measure_back asked for it.
+     */
+    double max_back_distance;
+    /**
+     * u of that place; NaN unless asked for.
+     */
+    double worst_back_u;
+    /**
+     * v of that place; NaN unless asked for.
+     */
+    double worst_back_v;
+    /**
+     * The node farthest from the surface.
+     */
+    size_t worst_index;
+    /**
+     * Places on the surface that were measured back from.
+     */
+    size_t back_count;
+} planish_deviation_report;
+
+/**
+ * What a VTK file shows. Fill with planish_vtk_options_init(), then change what you need.
+ */
+typedef struct planish_vtk_options {
+    /**
+     * Set by planish_vtk_options_init().
+     */
+    size_t struct_size;
+    /**
+     * A mesh to compare with, or NULL (default). Its triangles are then written instead of a tessellation,
+     * each node moved to its nearest place on the surface, with the distance as point data "deviation".
+     * Borrowed.
+     */
+    const struct planish_mesh *deviation_from;
+    /**
+     * How the surface is tessellated otherwise; NULL (default) for the defaults. Borrowed.
+     */
+    const struct planish_tessellate_options *tessellate;
+    /**
+     * Threads to use, at most 1024; 0 (default) for all cores.
+     */
+    uint32_t thread_count;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} planish_vtk_options;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -1696,6 +1865,195 @@ PLANISH_NODISCARD
 enum planish_status planish_tensor_copy_weights(const struct planish_surface *surface,
                                                 double *out_weights,
                                                 size_t count);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options: not NULL.
+ * size:    sizeof(planish_tessellate_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tessellate_options_init(struct planish_tessellate_options *options,
+                                                    size_t size);
+
+/**
+ * Makes a triangle mesh of a surface in space. Its nodes lie on the surface and carry their (u,v) as
+ * parameters; the trims become its boundary loops.
+ *
+ * surface:  not NULL, of dimension 3.
+ * options:  NULL for the defaults.
+ * out_mesh: receives a new mesh; destroy with planish_mesh_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, or the
+ * dimension), PLANISH_STATUS_TOPOLOGY (the trims cross), PLANISH_STATUS_DEGENERATE (they enclose no area),
+ * PLANISH_STATUS_TOO_LARGE (more than max_point_count nodes) or PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_tessellate(const struct planish_surface *surface,
+                                               const struct planish_tessellate_options *options,
+                                               struct planish_mesh **out_mesh);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options: not NULL.
+ * size:    sizeof(planish_project_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_project_options_init(struct planish_project_options *options,
+                                                 size_t size);
+
+/**
+ * Finds the place on a surface nearest to each point, anywhere on the surface: there is no start to choose,
+ * and no local minimum to fall into.
+ *
+ * surface:       not NULL.
+ * points:        count rows of planish_surface_dim() doubles.
+ * count:         number of points; with 0 nothing is done.
+ * options:       NULL for the defaults.
+ * out_uv:        receives count rows u, v; NULL for none.
+ * out_distances: receives count distances; NULL for none.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_POINTS_OUTSIDE (some points are farther than max_distance),
+ * PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_NOT_FINITE (the index is the point),
+ * PLANISH_STATUS_INVALID_ARGUMENT, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOO_LARGE or
+ * PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_project(const struct planish_surface *surface,
+                                            const double *points,
+                                            size_t count,
+                                            const struct planish_project_options *options,
+                                            double *out_uv,
+                                            double *out_distances);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options: not NULL.
+ * size:    sizeof(planish_deviation_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_deviation_options_init(struct planish_deviation_options *options,
+                                                   size_t size);
+
+/**
+ * Measures how far the nodes of a mesh lie from a surface in space: closest-point distances.
+ *
+ * surface:       not NULL, of dimension 3.
+ * mesh:          not NULL.
+ * options:       NULL for the defaults.
+ * out_distances: receives planish_mesh_point_count() distances; NULL for none.
+ * count:         doubles that out_distances has room for.
+ * report:        NULL for none.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, or the
+ * dimension), PLANISH_STATUS_BUFFER_TOO_SMALL, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOPOLOGY or
+ * PLANISH_STATUS_TOO_LARGE (measuring back only), or PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_deviation(const struct planish_surface *surface,
+                                              const struct planish_mesh *mesh,
+                                              const struct planish_deviation_options *options,
+                                              double *out_distances,
+                                              size_t count,
+                                              struct planish_deviation_report *report);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options: not NULL.
+ * size:    sizeof(planish_vtk_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_vtk_options_init(struct planish_vtk_options *options,
+                                             size_t size);
+
+/**
+ * Writes a surface in space as a VTK file of triangles (.vtu), its (u,v) as point data "uv". The file appears
+ * whole or not at all.
+ *
+ * surface: not NULL, of dimension 3.
+ * path:    UTF-8, ends with a NUL; an existing file is replaced.
+ * options: NULL for the defaults.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension, an
+ * option, a path that is not UTF-8), PLANISH_STATUS_FILE, or what planish_surface_tessellate() or
+ * planish_surface_deviation() return.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_write_vtk(const struct planish_surface *surface,
+                                              const char *path,
+                                              const struct planish_vtk_options *options);
+
+/**
+ * How many bytes planish_surface_save() writes; 0 for NULL.
+ */
+PLANISH_API size_t planish_surface_save_size(const struct planish_surface *surface);
+
+/**
+ * Writes everything a surface is into a buffer, to the bit. The layout is documented in docs/format.md; it is
+ * the same on all machines.
+ *
+ * surface: not NULL.
+ * buffer:  receives planish_surface_save_size() bytes.
+ * size:    bytes that the buffer has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_save(const struct planish_surface *surface,
+                                         uint8_t *buffer,
+                                         size_t size);
+
+/**
+ * Makes a surface from bytes of planish_surface_save(). Damaged bytes are refused, sizes are checked before
+ * memory is asked for.
+ *
+ * buffer:      size bytes.
+ * out_surface: receives a new surface; destroy with planish_surface_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_FORMAT (the index is the byte) or
+ * PLANISH_STATUS_VERSION (a later library made it).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_load(const uint8_t *buffer,
+                                         size_t size,
+                                         struct planish_surface **out_surface);
+
+/**
+ * Writes the bytes of planish_surface_save() to a file, which appears whole or not at all.
+ *
+ * surface: not NULL.
+ * path:    UTF-8, ends with a NUL; an existing file is replaced.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the path is not
+ * UTF-8) or PLANISH_STATUS_FILE.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_save_file(const struct planish_surface *surface,
+                                              const char *path);
+
+/**
+ * Makes a surface from a file of planish_surface_save_file().
+ *
+ * path:        UTF-8, ends with a NUL.
+ * out_surface: receives a new surface; destroy with planish_surface_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the path is not
+ * UTF-8), PLANISH_STATUS_FILE, PLANISH_STATUS_FORMAT (the index is the byte) or PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_load_file(const char *path,
+                                              struct planish_surface **out_surface);
 
 /**
  * Fits a cubic curve to values at parameters, by the method of planish_tensor_fit() in one parameter.

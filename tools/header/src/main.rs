@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 /// The files of `src/ffi` in the order of the header.
-const SOURCES: [&str; 8] = [
+const SOURCES: [&str; 10] = [
     "status.rs",
     "progress.rs",
     "mesh.rs",
@@ -14,6 +14,8 @@ const SOURCES: [&str; 8] = [
     "report.rs",
     "surface.rs",
     "tensor.rs",
+    "query.rs",
+    "export.rs",
     "curve.rs",
 ];
 
