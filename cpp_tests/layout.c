@@ -119,5 +119,47 @@ FOLLOWS(planish_fit_report, remarks, pass_count);
 FOLLOWS(planish_fit_report, pass_count, stop_reason);
 LAST(planish_fit_report, stop_reason);
 
+FIRST(planish_tessellate_options);
+FOLLOWS(planish_tessellate_options, struct_size, chord_tolerance);
+FOLLOWS(planish_tessellate_options, chord_tolerance, max_edge_length);
+FOLLOWS(planish_tessellate_options, max_edge_length, max_point_count);
+FOLLOWS(planish_tessellate_options, max_point_count, keep_trims);
+FOLLOWS(planish_tessellate_options, keep_trims, reserved);
+LAST(planish_tessellate_options, reserved);
+
+FIRST(planish_project_options);
+FOLLOWS(planish_project_options, struct_size, guesses);
+FOLLOWS(planish_project_options, guesses, max_distance);
+FOLLOWS(planish_project_options, max_distance, keep_trims);
+FOLLOWS(planish_project_options, keep_trims, thread_count);
+LAST(planish_project_options, thread_count);
+
+FIRST(planish_deviation_options);
+FOLLOWS(planish_deviation_options, struct_size, chord_tolerance);
+FOLLOWS(planish_deviation_options, chord_tolerance, max_edge_length);
+FOLLOWS(planish_deviation_options, max_edge_length, keep_trims);
+FOLLOWS(planish_deviation_options, keep_trims, use_parameters);
+FOLLOWS(planish_deviation_options, use_parameters, measure_back);
+FOLLOWS(planish_deviation_options, measure_back, thread_count);
+LAST(planish_deviation_options, thread_count);
+
+FIRST(planish_deviation_report);
+FOLLOWS(planish_deviation_report, struct_size, max_distance);
+FOLLOWS(planish_deviation_report, max_distance, rms_distance);
+FOLLOWS(planish_deviation_report, rms_distance, mean_distance);
+FOLLOWS(planish_deviation_report, mean_distance, max_back_distance);
+FOLLOWS(planish_deviation_report, max_back_distance, worst_back_u);
+FOLLOWS(planish_deviation_report, worst_back_u, worst_back_v);
+FOLLOWS(planish_deviation_report, worst_back_v, worst_index);
+FOLLOWS(planish_deviation_report, worst_index, back_count);
+LAST(planish_deviation_report, back_count);
+
+FIRST(planish_vtk_options);
+FOLLOWS(planish_vtk_options, struct_size, deviation_from);
+FOLLOWS(planish_vtk_options, deviation_from, tessellate);
+FOLLOWS(planish_vtk_options, tessellate, thread_count);
+FOLLOWS(planish_vtk_options, thread_count, reserved);
+LAST(planish_vtk_options, reserved);
+
 int planish_layout_holds(void);
 int planish_layout_holds(void) { return 1; }

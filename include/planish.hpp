@@ -129,6 +129,18 @@ inline planish_status init(planish_tensor_options &options) {
 inline planish_status init(planish_eval_options &options) {
   return planish_eval_options_init(&options, sizeof options);
 }
+inline planish_status init(planish_project_options &options) {
+  return planish_project_options_init(&options, sizeof options);
+}
+inline planish_status init(planish_deviation_options &options) {
+  return planish_deviation_options_init(&options, sizeof options);
+}
+inline planish_status init(planish_tessellate_options &options) {
+  return planish_tessellate_options_init(&options, sizeof options);
+}
+inline planish_status init(planish_vtk_options &options) {
+  return planish_vtk_options_init(&options, sizeof options);
+}
 
 [[noreturn]] inline void fail(planish_status status) {
   std::string text(planish_error_message(nullptr, 0), '\0');
@@ -426,6 +438,24 @@ struct curvature {
   point3 d2;
 };
 
+/// Where points lie on a surface.
+struct projected {
+  /// The (u,v) of the nearest place of each point; NaN for points farther than options.max_distance.
+  std::vector<point2> uv;
+  /// Its distance; NaN likewise.
+  std::vector<double> distances;
+  /// PLANISH_STATUS_OK, or PLANISH_STATUS_POINTS_OUTSIDE if some points are too far.
+  planish_status status;
+};
+
+/// How far a mesh lies from a surface.
+struct deviated {
+  /// Least distance of each node, in model units.
+  std::vector<double> distances;
+  /// Their largest, their means, and the way back if it was asked for.
+  planish_deviation_report report;
+};
+
 /// A surface: a map from a rectangle of parameters (u,v) to R^dim. Copies are deep; one that was moved from may
 /// only be assigned to or destroyed.
 ///
@@ -567,6 +597,75 @@ class surface {
       counts.push_back(trim.size());
     }
     detail::checked(planish_surface_set_trims(get(), detail::flat(uv), counts.data(), counts.size()));
+  }
+
+  /// The nearest places of points, rows of dim numbers, anywhere on the surface.
+  projected project(const values<double> &points,
+                    const planish_project_options &options = defaults<planish_project_options>()) const {
+    const std::size_t width = std::max<std::size_t>(dim(), 1), count = points.count() / width;
+    if (points.count() % width != 0) {
+      const std::string text = std::to_string(points.count()) + " numbers are not rows of " + std::to_string(width);
+      throw error(PLANISH_STATUS_INVALID_ARGUMENT, text, -1);
+    }
+    projected result{std::vector<point2>(count), std::vector<double>(count), PLANISH_STATUS_OK};
+    result.status = detail::checked(planish_surface_project(
+        get(), points.data(), count, &options, detail::flat(result.uv), result.distances.data()));
+    return result;
+  }
+
+  /// The nearest places of points in space.
+  projected project(const std::vector<point3> &points,
+                    const planish_project_options &options = defaults<planish_project_options>()) const {
+    const rows<double, 3> flat(points);
+    return project(values<double>(flat.data(), 3 * flat.count()), options);
+  }
+
+  /// How far the nodes of a mesh lie from a surface in space.
+  deviated deviation(const mesh &mesh,
+                     const planish_deviation_options &options = defaults<planish_deviation_options>()) const {
+    deviated result{std::vector<double>(mesh.point_count()), detail::sized<planish_deviation_report>()};
+    detail::checked(planish_surface_deviation(get(), mesh.get(), &options, result.distances.data(),
+                                              result.distances.size(), &result.report));
+    return result;
+  }
+
+  /// A triangle mesh of a surface in space, with its (u,v) as parameters.
+  mesh tessellate(const planish_tessellate_options &options = defaults<planish_tessellate_options>()) const {
+    planish_mesh *made = nullptr;
+    detail::checked(planish_surface_tessellate(get(), &options, &made));
+    return mesh(made);
+  }
+
+  /// Writes a VTK file of triangles (.vtu); `path` is UTF-8.
+  void write_vtk(const std::string &path,
+                 const planish_vtk_options &options = defaults<planish_vtk_options>()) const {
+    detail::checked(planish_surface_write_vtk(get(), path.c_str(), &options));
+  }
+
+  /// Everything the surface is, as bytes that surface::load() takes.
+  std::vector<std::uint8_t> save() const {
+    std::vector<std::uint8_t> bytes(planish_surface_save_size(get()));
+    detail::checked(planish_surface_save(get(), bytes.data(), bytes.size()));
+    return bytes;
+  }
+
+  /// Writes these bytes to a file; `path` is UTF-8.
+  void save_file(const std::string &path) const {
+    detail::checked(planish_surface_save_file(get(), path.c_str()));
+  }
+
+  /// The surface that bytes of save() hold.
+  static surface load(const values<std::uint8_t> &bytes) {
+    planish_surface *made = nullptr;
+    detail::checked(planish_surface_load(bytes.data(), bytes.count(), &made));
+    return surface(made);
+  }
+
+  /// The surface that a file of save_file() holds; `path` is UTF-8.
+  static surface load_file(const std::string &path) {
+    planish_surface *made = nullptr;
+    detail::checked(planish_surface_load_file(path.c_str(), &made));
+    return surface(made);
   }
 
   /// Degree of a tensor surface along a planish_axis; 0 for other families.
