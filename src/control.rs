@@ -1,11 +1,13 @@
 //! How a long call runs: on how many threads, and who hears of its progress.
 
-use rayon::{ThreadPool, ThreadPoolBuilder};
+use rayon::{ThreadBuilder, ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
+use std::cell::Cell;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc;
 use std::sync::{Mutex, OnceLock};
+use std::thread::JoinHandle;
 use std::time::Duration;
 
 /// The progress callback asked to stop.
@@ -23,7 +25,44 @@ pub type ProgressFn<'a> = dyn FnMut(f64, f64) -> ControlFlow<()> + 'a;
 #[derive(Debug)]
 pub struct Pool {
     thread_count: usize,
-    threads: OnceLock<ThreadPool>,
+    threads: OnceLock<Threads>,
+}
+
+/// Threads that have ended when this is dropped: a program may unload the library after its last call.
+#[derive(Debug)]
+struct Threads {
+    /// None while it is dropped.
+    pool: Option<ThreadPool>,
+    handles: Vec<JoinHandle<()>>,
+}
+
+impl Threads {
+    fn start(count: usize) -> Result<Self, ThreadPoolBuildError> {
+        let mut handles = Vec::with_capacity(count);
+        let spawn = |thread: ThreadBuilder| {
+            handles.push(std::thread::Builder::new().spawn(|| {
+                IS_POOL_THREAD.set(true);
+                thread.run();
+            })?);
+            Ok(())
+        };
+        let pool = ThreadPoolBuilder::new().num_threads(count).spawn_handler(spawn).build()?;
+        Ok(Self { pool: Some(pool), handles })
+    }
+
+    fn pool(&self) -> &ThreadPool {
+        self.pool.as_ref().expect("only taken when dropped")
+    }
+}
+
+impl Drop for Threads {
+    fn drop(&mut self) {
+        self.pool = None; // tells the threads to end
+        for handle in self.handles.drain(..) {
+            // panics of the work have gone to whoever waited for it
+            let _ = handle.join();
+        }
+    }
 }
 
 impl Pool {
@@ -45,13 +84,19 @@ impl Pool {
     }
 
     fn threads(&self) -> &ThreadPool {
-        self.threads.get_or_init(|| {
-            ThreadPoolBuilder::new()
-                .num_threads(self.thread_count)
-                .build()
-                .expect("the system has a thread for each core it reports")
-        })
+        let start =
+            || Threads::start(self.thread_count).expect("the system has a thread for each core it reports");
+        self.threads.get_or_init(start).pool()
     }
+}
+
+thread_local! {
+    static IS_POOL_THREAD: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Whether this thread belongs to a [`Pool`]: a panic here is passed on to the thread that waits for the work.
+pub fn is_pool_thread() -> bool {
+    IS_POOL_THREAD.try_with(Cell::get).unwrap_or(false)
 }
 
 /// How a long call runs: a pool of threads, and a listener that is told on the thread that called.
@@ -102,6 +147,7 @@ impl<'a> Control<'a> {
     /// From now on progress runs from `from` to `to` of the whole call.
     pub fn set_stage(&mut self, from: f64, to: f64) {
         self.stage = (from, to);
+        self.last = (from, f64::NAN);
     }
 
     /// Tells the listener; `fraction` is of the present stage.

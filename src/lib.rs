@@ -1,14 +1,36 @@
-//! Smooth spline surfaces from triangle meshes, rows of points and fields on nodes.
+//! Smooth spline surfaces from triangle meshes, rows of points and fields on nodes, within a stated tolerance
+//! and with a report of the error that can be trusted.
+//!
+//! ```
+//! use planish::fit::tessellation::{TensorOptions, fit_mesh};
+//! use planish::surface::Surface;
+//! use planish::{Control, samples};
+//!
+//! let mesh = samples::fuselage_panel(1)?; // a panel with windows, without parameters
+//! let fit = fit_mesh(&mesh, &TensorOptions::default(), &mut Control::default())?;
+//! assert!(fit.report.max_error <= 1e-3 * fit.report.diagonal);
+//! assert_eq!(fit.surface.region().trims.loops().len(), 4);
+//!
+//! let mut point = [0.0; 3];
+//! fit.surface.eval_rows(&fit.parameters[..1], 0, &mut point);
+//! # Ok::<(), planish::Error>(())
+//! ```
 //!
 //! The tree is the architecture; arrows run downwards only, a module knows what stands above it:
 //!
 //! * [`error`], [`control`]: what can go wrong; threads, progress and cancelling.
 //! * [`geometry`]: boxes, exact predicates.
+//! * [`knots`], [`basis`], [`bezier`], [`hermite`]: one-dimensional building blocks, and patches made of them.
 //! * [`linalg`]: banded and sparse systems.
 //! * [`mesh`]: triangle meshes, their topology and files.
 //! * [`parameterize`]: where a mesh gets its (u,v) from.
+//! * [`curve`]: B-spline curves.
 //! * [`surface`]: what every surface can do, and the families.
 //! * [`query`]: tessellation, closest points, deviation; fits measure themselves with it.
+//! * [`fit`]: one measure of error for all, and the methods.
+//! * [`export`]: files for other programs, pictures, the library's own format.
+//! * [`samples`]: seeded shapes for demonstrations, tests and benchmarks.
+//! * [`ffi`]: the C ABI, documented in `include/planish.h`.
 
 #![deny(unsafe_code)]
 
@@ -18,6 +40,8 @@ pub mod control;
 pub mod curve;
 pub mod error;
 pub mod export;
+#[allow(unsafe_code, reason = "the border to C; nothing else may be unsafe")]
+pub mod ffi;
 pub mod fit;
 pub mod geometry;
 pub mod hermite;

@@ -25,21 +25,38 @@ pub enum CurveError {
         /// The control point.
         index: usize,
     },
+    /// A parameter is NaN or infinite.
+    #[error("the parameter of point {index} is not finite")]
+    ParameterNotFinite {
+        /// The point.
+        index: usize,
+    },
+    /// A point lies outside the domain.
+    #[error("point {index} at {u} lies outside the domain")]
+    Outside {
+        /// The point.
+        index: usize,
+        /// Its parameter.
+        u: f64,
+    },
 }
 
 impl CurveError {
     /// The class of the error.
     pub fn kind(&self) -> crate::ErrorKind {
         match self {
-            Self::NotFinite { .. } => crate::ErrorKind::NotFinite,
+            Self::NotFinite { .. } | Self::ParameterNotFinite { .. } => crate::ErrorKind::NotFinite,
+            Self::Outside { .. } => crate::ErrorKind::Outside,
             _ => crate::ErrorKind::InvalidArgument,
         }
     }
 
-    /// The offending control point.
+    /// The offending control point, or point to evaluate.
     pub fn index(&self) -> Option<usize> {
         match *self {
-            Self::NotFinite { index } => Some(index),
+            Self::NotFinite { index } | Self::ParameterNotFinite { index } | Self::Outside { index, .. } => {
+                Some(index)
+            }
             _ => None,
         }
     }
@@ -85,6 +102,29 @@ impl Curve {
     /// The control points, rows of `dim` numbers.
     pub fn control_points(&self) -> &[f64] {
         &self.control_points
+    }
+
+    /// Whether a parameter lies in the domain; false for NaN.
+    pub fn contains(&self, u: f64) -> bool {
+        let (from, to) = self.knots.domain();
+        from <= u && u <= to
+    }
+
+    /// Refuses parameters outside the domain.
+    pub fn check_inside(&self, u: &[f64]) -> Result<(), CurveError> {
+        match u.iter().position(|&u| !self.contains(u)) {
+            None => Ok(()),
+            Some(index) if !u[index].is_finite() => Err(CurveError::ParameterNotFinite { index }),
+            Some(index) => Err(CurveError::Outside { index, u: u[index] }),
+        }
+    }
+
+    /// Refuses parameters at which nothing can be continued.
+    pub fn check_finite(u: &[f64]) -> Result<(), CurveError> {
+        match u.iter().position(|u| !u.is_finite()) {
+            None => Ok(()),
+            Some(index) => Err(CurveError::ParameterNotFinite { index }),
+        }
     }
 
     /// Values and derivatives up to `max_derivative` (at most [`MAX_DERIVATIVE`]) at each of `u`: for each

@@ -3,7 +3,13 @@
 //! "The VTK User's Guide", chapter "VTK File Formats". Readable by VTK 9, ParaView and meshio.
 
 use super::error::{ExportError, write_file};
-use crate::mesh::Mesh;
+use crate::control::Pool;
+use crate::error::Error;
+use crate::mesh::{Mesh, MeshError};
+use crate::query::deviation::{DeviationOptions, deviation};
+use crate::query::tessellate::{TessellateOptions, tessellate};
+use crate::surface::Surface;
+use glam::{DVec2, DVec3};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -45,6 +51,43 @@ pub fn write_mesh(mesh: &Mesh, data: &[PointData], path: &Path) -> Result<(), Ex
         grid.types(triangles.iter().map(|_| Grid::TRIANGLE));
     });
     write_file(path, &grid.finish())
+}
+
+/// What a picture of a surface shows.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct SurfaceOptions<'a> {
+    /// How the surface is tessellated.
+    pub tessellate: TessellateOptions,
+    /// A mesh to compare with: its triangles are then shown instead of a tessellation, each node moved to its
+    /// nearest place on the surface, with the distance as `deviation`.
+    pub deviation_from: Option<&'a Mesh>,
+}
+
+/// Writes the part of a surface inside its trims as triangles.
+pub fn write_surface(
+    surface: &dyn Surface,
+    options: &SurfaceOptions,
+    path: &Path,
+    pool: &Pool,
+) -> Result<(), Error> {
+    let Some(mesh) = options.deviation_from else {
+        let tessellation = tessellate(surface, &options.tessellate)?;
+        return Ok(write_mesh(&tessellation.mesh, &[], path)?);
+    };
+    let report = deviation(surface, mesh, &DeviationOptions::default(), pool)?;
+    let moved = on_surface(surface, mesh, &report.uv)?;
+    let deviation = PointData { name: "deviation", dim: 1, values: &report.nodes.each };
+    Ok(write_mesh(&moved, &[deviation], path)?)
+}
+
+/// A mesh with its nodes on a surface in space, at these parameters.
+pub fn on_surface(surface: &dyn Surface, mesh: &Mesh, uv: &[DVec2]) -> Result<Mesh, MeshError> {
+    let mut rows = vec![0.0; 3 * uv.len()];
+    surface.eval_rows(uv, 0, &mut rows);
+    let points = rows.chunks_exact(3).map(DVec3::from_slice).collect();
+    let mut moved = Mesh::new(points, mesh.triangles().to_vec())?;
+    moved.set_parameters(uv.to_vec())?;
+    Ok(moved)
 }
 
 /// A file in the making: the XML part, and the bytes that it points into.

@@ -113,23 +113,43 @@ impl EvalError {
     }
 }
 
-/// The points of a batch: row `i` starts `i * stride` numbers after the first.
+/// The points of a batch.
 #[derive(Debug, Clone, Copy)]
 pub struct Points<'a> {
-    data: &'a [f64],
-    stride: usize,
     count: usize,
+    layout: Layout<'a>,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Layout<'a> {
+    /// Row `i` starts `i * stride` numbers after the first.
+    Rows { data: &'a [f64], stride: usize },
+    /// All pairs, v running fastest.
+    Grid { u: &'a [f64], v: &'a [f64] },
 }
 
 impl<'a> Points<'a> {
     /// `count` rows of u and v in `data`, which has `(count - 1) * stride + 2` numbers.
     pub fn new(data: &'a [f64], stride: usize, count: usize) -> Self {
         assert!(stride >= 2 && (count == 0 || data.len() >= (count - 1) * stride + 2));
-        Self { data, stride, count }
+        Self { count, layout: Layout::Rows { data, stride } }
+    }
+
+    /// All pairs of `u` and `v`, `v` running fastest.
+    pub fn grid(u: &'a [f64], v: &'a [f64]) -> Self {
+        Self { count: u.len() * v.len(), layout: Layout::Grid { u, v } }
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.count
     }
 
     fn get(&self, index: usize) -> DVec2 {
-        DVec2::from_slice(&self.data[index * self.stride..])
+        match self.layout {
+            Layout::Rows { data, stride } => DVec2::from_slice(&data[index * stride..]),
+            Layout::Grid { u, v } => DVec2::new(u[index / v.len()], v[index % v.len()]),
+        }
     }
 }
 
@@ -152,8 +172,10 @@ pub fn evaluate(
 ) -> Result<usize, EvalError> {
     let width = quantity.width(surface.dim());
     check_quantity(surface, quantity)?;
-    if rule == OutsideRule::Fail {
-        check_inside(&surface.domain(), &points)?;
+    match rule {
+        OutsideRule::Fail => check_inside(&surface.domain(), &points)?,
+        OutsideRule::Extrapolate => check_finite(&points)?,
+        OutsideRule::Flag => {}
     }
     assert!(out_stride >= width, "rows of {width} numbers every {out_stride}");
     let mut no_flags = Vec::new();
@@ -201,6 +223,13 @@ fn check_inside(domain: &Domain, points: &Points) -> Result<(), EvalError> {
                 EvalError::NotFinite { index }
             })
         }
+    }
+}
+
+fn check_finite(points: &Points) -> Result<(), EvalError> {
+    match (0..points.count).find(|&i| !points.get(i).is_finite()) {
+        Some(index) => Err(EvalError::NotFinite { index }),
+        None => Ok(()),
     }
 }
 

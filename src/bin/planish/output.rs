@@ -1,13 +1,11 @@
 //! What the commands print and write.
 
 use crate::Failure;
-use glam::DVec3;
 use planish::export::picture::{Picture, View};
 use planish::export::{native, obj, vtk};
 use planish::fit::tessellation::TensorFit;
 use planish::mesh::{Mesh, MeshRepairs};
 use planish::query::tessellate::{TessellateOptions, tessellate};
-use planish::surface::Surface;
 use std::fmt;
 use std::path::Path;
 
@@ -69,7 +67,7 @@ pub fn write_fit(mesh: &Mesh, fit: &TensorFit, path: &Path) -> Result<(), Failur
     match extension(path).as_str() {
         "vtu" => {
             let data = vtk::PointData { name: "deviation", dim: 1, values: &fit.errors };
-            vtk::write_mesh(&on_surface(mesh, fit)?, &[data], path)?;
+            vtk::write_mesh(&vtk::on_surface(&fit.surface, mesh, &fit.parameters)?, &[data], path)?;
         }
         "obj" => obj::write(&tessellate(&fit.surface, &TessellateOptions::default())?.mesh, path)?,
         _ => native::save_file(&fit.surface, path)?,
@@ -77,19 +75,9 @@ pub fn write_fit(mesh: &Mesh, fit: &TensorFit, path: &Path) -> Result<(), Failur
     Ok(())
 }
 
-/// The mesh with its nodes on the surface.
-fn on_surface(mesh: &Mesh, fit: &TensorFit) -> Result<Mesh, Failure> {
-    let mut rows = vec![0.0; 3 * fit.parameters.len()];
-    fit.surface.eval_rows(&fit.parameters, 0, &mut rows);
-    let points = rows.chunks_exact(3).map(DVec3::from_slice).collect();
-    let mut moved = Mesh::new(points, mesh.triangles().to_vec())?;
-    moved.set_parameters(fit.parameters.clone())?;
-    Ok(moved)
-}
-
 /// Writes a picture of the surface coloured by the error at the nodes.
 pub fn write_picture(mesh: &Mesh, fit: &TensorFit, path: &Path) -> Result<(), Failure> {
-    let moved = on_surface(mesh, fit)?;
+    let moved = vtk::on_surface(&fit.surface, mesh, &fit.parameters)?;
     let mut picture = Picture::new(1200, 900, &View::facing(&moved), &moved);
     let range = (0.0, fit.report.max_error);
     picture.draw_mesh(&moved, Some(&fit.errors), range);

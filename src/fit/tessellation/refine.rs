@@ -12,6 +12,10 @@ use glam::DVec2;
 /// Two rounds in a row that do not lower the error are followed by doubling both ways; this many end the fit.
 const STAGNANT_ROUNDS: usize = 4;
 
+/// Coarse grids see nothing of short waves, and their error stays the same from one to the next. Only with more
+/// than one unknown for this many data is a standstill one.
+const DATA_PER_UNKNOWN: f64 = 4.0;
+
 impl Problem<'_> {
     /// Fits grids of growing size (`ferguson.md` 5).
     pub fn fit(&mut self, control: &mut Control) -> Result<TensorFit, FitError> {
@@ -33,7 +37,9 @@ impl Problem<'_> {
             if self.options.fixed_grid.is_some() {
                 break StopReason::FixedGrid;
             }
-            if state.stagnant >= STAGNANT_ROUNDS {
+            let could_resolve =
+                DATA_PER_UNKNOWN * self.coefficient_count(counts) as f64 > self.uv.len() as f64;
+            if state.stagnant >= STAGNANT_ROUNDS && could_resolve {
                 break StopReason::Stagnated;
             }
             let next = match self.next_grids(counts, state.stagnant) {

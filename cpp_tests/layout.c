@@ -1,0 +1,123 @@
+/* Records have the layout that other languages copy: no implicit padding, fields where they always were. */
+#include "planish.h"
+
+#include <stddef.h>
+
+#define HOLDS(name, condition) typedef char name[(condition) ? 1 : -1]
+#define END(record, field) (offsetof(record, field) + sizeof(((record *)0)->field))
+/* `field` lies right behind `before`, so no padding is between them */
+#define FOLLOWS(record, before, field) \
+  HOLDS(record##_##field##_follows, offsetof(record, field) == END(record, before))
+#define FIRST(record) HOLDS(record##_begins_with_its_size, offsetof(record, struct_size) == 0)
+#define LAST(record, field) HOLDS(record##_ends_with_##field, sizeof(record) == END(record, field))
+
+HOLDS(status_is_an_int, sizeof(planish_status) == sizeof(int));
+
+FIRST(planish_mesh_options);
+FOLLOWS(planish_mesh_options, struct_size, point_stride);
+FOLLOWS(planish_mesh_options, point_stride, triangle_stride);
+FOLLOWS(planish_mesh_options, triangle_stride, weld_distance);
+FOLLOWS(planish_mesh_options, weld_distance, out_repairs);
+FOLLOWS(planish_mesh_options, out_repairs, out_node_map);
+FOLLOWS(planish_mesh_options, out_node_map, orient);
+FOLLOWS(planish_mesh_options, orient, index_base);
+LAST(planish_mesh_options, index_base);
+
+FIRST(planish_mesh_repairs);
+FOLLOWS(planish_mesh_repairs, struct_size, welded_node_count);
+FOLLOWS(planish_mesh_repairs, welded_node_count, dropped_triangle_count);
+FOLLOWS(planish_mesh_repairs, dropped_triangle_count, flipped_triangle_count);
+FOLLOWS(planish_mesh_repairs, flipped_triangle_count, dropped_parameters);
+FOLLOWS(planish_mesh_repairs, dropped_parameters, reserved);
+LAST(planish_mesh_repairs, reserved);
+
+FIRST(planish_parameterize_options);
+FOLLOWS(planish_parameterize_options, struct_size, node_weights);
+FOLLOWS(planish_parameterize_options, node_weights, progress);
+FOLLOWS(planish_parameterize_options, progress, user);
+FOLLOWS(planish_parameterize_options, user, bulge);
+FOLLOWS(planish_parameterize_options, bulge, boundary_slide);
+FOLLOWS(planish_parameterize_options, boundary_slide, method);
+FOLLOWS(planish_parameterize_options, method, border);
+FOLLOWS(planish_parameterize_options, border, corners);
+FOLLOWS(planish_parameterize_options, corners, stretch_steps);
+FOLLOWS(planish_parameterize_options, stretch_steps, rings);
+FOLLOWS(planish_parameterize_options, rings, fill_holes);
+FOLLOWS(planish_parameterize_options, fill_holes, unroll);
+FOLLOWS(planish_parameterize_options, unroll, thread_count);
+FOLLOWS(planish_parameterize_options, thread_count, reserved);
+LAST(planish_parameterize_options, reserved);
+
+FIRST(planish_parameterize_report);
+FOLLOWS(planish_parameterize_report, struct_size, stretch);
+FOLLOWS(planish_parameterize_report, stretch, max_stretch);
+FOLLOWS(planish_parameterize_report, max_stretch, area_ratio);
+FOLLOWS(planish_parameterize_report, area_ratio, seconds);
+FOLLOWS(planish_parameterize_report, seconds, flipped_count);
+FOLLOWS(planish_parameterize_report, flipped_count, degenerate_count);
+FOLLOWS(planish_parameterize_report, degenerate_count, solve_count);
+FOLLOWS(planish_parameterize_report, solve_count, step_count);
+FOLLOWS(planish_parameterize_report, step_count, remarks);
+FOLLOWS(planish_parameterize_report, remarks, border);
+FOLLOWS(planish_parameterize_report, border, border_slid);
+LAST(planish_parameterize_report, border_slid);
+
+FIRST(planish_eval_options);
+FOLLOWS(planish_eval_options, struct_size, uv_stride);
+FOLLOWS(planish_eval_options, uv_stride, out_stride);
+FOLLOWS(planish_eval_options, out_stride, out_flags);
+FOLLOWS(planish_eval_options, out_flags, outside);
+FOLLOWS(planish_eval_options, outside, thread_count);
+LAST(planish_eval_options, thread_count);
+
+FIRST(planish_tensor_options);
+FOLLOWS(planish_tensor_options, struct_size, tolerance);
+FOLLOWS(planish_tensor_options, tolerance, smoothing);
+FOLLOWS(planish_tensor_options, smoothing, buffer);
+FOLLOWS(planish_tensor_options, buffer, parameterize);
+FOLLOWS(planish_tensor_options, parameterize, weights);
+FOLLOWS(planish_tensor_options, weights, progress);
+FOLLOWS(planish_tensor_options, progress, user);
+FOLLOWS(planish_tensor_options, user, out_parameters);
+FOLLOWS(planish_tensor_options, out_parameters, out_errors);
+FOLLOWS(planish_tensor_options, out_errors, max_coefficients);
+FOLLOWS(planish_tensor_options, max_coefficients, tolerance_scale);
+FOLLOWS(planish_tensor_options, tolerance_scale, method);
+FOLLOWS(planish_tensor_options, method, ends);
+FOLLOWS(planish_tensor_options, ends, energy);
+FOLLOWS(planish_tensor_options, energy, regularize);
+FOLLOWS(planish_tensor_options, regularize, max_grid);
+FOLLOWS(planish_tensor_options, max_grid, grid_u);
+FOLLOWS(planish_tensor_options, grid_u, grid_v);
+FOLLOWS(planish_tensor_options, grid_v, correction_sweeps);
+FOLLOWS(planish_tensor_options, correction_sweeps, measure_distance);
+FOLLOWS(planish_tensor_options, measure_distance, thread_count);
+FOLLOWS(planish_tensor_options, thread_count, reserved);
+LAST(planish_tensor_options, reserved);
+
+FIRST(planish_fit_report);
+FOLLOWS(planish_fit_report, struct_size, max_error);
+FOLLOWS(planish_fit_report, max_error, rms_error);
+FOLLOWS(planish_fit_report, rms_error, mean_error);
+FOLLOWS(planish_fit_report, mean_error, tolerance);
+FOLLOWS(planish_fit_report, tolerance, diagonal);
+FOLLOWS(planish_fit_report, diagonal, max_interior_error);
+FOLLOWS(planish_fit_report, max_interior_error, facet_sagitta);
+FOLLOWS(planish_fit_report, facet_sagitta, max_distance);
+FOLLOWS(planish_fit_report, max_distance, smoothing);
+FOLLOWS(planish_fit_report, smoothing, stretch);
+FOLLOWS(planish_fit_report, stretch, parameterize_seconds);
+FOLLOWS(planish_fit_report, parameterize_seconds, seconds);
+FOLLOWS(planish_fit_report, seconds, worst_index);
+FOLLOWS(planish_fit_report, worst_index, grid_u);
+FOLLOWS(planish_fit_report, grid_u, grid_v);
+FOLLOWS(planish_fit_report, grid_v, coefficient_count);
+FOLLOWS(planish_fit_report, coefficient_count, empty_cell_count);
+FOLLOWS(planish_fit_report, empty_cell_count, flipped_count);
+FOLLOWS(planish_fit_report, flipped_count, remarks);
+FOLLOWS(planish_fit_report, remarks, pass_count);
+FOLLOWS(planish_fit_report, pass_count, stop_reason);
+LAST(planish_fit_report, stop_reason);
+
+int planish_layout_holds(void);
+int planish_layout_holds(void) { return 1; }

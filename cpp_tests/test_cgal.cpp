@@ -1,0 +1,135 @@
+// CGAL and planish agree: on mean value coordinates, and on the distance of a mesh to its surface.
+#include "check.hpp"
+#include "shapes.hpp"
+
+#include <planish.hpp>
+
+#include <CGAL/AABB_face_graph_triangle_primitive.h>
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/Eigen_solver_traits.h>
+#include <CGAL/Polygon_mesh_processing/border.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/Surface_mesh_parameterization/Circular_border_parameterizer_3.h>
+#include <CGAL/Surface_mesh_parameterization/Error_code.h>
+#include <CGAL/Surface_mesh_parameterization/Mean_value_coordinates_parameterizer_3.h>
+#include <CGAL/Surface_mesh_parameterization/parameterize.h>
+#include <Eigen/SparseLU>
+
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+using Kernel = CGAL::Simple_cartesian<double>;
+using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
+namespace smp = CGAL::Surface_mesh_parameterization;
+
+static SurfaceMesh to_cgal(const shapes::arrays &all) {
+  SurfaceMesh mesh;
+  for (std::size_t n = 0; n < all.point_count(); ++n) {
+    mesh.add_vertex(Kernel::Point_3(all.points[3 * n], all.points[3 * n + 1], all.points[3 * n + 2]));
+  }
+  for (std::size_t t = 0; t < all.triangle_count(); ++t) {
+    const auto node = [&](std::size_t k) { return SurfaceMesh::Vertex_index(all.triangles[3 * t + k]); };
+    mesh.add_face(node(0), node(1), node(2));
+  }
+  return mesh;
+}
+
+static planish::mesh from_cgal(const SurfaceMesh &mesh) {
+  std::vector<double> points;
+  std::vector<std::uint32_t> triangles;
+  for (const auto vertex : mesh.vertices()) {
+    const Kernel::Point_3 &p = mesh.point(vertex);
+    points.insert(points.end(), {p.x(), p.y(), p.z()});
+  }
+  for (const auto face : mesh.faces()) {
+    for (const auto vertex : CGAL::vertices_around_face(mesh.halfedge(face), mesh)) {
+      triangles.push_back(static_cast<std::uint32_t>(vertex.idx()));
+    }
+  }
+  return planish::mesh(points, triangles);
+}
+
+TEST(Cgal, MeanValueMapsAreEqual) {
+  using Border = smp::Circular_border_arc_length_parameterizer_3<SurfaceMesh>;
+  using Solver = CGAL::Eigen_solver_traits<Eigen::SparseLU<CGAL::Eigen_sparse_matrix<double>::EigenType>>;
+  using Parameterizer = smp::Mean_value_coordinates_parameterizer_3<SurfaceMesh, Border, Solver>;
+  SurfaceMesh theirs = to_cgal(shapes::graph(40, 35, 0.3, 41));
+  const auto map = theirs.add_property_map<SurfaceMesh::Vertex_index, Kernel::Point_2>("v:uv").first;
+  const auto border = CGAL::Polygon_mesh_processing::longest_border(theirs).first;
+  CHECK(smp::parameterize(theirs, Parameterizer(), border, map) == smp::OK);
+
+  planish::mesh ours = from_cgal(theirs);
+  std::vector<planish::point2> start(ours.point_count(), {0, 0});
+  for (const std::uint32_t node : ours.loop(0)) {
+    const Kernel::Point_2 &at = map[SurfaceMesh::Vertex_index(node)];
+    start[node] = {at.x(), at.y()};
+  }
+  ours.set_parameters(start);
+  auto options = planish::defaults<planish_parameterize_options>();
+  options.border = PLANISH_BORDER_KEPT;
+  options.stretch_steps = 0;
+  CHECK(ours.parameterize(options).status == PLANISH_STATUS_OK);
+  const std::vector<planish::point2> found = ours.parameters();
+  double largest = 0;
+  for (const auto vertex : theirs.vertices()) {
+    const planish::point2 &uv = found[vertex.idx()];
+    largest = std::max({largest, std::fabs(uv[0] - map[vertex].x()), std::fabs(uv[1] - map[vertex].y())});
+  }
+  CHECK_NEAR(largest, 0.0, 1e-9);
+  std::printf("mean value map of %zu nodes: largest difference %.1e\n", found.size(), largest);
+}
+
+#ifdef HAS_DISTANCE
+// The largest distance from a node to a tessellation of the surface, by CGAL's tree.
+static double largest_distance(const planish::mesh &nodes, const SurfaceMesh &tessellation) {
+  using Primitive = CGAL::AABB_face_graph_triangle_primitive<SurfaceMesh>;
+  CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> tree(faces(tessellation).begin(), faces(tessellation).end(),
+                                                             tessellation);
+  double largest_sq = 0;
+  for (const planish::point3 &p : nodes.points()) {
+    largest_sq = std::max(largest_sq, tree.squared_distance(Kernel::Point_3(p[0], p[1], p[2])));
+  }
+  return std::sqrt(largest_sq);
+}
+
+TEST(Cgal, DistancesAreEqual) {
+  const shapes::arrays all = shapes::graph(30, 30, 0.2, 42);
+  planish::mesh mesh(all.points, all.triangles);
+  auto options = planish::defaults<planish_tensor_options>();
+  options.tolerance = 1e-2;
+  options.measure_distance = 1;
+  const planish::fitted fit = planish::tensor_fit(mesh, options);
+  CHECK(fit.report.max_distance > 0);
+  CHECK(fit.report.max_distance <= fit.report.max_error);
+
+  // so fine that its own error, quadratic in the spacing, is far below the distances measured
+  const auto box = fit.surface.domain();
+  const std::size_t lines = 601;
+  std::vector<double> u, v;
+  for (std::size_t k = 0; k < lines; ++k) {
+    const double share = static_cast<double>(k) / static_cast<double>(lines - 1);
+    u.push_back(std::min(box[1], box[0] + share * (box[1] - box[0])));
+    v.push_back(std::min(box[3], box[2] + share * (box[3] - box[2])));
+  }
+  const std::vector<double> points = fit.surface.eval_grid(u, v);
+  shapes::arrays fine;
+  fine.points = points;
+  fine.uv.resize(2 * lines * lines);
+  for (std::size_t i = 0; i + 1 < lines; ++i) {
+    for (std::size_t j = 0; j + 1 < lines; ++j) {
+      const auto node = [&](std::size_t a, std::size_t b) { return static_cast<std::uint32_t>((i + a) * lines + j + b); };
+      fine.triangles.insert(fine.triangles.end(),
+                            {node(0, 0), node(1, 0), node(1, 1), node(0, 0), node(1, 1), node(0, 1)});
+    }
+  }
+  const double theirs = largest_distance(mesh, to_cgal(fine));
+  CHECK_NEAR(fit.report.max_distance, theirs, 0.02 * theirs);
+  std::printf("largest distance: %.6e, by CGAL %.6e\n", fit.report.max_distance, theirs);
+}
+#endif
+
+int main() { return check::run(); }

@@ -1,0 +1,18 @@
+# Runs PROGRAM and compares what it prints with the last comment of SOURCE, which begins with "Output: ". Numbers
+# may differ, words may not.
+execute_process(COMMAND "${PROGRAM}" OUTPUT_VARIABLE printed RESULT_VARIABLE failed)
+if(failed)
+  message(FATAL_ERROR "${PROGRAM} ended with ${failed}: ${printed}")
+endif()
+file(STRINGS "${SOURCE}" comments REGEX "Output: ")
+list(GET comments -1 expected)
+string(REGEX REPLACE "^.*Output: " "" expected "${expected}")
+string(REGEX REPLACE " *\\*/ *$" "" expected "${expected}")
+string(STRIP "${printed}" printed)
+message(STATUS "${printed}")
+foreach(text expected printed)
+  string(REGEX REPLACE "-?[0-9]+(\\.[0-9]+)?(e[-+]?[0-9]+)?" "0" ${text}_shape "${${text}}")
+endforeach()
+if(NOT printed_shape STREQUAL expected_shape)
+  message(FATAL_ERROR "printed: ${printed}\nexpected the shape of: ${expected}")
+endif()

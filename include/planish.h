@@ -1,0 +1,2186 @@
+/* SPDX-License-Identifier: MIT OR Apache-2.0 */
+
+#ifndef PLANISH_H
+#define PLANISH_H
+
+/* Generated from src/ffi: do not edit. `cargo run -p planish-header` renews it. */
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* The version of this header; planish_version() is that of the library. */
+#define PLANISH_VERSION_MAJOR 0
+#define PLANISH_VERSION_MINOR 1
+#define PLANISH_VERSION_PATCH 0
+#define PLANISH_VERSION "0.1.0"
+
+#if defined(_WIN32) && !defined(PLANISH_STATIC)
+#  define PLANISH_API __declspec(dllimport)
+#else
+#  define PLANISH_API
+#endif
+
+#if defined(__GNUC__) || defined(__clang__)
+#  define PLANISH_NODISCARD __attribute__((warn_unused_result))
+#elif defined(_MSC_VER)
+#  define PLANISH_NODISCARD _Check_return_
+#else
+#  define PLANISH_NODISCARD
+#endif
+
+
+/**
+ * The value of stretch_steps that goes on until the stretch no longer falls.
+ */
+#define PLANISH_UNLIMITED UINT32_MAX
+
+/**
+ * What a call came to: 0 or positive is success, negative is an error. Test with `status < 0`.
+ *
+ * A positive status is a success with a remark: all outputs are filled. Where several remarks hold the
+ * gravest is returned, in the order FOLDED_PARAMETERS, TOLERANCE_NOT_MET, STAGNATED, POINTS_OUTSIDE,
+ * INPUT_REPAIRED; reports have all of them. After an error no output has been touched, and
+ * planish_error_message() and planish_error_index() say more. Numbers are never reused; new ones may come.
+ */
+typedef enum planish_status {
+    /**
+     * All went well.
+     */
+    PLANISH_STATUS_OK = 0,
+    /**
+     * The surface misses the tolerance; it is the best one found.
+     */
+    PLANISH_STATUS_TOLERANCE_NOT_MET = 1,
+    /**
+     * The fit ended because refinement no longer lowered the error.
+     */
+    PLANISH_STATUS_STAGNATED = 2,
+    /**
+     * Some points lie outside the domain; their values are NaN.
+     */
+    PLANISH_STATUS_POINTS_OUTSIDE = 3,
+    /**
+     * The mesh is not what was given: nodes were welded, triangles dropped or turned over, or texture
+     * coordinates that are no parameters left out.
+     */
+    PLANISH_STATUS_INPUT_REPAIRED = 4,
+    /**
+     * Some triangles are turned over or flat in the parameter plane: a surface over them may fold.
+     */
+    PLANISH_STATUS_FOLDED_PARAMETERS = 5,
+    /**
+     * An argument that must not be NULL is.
+     */
+    PLANISH_STATUS_NULL_POINTER = -1,
+    /**
+     * An argument or option is out of its range, or contradicts another.
+     */
+    PLANISH_STATUS_INVALID_ARGUMENT = -2,
+    /**
+     * A number is NaN or infinite.
+     */
+    PLANISH_STATUS_NOT_FINITE = -3,
+    /**
+     * An index is out of range.
+     */
+    PLANISH_STATUS_INDEX = -4,
+    /**
+     * The mesh is not connected as the call needs it.
+     */
+    PLANISH_STATUS_TOPOLOGY = -5,
+    /**
+     * The geometry is degenerate: lengths, areas or ranges are zero.
+     */
+    PLANISH_STATUS_DEGENERATE = -6,
+    /**
+     * A parameter lies outside the domain.
+     */
+    PLANISH_STATUS_OUTSIDE = -7,
+    /**
+     * The data do not determine the result.
+     */
+    PLANISH_STATUS_SINGULAR = -8,
+    /**
+     * The call does not apply to this family of surface.
+     */
+    PLANISH_STATUS_WRONG_KIND = -9,
+    /**
+     * The caller's array is too short for the result.
+     */
+    PLANISH_STATUS_BUFFER_TOO_SMALL = -10,
+    /**
+     * A size exceeds a limit, or what memory can address.
+     */
+    PLANISH_STATUS_TOO_LARGE = -11,
+    /**
+     * A file cannot be opened, read or written.
+     */
+    PLANISH_STATUS_FILE = -12,
+    /**
+     * The content of a file is not what it claims to be.
+     */
+    PLANISH_STATUS_FORMAT = -13,
+    /**
+     * A record has fields that this version of the library does not know, and they are not zero.
+     */
+    PLANISH_STATUS_VERSION = -14,
+    /**
+     * The progress callback asked to stop.
+     */
+    PLANISH_STATUS_CANCELLED = -15,
+    /**
+     * Memory for a copy of the caller's arrays could not be had.
+     */
+    PLANISH_STATUS_OUT_OF_MEMORY = -16,
+    /**
+     * A bug in the library. Handles stay valid; arrays of results may be partly written.
+     */
+    PLANISH_STATUS_INTERNAL = -17,
+} planish_status;
+
+/**
+ * Things worth knowing about a map or a fit: the bits of `remarks` in reports, several may hold.
+ */
+typedef enum planish_remark {
+    /**
+     * The surface misses the tolerance.
+     */
+    PLANISH_REMARK_TOLERANCE_NOT_MET = 1,
+    /**
+     * The fit ended because refinement no longer lowered the error.
+     */
+    PLANISH_REMARK_STAGNATED = 2,
+    /**
+     * Some triangles are turned over or flat in the parameter plane: the surface may fold there.
+     */
+    PLANISH_REMARK_FOLDED_PARAMETERS = 4,
+    /**
+     * The mesh had no parameters and was parameterized first.
+     */
+    PLANISH_REMARK_PARAMETERIZED = 8,
+    /**
+     * Given parameters were uneven and have been regularized.
+     */
+    PLANISH_REMARK_REGULARIZED = 16,
+    /**
+     * The tolerance was below what double precision can keep and was raised.
+     */
+    PLANISH_REMARK_TOLERANCE_RAISED = 32,
+    /**
+     * Some cells hold no data; the surface is extrapolated there.
+     */
+    PLANISH_REMARK_EMPTY_CELLS = 64,
+    /**
+     * Between the nodes the surface departs from the facets by more than tolerance and facet sagitta.
+     */
+    PLANISH_REMARK_ROUGH_BETWEEN_NODES = 128,
+    /**
+     * The map is so compressed that one chart is the wrong tool: cut the mesh into several.
+     */
+    PLANISH_REMARK_SEGMENTATION_ADVISED = 256,
+    /**
+     * The data do not determine the beam energy's null space; the plate energy was used instead.
+     */
+    PLANISH_REMARK_PLATE_ENERGY_USED = 512,
+    /**
+     * Holes were closed by fans of triangles while the map was computed.
+     */
+    PLANISH_REMARK_HOLES_FILLED = 65536,
+    /**
+     * Triangles without area in space were left out of the map's weights.
+     */
+    PLANISH_REMARK_ZERO_AREA_TRIANGLES = 131072,
+} planish_remark;
+
+/**
+ * Why a fit ended.
+ */
+typedef enum planish_stop_reason {
+    /**
+     * The tolerance is met.
+     */
+    PLANISH_STOP_REASON_TOLERANCE_MET = 0,
+    /**
+     * The caller fixed the grid, so there was nothing to refine.
+     */
+    PLANISH_STOP_REASON_FIXED_GRID = 1,
+    /**
+     * The limit on grid or coefficients is reached.
+     */
+    PLANISH_STOP_REASON_LIMIT = 2,
+    /**
+     * There would be more coefficients than data.
+     */
+    PLANISH_STOP_REASON_DATA_EXHAUSTED = 3,
+    /**
+     * Refinement no longer lowered the error.
+     */
+    PLANISH_STOP_REASON_STAGNATED = 4,
+} planish_stop_reason;
+
+/**
+ * Which weights an interior node gives its neighbours.
+ */
+typedef enum planish_map_method {
+    /**
+     * Mean value coordinates: no triangle turns over over a convex border.
+     */
+    PLANISH_MAP_METHOD_MEAN_VALUE = 0,
+    /**
+     * Cotangents: the conformal map of a flat sheet. Triangles may turn over; the report counts them.
+     */
+    PLANISH_MAP_METHOD_HARMONIC = 1,
+} planish_map_method;
+
+/**
+ * Where the longest boundary loop goes.
+ */
+typedef enum planish_border {
+    /**
+     * The one of circle, square by turns, square by arc and (if `unroll` says so) free with the least L2
+     * stretch.
+     */
+    PLANISH_BORDER_AUTO = 0,
+    /**
+     * The circle inscribed in the unit square, spaced by chord length.
+     */
+    PLANISH_BORDER_CIRCLE = 1,
+    /**
+     * The unit square with corners at the four sharpest turns of the loop.
+     */
+    PLANISH_BORDER_SQUARE_BY_TURNS = 2,
+    /**
+     * The unit square with corners at each quarter of the loop's length.
+     */
+    PLANISH_BORDER_SQUARE_BY_ARC = 3,
+    /**
+     * The unit square with the nodes `corners` at (0,0), (1,0), (1,1), (0,1).
+     */
+    PLANISH_BORDER_CORNERS = 4,
+    /**
+     * All boundary nodes, those of holes too, keep the parameters that the mesh has.
+     */
+    PLANISH_BORDER_KEPT = 5,
+    /**
+     * No border at all: unrolled so that lengths are kept best, in the units of the mesh. Refused if that
+     * folds or overlaps itself.
+     */
+    PLANISH_BORDER_FREE = 6,
+} planish_border;
+
+/**
+ * The family of a surface.
+ */
+typedef enum planish_kind {
+    /**
+     * No surface: the answer for NULL.
+     */
+    PLANISH_KIND_NONE = 0,
+    /**
+     * Tensor product B-spline, with or without weights.
+     */
+    PLANISH_KIND_TENSOR = 1,
+    /**
+     * T-spline with control curves.
+     */
+    PLANISH_KIND_TSPLINE = 2,
+    /**
+     * Bicubic spline over a hierarchical T-mesh.
+     */
+    PLANISH_KIND_PHT = 3,
+    /**
+     * Spline over a triangular control mesh.
+     */
+    PLANISH_KIND_D1RC = 4,
+} planish_kind;
+
+/**
+ * What to do with points outside the domain.
+ */
+typedef enum planish_outside {
+    /**
+     * Refuse all points, before one value is written.
+     */
+    PLANISH_OUTSIDE_FAIL = 0,
+    /**
+     * NaN and a flag; the call returns PLANISH_STATUS_POINTS_OUTSIDE.
+     */
+    PLANISH_OUTSIDE_FLAG = 1,
+    /**
+     * The polynomial at the domain's end is continued, and the point flagged.
+     */
+    PLANISH_OUTSIDE_EXTRAPOLATE = 2,
+} planish_outside;
+
+/**
+ * Flags of a point: bits of the elements of out_flags.
+ */
+typedef enum planish_flag {
+    /**
+     * The parameters lie outside the domain.
+     */
+    PLANISH_FLAG_OUTSIDE_DOMAIN = 1,
+    /**
+     * The point lies outside the trims: in a hole, or beyond the boundary of the data.
+     */
+    PLANISH_FLAG_OUTSIDE_TRIMS = 2,
+    /**
+     * The parameters lie in the domain but beyond the box of the data: the surface is extrapolated there.
+     */
+    PLANISH_FLAG_IN_BUFFER = 4,
+    /**
+     * The surface has no normal there, so that normal and curvatures are NaN.
+     */
+    PLANISH_FLAG_NO_NORMAL = 8,
+} planish_flag;
+
+/**
+ * A parameter direction.
+ */
+typedef enum planish_axis {
+    /**
+     * The first parameter.
+     */
+    PLANISH_AXIS_U = 0,
+    /**
+     * The second parameter.
+     */
+    PLANISH_AXIS_V = 1,
+} planish_axis;
+
+/**
+ * What a tolerance is measured in.
+ */
+typedef enum planish_tolerance_scale {
+    /**
+     * The diagonal of the data's bounding box; for a field, of the box of its values.
+     */
+    PLANISH_TOLERANCE_SCALE_RELATIVE = 0,
+    /**
+     * Model units.
+     */
+    PLANISH_TOLERANCE_SCALE_ABSOLUTE = 1,
+} planish_tolerance_scale;
+
+/**
+ * Which equations determine a tensor surface on a grid.
+ */
+typedef enum planish_tensor_method {
+    /**
+     * Least squares in the spline space.
+     */
+    PLANISH_TENSOR_METHOD_LEAST_SQUARES = 0,
+    /**
+     * The equations of Dannenhoffer and Haimes, 2009: less accurate on fine grids, for comparison.
+     */
+    PLANISH_TENSOR_METHOD_FERGUSON = 1,
+} planish_tensor_method;
+
+/**
+ * What happens at the ends of the knots.
+ */
+typedef enum planish_ends {
+    /**
+     * Zero curvature across the ends.
+     */
+    PLANISH_ENDS_NATURAL = 0,
+    /**
+     * Two more unknowns a direction.
+     */
+    PLANISH_ENDS_FREE = 1,
+} planish_ends;
+
+/**
+ * Which second derivatives cost energy.
+ */
+typedef enum planish_energy {
+    /**
+     * Elastic beams along the knot lines.
+     */
+    PLANISH_ENERGY_BEAM = 0,
+    /**
+     * An elastic plate over the cells.
+     */
+    PLANISH_ENERGY_PLATE = 1,
+} planish_energy;
+
+/**
+ * What to do with parameters that came with a mesh.
+ */
+typedef enum planish_regularize {
+    /**
+     * Even them out if they are uneven and it helps.
+     */
+    PLANISH_REGULARIZE_AUTO = 0,
+    /**
+     * Take them as they are.
+     */
+    PLANISH_REGULARIZE_NEVER = 1,
+    /**
+     * Even them out.
+     */
+    PLANISH_REGULARIZE_ALWAYS = 2,
+} planish_regularize;
+
+/**
+ * A B-spline curve: a map from an interval of parameters u to R^dim. Made by planish_curve_fit(), destroyed by
+ * planish_curve_free().
+ *
+ * Calls that take it const may run at once on any threads.
+ */
+typedef struct planish_curve planish_curve;
+
+/**
+ * A triangle mesh: manifold and consistently oriented, possibly with several components, holes and nodes
+ * without triangles. Made by planish_mesh_new() and others, destroyed by planish_mesh_free().
+ *
+ * Calls that take it const may run at once on any threads; a call that takes it non-const needs it alone.
+ */
+typedef struct planish_mesh planish_mesh;
+
+/**
+ * A surface: a map from a rectangle of parameters (u,v) to R^dim. Made by planish_tensor_fit() and others,
+ * destroyed by planish_surface_free().
+ *
+ * Calls that take it const may run at once on any threads; a call that takes it non-const needs it alone.
+ */
+typedef struct planish_surface planish_surface;
+
+/**
+ * What was done to arrays or a file to make a mesh of them. Set struct_size to sizeof(planish_mesh_repairs)
+ * before the call.
+ */
+typedef struct planish_mesh_repairs {
+    /**
+     * sizeof(planish_mesh_repairs) as the caller sees it.
+     */
+    size_t struct_size;
+    /**
+     * Nodes that vanished because they were welded to others.
+     */
+    size_t welded_node_count;
+    /**
+     * Triangles that vanished because welding made two of their nodes one.
+     */
+    size_t dropped_triangle_count;
+    /**
+     * Triangles that were turned over.
+     */
+    size_t flipped_triangle_count;
+    /**
+     * 1 if the file has texture coordinates that are no parameters, because a node has several or none.
+     */
+    uint32_t dropped_parameters;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} planish_mesh_repairs;
+
+/**
+ * How arrays or files become a mesh. Fill with planish_mesh_options_init(), then change what you need.
+ */
+typedef struct planish_mesh_options {
+    /**
+     * Set by planish_mesh_options_init().
+     */
+    size_t struct_size;
+    /**
+     * Doubles from one node to the next in `points`; at least 3, or 0 (default) for 3. Ignored for files.
+     */
+    size_t point_stride;
+    /**
+     * Indices from one triangle to the next in `triangles`; at least 3, or 0 (default) for 3. Ignored for
+     * files.
+     */
+    size_t triangle_stride;
+    /**
+     * Nodes not further apart than this become one, in model units. Default 0: nothing is welded, except
+     * that nodes of STL files with equal coordinates always are.
+     */
+    double weld_distance;
+    /**
+     * Receives what was repaired, or NULL (default). Set its struct_size before. Filled on success only.
+     */
+    struct planish_mesh_repairs *out_repairs;
+    /**
+     * Receives for each node given the node of the mesh that it became, counted from 0: point_count
+     * elements, or NULL (default). Filled on success only. Must be NULL for files.
+     */
+    uint32_t *out_node_map;
+    /**
+     * 1 turns triangles over until neighbours agree; with 0 (default) disagreement is an error.
+     */
+    uint32_t orient;
+    /**
+     * The number that `triangles` uses for the first node, such as 1 from Fortran. Default 0. Ignored for
+     * files. Everything that the library hands back counts from 0.
+     */
+    uint32_t index_base;
+} planish_mesh_options;
+
+/**
+ * Hears how far a call is and may end it.
+ *
+ * fraction: how much is done, 0 to 1; it never falls.
+ * error:    while a surface is fitted the largest error so far in model units, while a mesh is parameterized
+ *           the L2 stretch so far; NaN while unknown.
+ * user:     the pointer from the options.
+ * Returns 0 to go on; anything else cancels, and the call returns PLANISH_STATUS_CANCELLED when the step in
+ * progress, such as a factorization, has ended.
+ *
+ * It is called on the thread that made the call. It must not throw or longjmp: a C++ exception that leaves it
+ * ends the process. It may call the library, but not change or destroy what the call was given.
+ */
+typedef int32_t (*planish_progress)(double fraction, double error, void *user);
+
+/**
+ * How a mesh gets its parameters. Fill with planish_parameterize_options_init(), then change what you need.
+ */
+typedef struct planish_parameterize_options {
+    /**
+     * Set by planish_parameterize_options_init().
+     */
+    size_t struct_size;
+    /**
+     * A positive number for each node: large where more parameter area is wanted. NULL (default) for all 1.
+     */
+    const double *node_weights;
+    /**
+     * Hears of the progress and may cancel; NULL (default) for nobody.
+     */
+    planish_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *user;
+    /**
+     * Outward bulge of a square's sides, in sides, 0 to 0.5: keeps triangles between nodes of one side open.
+     * Default 0.02.
+     */
+    double bulge;
+    /**
+     * How far border nodes slide with the stretch, 0 to 1. Default 0.
+     */
+    double boundary_slide;
+    /**
+     * A planish_map_method. Default PLANISH_MAP_METHOD_MEAN_VALUE.
+     */
+    uint32_t method;
+    /**
+     * A planish_border. Default PLANISH_BORDER_AUTO.
+     */
+    uint32_t border;
+    /**
+     * For PLANISH_BORDER_CORNERS: four nodes of the longest boundary loop in its order, counted from 0.
+     */
+    uint32_t corners[4];
+    /**
+     * Most steps that lower the stretch after the first map: 0 for none, PLANISH_UNLIMITED (default) until it
+     * no longer falls.
+     */
+    uint32_t stretch_steps;
+    /**
+     * Sweeps that smooth the logarithm of the stretch before each step. Default 0.
+     */
+    uint32_t rings;
+    /**
+     * 1 (default) closes holes by fans of triangles while the map is computed; 0 lets them become convex.
+     */
+    uint32_t fill_holes;
+    /**
+     * With PLANISH_BORDER_AUTO: 1 (default) also unrolls the map with a free border, and takes that if it
+     * neither folds nor overlaps itself and stretches less; 0 does not.
+     */
+    uint32_t unroll;
+    /**
+     * Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+     */
+    uint32_t thread_count;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} planish_parameterize_options;
+
+/**
+ * How good a map is and what it took. Set struct_size to sizeof(planish_parameterize_report) before the call;
+ * the report is filled as far as that goes, on success only.
+ */
+typedef struct planish_parameterize_report {
+    /**
+     * sizeof(planish_parameterize_report) as the caller sees it.
+     */
+    size_t struct_size;
+    /**
+     * L2 stretch of all triangles: 1 is an isometry; infinite if a triangle has no parameter area.
+     */
+    double stretch;
+    /**
+     * The largest stretch in any direction anywhere, in the same scale.
+     */
+    double max_stretch;
+    /**
+     * The largest ratio of a triangle's area in space to that in the parameters, by the smallest.
+     */
+    double area_ratio;
+    /**
+     * Wall time in seconds.
+     */
+    double seconds;
+    /**
+     * Triangles turned over against the rest: folds of the map.
+     */
+    size_t flipped_count;
+    /**
+     * Triangles of exactly zero parameter area.
+     */
+    size_t degenerate_count;
+    /**
+     * Factorizations of the linear system, all candidates together.
+     */
+    size_t solve_count;
+    /**
+     * Steps that lowered the stretch of the map returned.
+     */
+    size_t step_count;
+    /**
+     * Everything worth knowing: bits of planish_remark.
+     */
+    uint64_t remarks;
+    /**
+     * The border that was taken: a planish_border.
+     */
+    uint32_t border;
+    /**
+     * 1 if the border slid with the stretch.
+     */
+    uint32_t border_slid;
+} planish_parameterize_report;
+
+/**
+ * How points are evaluated. Fill with planish_eval_options_init(), then change what you need.
+ */
+typedef struct planish_eval_options {
+    /**
+     * Set by planish_eval_options_init().
+     */
+    size_t struct_size;
+    /**
+     * Doubles from one point to the next in `uv`; at least 2, or 0 (default) for 2. Must be 0 for grids.
+     */
+    size_t uv_stride;
+    /**
+     * Doubles from one point's results to the next; at least as many as a point has, or 0 (default) for
+     * exactly so many. What lies between is left alone.
+     */
+    size_t out_stride;
+    /**
+     * Receives bits of planish_flag, one element for each point; NULL (default) for none.
+     */
+    uint8_t *out_flags;
+    /**
+     * A planish_outside. Default PLANISH_OUTSIDE_FAIL.
+     */
+    uint32_t outside;
+    /**
+     * Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it, and fewer than
+     * about a thousand points are evaluated on the calling thread alone.
+     */
+    uint32_t thread_count;
+} planish_eval_options;
+
+/**
+ * Options of tensor fits. Fill with planish_tensor_options_init(), then change what you need.
+ *
+ * A datum is a node of the mesh, or a point.
+ */
+typedef struct planish_tensor_options {
+    /**
+     * Set by planish_tensor_options_init().
+     */
+    size_t struct_size;
+    /**
+     * The largest error allowed at the data, positive, measured in tolerance_scale. Default 1e-3.
+     */
+    double tolerance;
+    /**
+     * Weight of the bending energy; 0 (default) takes the largest of 1e-3, 1e-4, 1e-5, 1e-6 that meets the
+     * tolerance (for PLANISH_TENSOR_METHOD_FERGUSON 1e-3).
+     */
+    double smoothing;
+    /**
+     * How far the knots reach beyond the data, as a fraction of the data's range, 0 to 10. Default 0.1.
+     */
+    double buffer;
+    /**
+     * How a mesh without parameters gets them; NULL (default) for the defaults. Of this record progress, user
+     * and thread_count are not looked at, and node_weights must be NULL. Not used for points.
+     */
+    const struct planish_parameterize_options *parameterize;
+    /**
+     * A positive weight for each datum; NULL (default) for all 1.
+     */
+    const double *weights;
+    /**
+     * Hears of the progress and may cancel; NULL (default) for nobody.
+     */
+    planish_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *user;
+    /**
+     * Receives the (u,v) at which the error of each datum is measured: two numbers for each datum, or NULL
+     * (default). Written on success only.
+     */
+    double *out_parameters;
+    /**
+     * Receives the error of each datum in model units: one number for each datum, or NULL (default). Written
+     * on success only.
+     */
+    double *out_errors;
+    /**
+     * Most unknowns of one grid, at least 4. Default 66049.
+     */
+    size_t max_coefficients;
+    /**
+     * A planish_tolerance_scale. Default PLANISH_TOLERANCE_SCALE_RELATIVE.
+     */
+    uint32_t tolerance_scale;
+    /**
+     * A planish_tensor_method. Default PLANISH_TENSOR_METHOD_LEAST_SQUARES.
+     */
+    uint32_t method;
+    /**
+     * A planish_ends. Default PLANISH_ENDS_NATURAL.
+     */
+    uint32_t ends;
+    /**
+     * A planish_energy. Default PLANISH_ENERGY_BEAM.
+     */
+    uint32_t energy;
+    /**
+     * A planish_regularize. Default PLANISH_REGULARIZE_AUTO.
+     */
+    uint32_t regularize;
+    /**
+     * Most knots along one direction, at least 2. Default 257.
+     */
+    uint32_t max_grid;
+    /**
+     * Knots along u to use without refinement, 2 to 8193; 0 (default, then grid_v too) refines.
+     */
+    uint32_t grid_u;
+    /**
+     * Knots along v to use without refinement, 2 to 8193; 0 (default, then grid_u too) refines.
+     */
+    uint32_t grid_v;
+    /**
+     * Sweeps of parameter correction on each grid: data move to their foot points, then the fit is repeated.
+     * Default 0.
+     */
+    uint32_t correction_sweeps;
+    /**
+     * 1 measures the closest-point distance of the nodes for the report. Default 0.
+     */
+    uint32_t measure_distance;
+    /**
+     * Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+     */
+    uint32_t thread_count;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} planish_tensor_options;
+
+/**
+ * What a fit did and how good it is. Set struct_size to sizeof(planish_fit_report) before the call; the
+ * report is filled as far as that goes, on success only. Errors and lengths are in model units (for a field,
+ * in units of its values) and measured on the finished surface.
+ */
+typedef struct planish_fit_report {
+    /**
+     * sizeof(planish_fit_report) as the caller sees it.
+     */
+    size_t struct_size;
+    /**
+     * Largest distance between a datum and the surface at the datum's (u,v): what the tolerance bounds.
+     */
+    double max_error;
+    /**
+     * Square root of the mean of its square.
+     */
+    double rms_error;
+    /**
+     * Its mean.
+     */
+    double mean_error;
+    /**
+     * The tolerance that was kept or missed.
+     */
+    double tolerance;
+    /**
+     * Diagonal of the data's bounding box: an error divided by it is relative.
+     */
+    double diagonal;
+    /**
+     * Largest distance from a triangle's centroid or an edge's middle to the surface's tangent plane at the
+     * mean of the nodes' (u,v) (for a field: to its value there); 0 for data without triangles.
+     */
+    double max_interior_error;
+    /**
+     * The part of max_interior_error that flat facets on a curved shape explain.
+     */
+    double facet_sagitta;
+    /**
+     * Largest closest-point distance from a node to the surface; NaN unless measure_distance asked for it.
+     */
+    double max_distance;
+    /**
+     * Weight of the smoothing energy in the surface returned.
+     */
+    double smoothing;
+    /**
+     * L2 stretch of the map: 1 is an isometry; 0 for data without triangles.
+     */
+    double stretch;
+    /**
+     * Wall time spent on the map, in seconds.
+     */
+    double parameterize_seconds;
+    /**
+     * Wall time in all, in seconds.
+     */
+    double seconds;
+    /**
+     * The datum with the largest error, counted from 0.
+     */
+    size_t worst_index;
+    /**
+     * Different knots along u.
+     */
+    size_t grid_u;
+    /**
+     * Different knots along v.
+     */
+    size_t grid_v;
+    /**
+     * Unknowns of the fit. The surface may have more control points, which these determine.
+     */
+    size_t coefficient_count;
+    /**
+     * Cells without data inside the trims' box.
+     */
+    size_t empty_cell_count;
+    /**
+     * Triangles that are turned over or flat in the parameter plane.
+     */
+    size_t flipped_count;
+    /**
+     * Everything worth knowing: bits of planish_remark.
+     */
+    uint64_t remarks;
+    /**
+     * Rounds of fitting and measuring.
+     */
+    uint32_t pass_count;
+    /**
+     * Why the fit ended: a planish_stop_reason.
+     */
+    uint32_t stop_reason;
+} planish_fit_report;
+
+/**
+ * How fine a tessellation is. Fill with planish_tessellate_options_init(), then change what you need.
+ */
+typedef struct planish_tessellate_options {
+    /**
+     * Set by planish_tessellate_options_init().
+     */
+    size_t struct_size;
+    /**
+     * Largest distance between the surface and the middles of the edges, in model units, positive; 0 (default)
+     * takes 1e-3 of the surface's diagonal.
+     */
+    double chord_tolerance;
+    /**
+     * Longest edge in model units, positive; 0 (default) for no limit.
+     */
+    double max_edge_length;
+    /**
+     * Most nodes; with more the call fails. Default 4000000.
+     */
+    size_t max_point_count;
+    /**
+     * 1 (default) keeps to the part inside the trims, 0 covers the whole domain.
+     */
+    uint32_t keep_trims;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} planish_tessellate_options;
+
+/**
+ * How points are projected. Fill with planish_project_options_init(), then change what you need.
+ */
+typedef struct planish_project_options {
+    /**
+     * Set by planish_project_options_init().
+     */
+    size_t struct_size;
+    /**
+     * A row u, v near the answer for each point, or NULL (default). It saves time and may choose between
+     * equally near places; the answer is the nearest place all the same. Borrowed.
+     */
+    const double *guesses;
+    /**
+     * Points farther from the surface than this get NaN, and the call returns
+     * PLANISH_STATUS_POINTS_OUTSIDE. Not negative; default infinity.
+     */
+    double max_distance;
+    /**
+     * 1 (default) looks for the nearest place inside the trims, 0 in the whole domain.
+     */
+    uint32_t keep_trims;
+    /**
+     * Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+     */
+    uint32_t thread_count;
+} planish_project_options;
+
+/**
+ * How a surface is compared with a mesh. Fill with planish_deviation_options_init(), then change what you
+ * need.
+ */
+typedef struct planish_deviation_options {
+    /**
+     * Set by planish_deviation_options_init().
+     */
+    size_t struct_size;
+    /**
+     * Chord tolerance of the tessellation that is measured back from, in model units; 0 (default) takes 1e-3
+     * of the surface's diagonal.
+     */
+    double chord_tolerance;
+    /**
+     * Longest edge of that tessellation in model units; 0 (default) takes 1e-2 of the mesh's diagonal.
+     * Smaller holes may be missed.
+     */
+    double max_edge_length;
+    /**
+     * 1 (default): only the part of the surface inside its trims counts.
+     */
+    uint32_t keep_trims;
+    /**
+     * 1 (default): the mesh's parameters, if it has any, are where searches start. The distances are the
+     * least ones all the same.
+     */
+    uint32_t use_parameters;
+    /**
+     * 1: measure from the surface to the mesh as well, which notices filled holes and surplus sheets.
+     * Default 0.
+     */
+    uint32_t measure_back;
+    /**
+     * Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+     */
+    uint32_t thread_count;
+} planish_deviation_options;
+
+/**
+ * Distances between a surface and a mesh, in model units. Set struct_size to
+ * sizeof(planish_deviation_report) before the call; filled as far as that goes, on success only.
+ */
+typedef struct planish_deviation_report {
+    /**
+     * sizeof(planish_deviation_report) as the caller sees it.
+     */
+    size_t struct_size;
+    /**
+     * Largest distance from a node to its nearest place on the surface.
+     */
+    double max_distance;
+    /**
+     * Square root of the mean of its square.
+     */
+    double rms_distance;
+    /**
+     * Its mean.
+     */
+    double mean_distance;
+    /**
+     * Largest distance from a place on the surface to the mesh; NaN unless measure_back asked for it.
+     */
+    double max_back_distance;
+    /**
+     * u of that place; NaN unless asked for.
+     */
+    double worst_back_u;
+    /**
+     * v of that place; NaN unless asked for.
+     */
+    double worst_back_v;
+    /**
+     * The node farthest from the surface.
+     */
+    size_t worst_index;
+    /**
+     * Places on the surface that were measured back from.
+     */
+    size_t back_count;
+} planish_deviation_report;
+
+/**
+ * What a VTK file shows. Fill with planish_vtk_options_init(), then change what you need.
+ */
+typedef struct planish_vtk_options {
+    /**
+     * Set by planish_vtk_options_init().
+     */
+    size_t struct_size;
+    /**
+     * A mesh to compare with, or NULL (default). Its triangles are then written instead of a tessellation,
+     * each node moved to its nearest place on the surface, with the distance as point data "deviation".
+     * Borrowed.
+     */
+    const struct planish_mesh *deviation_from;
+    /**
+     * How the surface is tessellated otherwise; NULL (default) for the defaults. Borrowed.
+     */
+    const struct planish_tessellate_options *tessellate;
+    /**
+     * Threads to use, at most 1024; 0 (default) for all cores.
+     */
+    uint32_t thread_count;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} planish_vtk_options;
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+/**
+ * The version of the library that is loaded, such as "0.1.0": compare it with PLANISH_VERSION, the version
+ * of this header. Never NULL; the text is static.
+ */
+PLANISH_API const char *planish_version(void);
+
+/**
+ * The name of a status, such as "PLANISH_STATUS_OK"; "unknown status" for a number that is none. Never
+ * NULL; the text is static.
+ */
+PLANISH_API const char *planish_status_name(int32_t status);
+
+/**
+ * The sentence that explains this thread's last failure: the last call on this thread that returned a
+ * negative status, or 0 because of a NULL handle. Later successes leave it as it is.
+ *
+ * text: receives the sentence in UTF-8, cut off if it is too long and always terminated; NULL if size is 0.
+ * size: bytes that text has room for, the NUL included.
+ * Returns the length of the whole sentence in bytes without the NUL; 0 if nothing has failed yet.
+ * planish_error_message(NULL, 0) asks for it.
+ */
+PLANISH_API size_t planish_error_message(char *text, size_t size);
+
+/**
+ * What this thread's last failure was about: a node, triangle, row, value, knot, line or byte, counted from
+ * 0 (the sentence says which); -1 if no single one is to blame or nothing has failed yet.
+ */
+PLANISH_API int64_t planish_error_index(void);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_mesh_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+ */
+PLANISH_API
+enum planish_status planish_mesh_options_init(struct planish_mesh_options *options,
+                                              size_t struct_size);
+
+/**
+ * Makes a mesh from arrays, which are copied.
+ *
+ * points:         point_count rows of x, y, z in model units; rows start options->point_stride doubles apart.
+ * point_count:    at least 1.
+ * triangles:      triangle_count rows of three nodes, counter-clockwise seen from outside, counted from
+ *                 options->index_base; rows start options->triangle_stride indices apart.
+ * triangle_count: at least 1.
+ * options:        NULL for the defaults.
+ * out_mesh:       receives a new mesh; destroy with planish_mesh_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_INPUT_REPAIRED (something was welded or turned over, see
+ * options->out_repairs) or an error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (empty
+ * arrays, a stride, the weld distance), PLANISH_STATUS_NOT_FINITE (a coordinate; the index is the node),
+ * PLANISH_STATUS_INDEX (a triangle refers to a node that does not exist; the index is the triangle),
+ * PLANISH_STATUS_DEGENERATE (a triangle has a node twice, or welding leaves nothing),
+ * PLANISH_STATUS_TOPOLOGY (an edge of three triangles, two triangles with the same nodes, neighbours that
+ * disagree in orientation, a surface of one side), PLANISH_STATUS_TOO_LARGE, PLANISH_STATUS_VERSION or
+ * PLANISH_STATUS_OUT_OF_MEMORY.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_new(const double *points,
+                                     size_t point_count,
+                                     const uint32_t *triangles,
+                                     size_t triangle_count,
+                                     const struct planish_mesh_options *options,
+                                     struct planish_mesh **out_mesh);
+
+/**
+ * Reads a mesh from an OFF, OBJ, PLY or STL file, told by the name's end or else by the content.
+ *
+ * Polygons become triangles. The `vt` of an OBJ become parameters if each node has one; the numbers that a
+ * PLY has on its nodes become fields.
+ *
+ * path:     the file, in UTF-8, terminated.
+ * options:  NULL for the defaults.
+ * out_mesh: receives a new mesh; destroy with planish_mesh_free().
+ * Returns what planish_mesh_new() returns, or PLANISH_STATUS_FILE (cannot be read), PLANISH_STATUS_FORMAT (not
+ * what it claims to be; the index is the line or the byte, counted from 0) or PLANISH_STATUS_INVALID_ARGUMENT
+ * (out_node_map is not NULL, or path is not UTF-8).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_read(const char *path,
+                                      const struct planish_mesh_options *options,
+                                      struct planish_mesh **out_mesh);
+
+/**
+ * Makes a copy of a mesh with its parameters and fields.
+ *
+ * mesh:     not NULL.
+ * out_mesh: receives a new mesh; destroy with planish_mesh_free().
+ * Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_clone(const struct planish_mesh *mesh,
+                                       struct planish_mesh **out_mesh);
+
+/**
+ * Destroys a mesh.
+ *
+ * mesh: from this library and not destroyed yet; NULL does nothing.
+ */
+PLANISH_API void planish_mesh_free(struct planish_mesh *mesh);
+
+/**
+ * Number of nodes; 0 for NULL.
+ */
+PLANISH_API size_t planish_mesh_point_count(const struct planish_mesh *mesh);
+
+/**
+ * Number of triangles; 0 for NULL.
+ */
+PLANISH_API size_t planish_mesh_triangle_count(const struct planish_mesh *mesh);
+
+/**
+ * Number of edges, each counted once; 0 for NULL.
+ */
+PLANISH_API size_t planish_mesh_edge_count(const struct planish_mesh *mesh);
+
+/**
+ * Number of parts that hang together by edges; 0 for NULL.
+ */
+PLANISH_API size_t planish_mesh_component_count(const struct planish_mesh *mesh);
+
+/**
+ * Number of handles of all components together; 0 for NULL.
+ */
+PLANISH_API size_t planish_mesh_genus(const struct planish_mesh *mesh);
+
+/**
+ * Nodes that have triangles, minus edges, plus triangles; 0 for NULL.
+ */
+PLANISH_API int64_t planish_mesh_euler_characteristic(const struct planish_mesh *mesh);
+
+/**
+ * Number of boundary loops; 0 for NULL.
+ */
+PLANISH_API size_t planish_mesh_loop_count(const struct planish_mesh *mesh);
+
+/**
+ * Number of nodes of a boundary loop; 0 for NULL or a loop that does not exist.
+ *
+ * loop: below planish_mesh_loop_count(); loop 0 is the longest.
+ */
+PLANISH_API size_t planish_mesh_loop_point_count(const struct planish_mesh *mesh, size_t loop);
+
+/**
+ * Copies the nodes' coordinates.
+ *
+ * mesh:       not NULL.
+ * out_points: receives planish_mesh_point_count() rows of x, y, z.
+ * count:      rows that out_points has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_copy_points(const struct planish_mesh *mesh,
+                                             double *out_points,
+                                             size_t count);
+
+/**
+ * Copies the triangles.
+ *
+ * mesh:          not NULL.
+ * out_triangles: receives planish_mesh_triangle_count() rows of three nodes, counted from 0.
+ * count:         rows that out_triangles has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_copy_triangles(const struct planish_mesh *mesh,
+                                                uint32_t *out_triangles,
+                                                size_t count);
+
+/**
+ * Copies the nodes of a boundary loop in order, the surface on their left. The first is not repeated.
+ *
+ * mesh:      not NULL.
+ * loop:      below planish_mesh_loop_count(); loop 0 is the longest in space.
+ * out_nodes: receives planish_mesh_loop_point_count() nodes, counted from 0.
+ * count:     nodes that out_nodes has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INDEX (the loop) or
+ * PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_copy_loop(const struct planish_mesh *mesh,
+                                           size_t loop,
+                                           uint32_t *out_nodes,
+                                           size_t count);
+
+/**
+ * Number of fields on the nodes; 0 for NULL.
+ */
+PLANISH_API size_t planish_mesh_field_count(const struct planish_mesh *mesh);
+
+/**
+ * The name of a field.
+ *
+ * mesh:  not NULL.
+ * field: below planish_mesh_field_count().
+ * name:  receives the name in UTF-8, cut off if it is too long and always terminated; NULL if size is 0.
+ * size:  bytes that name has room for, the NUL included.
+ * Returns the length of the whole name in bytes without the NUL; 0 for NULL or a field that does not exist.
+ */
+PLANISH_API
+size_t planish_mesh_field_name(const struct planish_mesh *mesh,
+                               size_t field,
+                               char *name,
+                               size_t size);
+
+/**
+ * Copies the values of a field.
+ *
+ * mesh:       not NULL.
+ * name:       the field's name in UTF-8, terminated.
+ * out_values: receives planish_mesh_point_count() values; NaN where nothing is known.
+ * count:      values that out_values has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (no such field, or
+ * name is not UTF-8) or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_copy_field(const struct planish_mesh *mesh,
+                                            const char *name,
+                                            double *out_values,
+                                            size_t count);
+
+/**
+ * Adds a field, or replaces the one of this name.
+ *
+ * mesh:   not NULL; changed.
+ * name:   the field's name in UTF-8, terminated.
+ * values: count values, one for each node; NaN where nothing is known. Copied.
+ * count:  planish_mesh_point_count().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (count, or name is
+ * not UTF-8), PLANISH_STATUS_TOO_LARGE or PLANISH_STATUS_OUT_OF_MEMORY.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_set_field(struct planish_mesh *mesh,
+                                           const char *name,
+                                           const double *values,
+                                           size_t count);
+
+/**
+ * 1 if the nodes have parameters, else 0; 0 for NULL.
+ */
+PLANISH_API uint32_t planish_mesh_has_parameters(const struct planish_mesh *mesh);
+
+/**
+ * Gives each node its (u,v).
+ *
+ * mesh:  not NULL; changed.
+ * uv:    count rows of u, v. Copied.
+ * count: planish_mesh_point_count().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (count),
+ * PLANISH_STATUS_NOT_FINITE (the index is the node), PLANISH_STATUS_TOO_LARGE or PLANISH_STATUS_OUT_OF_MEMORY.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_set_parameters(struct planish_mesh *mesh,
+                                                const double *uv,
+                                                size_t count);
+
+/**
+ * Copies the (u,v) of the nodes.
+ *
+ * mesh:   not NULL.
+ * out_uv: receives planish_mesh_point_count() rows of u, v.
+ * count:  rows that out_uv has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the mesh has no
+ * parameters) or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_copy_parameters(const struct planish_mesh *mesh,
+                                                 double *out_uv,
+                                                 size_t count);
+
+/**
+ * Makes a mesh without some of the triangles, and without the nodes that no triangle needs any more.
+ *
+ * Parameters and fields go with their nodes: to know which node each one was, give the mesh a field of node
+ * numbers before.
+ *
+ * mesh:      not NULL; stays as it is.
+ * triangles: count triangles to leave out, counted from 0, in any order.
+ * count:     may be 0.
+ * out_mesh:  receives a new mesh; destroy with planish_mesh_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INDEX (no such triangle; it is the
+ * index) or PLANISH_STATUS_INVALID_ARGUMENT (nothing is left).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_remove_triangles(const struct planish_mesh *mesh,
+                                                  const uint32_t *triangles,
+                                                  size_t count,
+                                                  struct planish_mesh **out_mesh);
+
+/**
+ * Makes a mesh that is cut open along a path of edges: how a closed mesh or a handle is opened.
+ *
+ * Nodes inside the path are doubled, and so are its ends on the boundary; ends inside the mesh are not. A
+ * closed path, whose last node is its first, separates what it surrounds. Triangles keep their numbers and
+ * nodes theirs; copies come after them. Parameters and fields go with their nodes.
+ *
+ * mesh:     not NULL; stays as it is.
+ * nodes:    count nodes of the path in order, counted from 0; see planish_mesh_shortest_path().
+ * count:    at least 2.
+ * out_mesh: receives a new mesh; destroy with planish_mesh_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (count),
+ * PLANISH_STATUS_INDEX (no such node; it is the index) or PLANISH_STATUS_TOPOLOGY (two nodes that follow each
+ * other have no common edge, the index is the first; or the path opens nothing).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_cut_along(const struct planish_mesh *mesh,
+                                           const uint32_t *nodes,
+                                           size_t count,
+                                           struct planish_mesh **out_mesh);
+
+/**
+ * Makes a mesh of each part that hangs together by edges, in the order of their first triangles. Parameters
+ * and fields go with their nodes.
+ *
+ * mesh:       not NULL; stays as it is.
+ * out_meshes: receives planish_mesh_component_count() new meshes, all or none; destroy each with
+ *             planish_mesh_free().
+ * count:      meshes that out_meshes has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_split_components(const struct planish_mesh *mesh,
+                                                  struct planish_mesh **out_meshes,
+                                                  size_t count);
+
+/**
+ * Finds the shortest path along edges, by length in space.
+ *
+ * mesh:      not NULL.
+ * from, to:  its ends, nodes counted from 0.
+ * out_nodes: receives the nodes of the path, both ends included; NULL if count is 0.
+ * count:     nodes that out_nodes has room for; 0 asks for the length only.
+ * out_count: receives the number of nodes of the path; not NULL.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INDEX (no such node; it is the
+ * index), PLANISH_STATUS_TOPOLOGY (no path joins them) or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_shortest_path(const struct planish_mesh *mesh,
+                                               uint32_t from,
+                                               uint32_t to,
+                                               uint32_t *out_nodes,
+                                               size_t count,
+                                               size_t *out_count);
+
+/**
+ * Fills options with the defaults, which suit tensor surfaces.
+ *
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_parameterize_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+ */
+PLANISH_API
+enum planish_status planish_parameterize_options_init(struct planish_parameterize_options *options,
+                                                      size_t struct_size);
+
+/**
+ * Gives each node of a disk, possibly with holes, its (u,v). Parameters that the mesh has are replaced.
+ *
+ * mesh:       not NULL; changed on success.
+ * options:    NULL for the defaults.
+ * out_report: receives how good the map is; NULL for no report.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_FOLDED_PARAMETERS (the mesh has its parameters, some triangles are
+ * turned over or flat) or an error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, a
+ * corner, a node weight, or no parameters to keep), PLANISH_STATUS_TOPOLOGY (closed, several components, a
+ * handle, a node where the surface touches itself or that no triangle has), PLANISH_STATUS_DEGENERATE (zero
+ * areas or lengths, or a free border that would fold or overlap itself), PLANISH_STATUS_SINGULAR, PLANISH_STATUS_VERSION or PLANISH_STATUS_CANCELLED.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_parameterize(struct planish_mesh *mesh,
+                                              const struct planish_parameterize_options *options,
+                                              struct planish_parameterize_report *out_report);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_eval_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+ */
+PLANISH_API
+enum planish_status planish_eval_options_init(struct planish_eval_options *options,
+                                              size_t struct_size);
+
+/**
+ * The family of a surface: a planish_kind; PLANISH_KIND_NONE for NULL.
+ */
+PLANISH_API uint32_t planish_surface_kind(const struct planish_surface *surface);
+
+/**
+ * Numbers of a value: 1 for a scalar field, 3 for a shape; 0 for NULL.
+ */
+PLANISH_API size_t planish_surface_dim(const struct planish_surface *surface);
+
+/**
+ * Number of control points; 0 for NULL.
+ */
+PLANISH_API size_t planish_surface_coefficient_count(const struct planish_surface *surface);
+
+/**
+ * The rectangle on which the surface is defined.
+ *
+ * surface: not NULL.
+ * out_box: receives 4 numbers: least u, largest u, least v, largest v.
+ * Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_domain(const struct planish_surface *surface,
+                                           double *out_box);
+
+/**
+ * The box of the (u,v) of the data that the surface was made from: beyond it the surface is extrapolated. The
+ * domain if the surface was not made from data.
+ *
+ * surface: not NULL.
+ * out_box: receives 4 numbers: least u, largest u, least v, largest v.
+ * Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_data_box(const struct planish_surface *surface,
+                                             double *out_box);
+
+/**
+ * Evaluates the surface at points.
+ *
+ * surface:    not NULL.
+ * uv:         count rows of u, v; rows start options->uv_stride doubles apart.
+ * count:      may be 0.
+ * options:    NULL for the defaults.
+ * out_values: receives count rows of dim numbers; rows start options->out_stride doubles apart. It must not
+ *             overlap uv.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_POINTS_OUTSIDE (with PLANISH_OUTSIDE_FLAG; the values of those
+ * points are NaN) or an error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option),
+ * PLANISH_STATUS_OUTSIDE (with PLANISH_OUTSIDE_FAIL; the index is the first such point),
+ * PLANISH_STATUS_NOT_FINITE (u or v, unless PLANISH_OUTSIDE_FLAG; the index is the point),
+ * PLANISH_STATUS_TOO_LARGE (count times stride) or PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_eval(const struct planish_surface *surface,
+                                         const double *uv,
+                                         size_t count,
+                                         const struct planish_eval_options *options,
+                                         double *out_values);
+
+/**
+ * Evaluates the surface and its derivatives at points.
+ *
+ * surface:        not NULL.
+ * uv:             count rows of u, v; rows start options->uv_stride doubles apart.
+ * count:          may be 0.
+ * max_derivative: 0, 1 or 2.
+ * options:        NULL for the defaults.
+ * out:            receives for each point 1, 3 or 6 rows of dim numbers: S; Su, Sv; Suu, Suv, Svv. Points
+ *                 start options->out_stride doubles apart. It must not overlap uv.
+ * Returns what planish_surface_eval() returns; PLANISH_STATUS_INVALID_ARGUMENT also for max_derivative.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_eval_derivatives(const struct planish_surface *surface,
+                                                     const double *uv,
+                                                     size_t count,
+                                                     uint32_t max_derivative,
+                                                     const struct planish_eval_options *options,
+                                                     double *out);
+
+/**
+ * Evaluates the surface at all pairs of some u and some v.
+ *
+ * surface:    not NULL.
+ * u, u_count: parameters along u; may be none.
+ * v, v_count: parameters along v; may be none.
+ * options:    NULL for the defaults; uv_stride must be 0.
+ * out_values: receives u_count * v_count rows of dim numbers, v running fastest; rows start
+ *             options->out_stride doubles apart. It must not overlap u or v.
+ * Returns what planish_surface_eval() returns; the index of a point counts as the rows of out_values do.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_eval_grid(const struct planish_surface *surface,
+                                              const double *u,
+                                              size_t u_count,
+                                              const double *v,
+                                              size_t v_count,
+                                              const struct planish_eval_options *options,
+                                              double *out_values);
+
+/**
+ * Computes unit normals Su x Sv / |Su x Sv| of a surface in space.
+ *
+ * surface:     not NULL, of dim 3.
+ * uv:          count rows of u, v; rows start options->uv_stride doubles apart.
+ * count:       may be 0.
+ * options:     NULL for the defaults.
+ * out_normals: receives count rows of 3 numbers, NaN where Su and Sv are parallel; rows start
+ *              options->out_stride doubles apart. It must not overlap uv.
+ * Returns what planish_surface_eval() returns; PLANISH_STATUS_INVALID_ARGUMENT also if dim is not 3.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_normals(const struct planish_surface *surface,
+                                            const double *uv,
+                                            size_t count,
+                                            const struct planish_eval_options *options,
+                                            double *out_normals);
+
+/**
+ * Computes principal curvatures and their directions of a surface in space.
+ *
+ * surface: not NULL, of dim 3.
+ * uv:      count rows of u, v; rows start options->uv_stride doubles apart.
+ * count:   may be 0.
+ * options: NULL for the defaults.
+ * out:     receives count rows of 8 numbers: k1, k2 with k1 >= k2, positive where the surface bends towards
+ *          its normal, then the unit tangents d1 and d2 of 3 numbers each, with d1 x d2 the normal; NaN where
+ *          there is no normal. Rows start options->out_stride doubles apart. It must not overlap uv.
+ * Returns what planish_surface_eval() returns; PLANISH_STATUS_INVALID_ARGUMENT also if dim is not 3.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_curvatures(const struct planish_surface *surface,
+                                               const double *uv,
+                                               size_t count,
+                                               const struct planish_eval_options *options,
+                                               double *out);
+
+/**
+ * Number of trims: closed polylines in the parameter plane that bound the part of the surface that counts. A
+ * surface made from a mesh has the mesh's boundary loops. 0 if the whole domain counts, and for NULL.
+ */
+PLANISH_API size_t planish_surface_trim_count(const struct planish_surface *surface);
+
+/**
+ * Number of points of a trim; 0 for NULL or a trim that does not exist.
+ *
+ * trim: below planish_surface_trim_count(); trim 0 is the outer one.
+ */
+PLANISH_API size_t planish_surface_trim_point_count(const struct planish_surface *surface, size_t trim);
+
+/**
+ * Copies the points of a trim in order. The first is not repeated.
+ *
+ * surface: not NULL.
+ * trim:    below planish_surface_trim_count(); trim 0 is the outer one.
+ * out_uv:  receives planish_surface_trim_point_count() rows of u, v.
+ * count:   rows that out_uv has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INDEX (the trim) or
+ * PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_copy_trim(const struct planish_surface *surface,
+                                              size_t trim,
+                                              double *out_uv,
+                                              size_t count);
+
+/**
+ * Replaces the trims. A point counts when a ray from it crosses the trims an odd number of times, so the
+ * outer one and holes may run in any direction.
+ *
+ * surface:      not NULL; changed.
+ * uv:           rows of u, v inside the domain, trim after trim, the first point of a trim not repeated.
+ *               Copied.
+ * point_counts: trim_count numbers of points, each at least 3.
+ * trim_count:   0 removes all trims.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (a trim of fewer
+ * than 3 points), PLANISH_STATUS_NOT_FINITE, PLANISH_STATUS_OUTSIDE (the index is the trim for all three),
+ * PLANISH_STATUS_TOO_LARGE or PLANISH_STATUS_OUT_OF_MEMORY.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_set_trims(struct planish_surface *surface,
+                                              const double *uv,
+                                              const size_t *point_counts,
+                                              size_t trim_count);
+
+/**
+ * Makes a copy of a surface with its trims.
+ *
+ * surface:     not NULL.
+ * out_surface: receives a new surface; destroy with planish_surface_free().
+ * Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_clone(const struct planish_surface *surface,
+                                          struct planish_surface **out_surface);
+
+/**
+ * Destroys a surface.
+ *
+ * surface: from this library and not destroyed yet; NULL does nothing.
+ */
+PLANISH_API void planish_surface_free(struct planish_surface *surface);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_tensor_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+ */
+PLANISH_API
+enum planish_status planish_tensor_options_init(struct planish_tensor_options *options,
+                                                size_t struct_size);
+
+/**
+ * Fits a bicubic surface to the shape of a mesh, within a tolerance if the limits allow it. A mesh without
+ * parameters is parameterized first, which changes nothing in the mesh. The boundary loops become trims.
+ *
+ * mesh:        not NULL.
+ * options:     NULL for the defaults.
+ * out_surface: receives a new surface of dim 3; destroy with planish_surface_free().
+ * out_report:  receives what the fit did and how good it is; NULL for no report.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_FOLDED_PARAMETERS, PLANISH_STATUS_TOLERANCE_NOT_MET,
+ * PLANISH_STATUS_STAGNATED (all three with the best surface found) or an error: PLANISH_STATUS_NULL_POINTER,
+ * PLANISH_STATUS_INVALID_ARGUMENT (an option, or fewer than 3 data), PLANISH_STATUS_NOT_FINITE (a weight; the
+ * index is the datum), PLANISH_STATUS_DEGENERATE (all data have the same u or the same v),
+ * PLANISH_STATUS_SINGULAR (the data do not determine a surface), PLANISH_STATUS_VERSION or
+ * PLANISH_STATUS_CANCELLED; for a mesh without parameters also what planish_mesh_parameterize() returns.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tensor_fit(const struct planish_mesh *mesh,
+                                       const struct planish_tensor_options *options,
+                                       struct planish_surface **out_surface,
+                                       struct planish_fit_report *out_report);
+
+/**
+ * Fits a bicubic surface to values at scattered parameters.
+ *
+ * uv:          count rows of u, v.
+ * values:      count rows of dim numbers.
+ * count:       at least 3.
+ * dim:         numbers of a value, at least 1.
+ * options:     NULL for the defaults; parameterize and regularize are not used.
+ * out_surface: receives a new surface; destroy with planish_surface_free().
+ * out_report:  receives what the fit did and how good it is; NULL for no report.
+ * Returns what planish_tensor_fit() returns; PLANISH_STATUS_NOT_FINITE also for uv and values (the index is
+ * the datum), PLANISH_STATUS_TOO_LARGE (count times dim) and PLANISH_STATUS_OUT_OF_MEMORY.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tensor_fit_points(const double *uv,
+                                              const double *values,
+                                              size_t count,
+                                              size_t dim,
+                                              const struct planish_tensor_options *options,
+                                              struct planish_surface **out_surface,
+                                              struct planish_fit_report *out_report);
+
+/**
+ * Fits a bicubic surface to values on the nodes of a mesh, over the same parameters as its shape.
+ *
+ * mesh:        not NULL.
+ * values:      count rows of dim numbers.
+ * count:       planish_mesh_point_count().
+ * dim:         numbers of a value, at least 1.
+ * options:     NULL for the defaults.
+ * out_surface: receives a new surface; destroy with planish_surface_free().
+ * out_report:  receives what the fit did and how good it is; NULL for no report.
+ * Returns what planish_tensor_fit() returns; PLANISH_STATUS_INVALID_ARGUMENT also for count,
+ * PLANISH_STATUS_NOT_FINITE also for values (the index is the node), and PLANISH_STATUS_TOO_LARGE.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tensor_fit_field(const struct planish_mesh *mesh,
+                                             const double *values,
+                                             size_t count,
+                                             size_t dim,
+                                             const struct planish_tensor_options *options,
+                                             struct planish_surface **out_surface,
+                                             struct planish_fit_report *out_report);
+
+/**
+ * Makes a tensor surface from its parts, which are copied.
+ *
+ * dim:            numbers of a control point, at least 1.
+ * degree_u:       1 to 9.
+ * degree_v:       1 to 9.
+ * knots_u:        knot_count_u knots that do not decrease, none more than degree_u + 1 times.
+ * knot_count_u:   at least 2 * (degree_u + 1); there are knot_count_u - degree_u - 1 control points along u.
+ * knots_v:        knot_count_v knots that do not decrease, none more than degree_v + 1 times.
+ * knot_count_v:   at least 2 * (degree_v + 1); there are knot_count_v - degree_v - 1 control points along v.
+ * control_points: rows of dim numbers, v running fastest, not multiplied by weights.
+ * weights:        one positive number for each control point in the same order; NULL for a polynomial surface.
+ * out_surface:    receives a new surface; destroy with planish_surface_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (dim, a degree, a
+ * count, a knot, a weight; the index is the knot or the control point), PLANISH_STATUS_NOT_FINITE (likewise),
+ * PLANISH_STATUS_DEGENERATE (the knots span no interval), PLANISH_STATUS_TOO_LARGE or
+ * PLANISH_STATUS_OUT_OF_MEMORY.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tensor_new(size_t dim,
+                                       uint32_t degree_u,
+                                       uint32_t degree_v,
+                                       const double *knots_u,
+                                       size_t knot_count_u,
+                                       const double *knots_v,
+                                       size_t knot_count_v,
+                                       const double *control_points,
+                                       const double *weights,
+                                       struct planish_surface **out_surface);
+
+/**
+ * Degree of a tensor surface; 0 for NULL, another family or an axis that does not exist.
+ *
+ * axis: a planish_axis.
+ */
+PLANISH_API uint32_t planish_tensor_degree(const struct planish_surface *surface, uint32_t axis);
+
+/**
+ * Number of knots of a tensor surface, each as often as it occurs; 0 for NULL, another family or an axis that
+ * does not exist.
+ *
+ * axis: a planish_axis.
+ */
+PLANISH_API size_t planish_tensor_knot_count(const struct planish_surface *surface, uint32_t axis);
+
+/**
+ * Number of control points of a tensor surface along one axis; 0 for NULL, another family or an axis that does
+ * not exist. planish_surface_coefficient_count() is the product of both.
+ *
+ * axis: a planish_axis.
+ */
+PLANISH_API
+size_t planish_tensor_control_point_count(const struct planish_surface *surface,
+                                          uint32_t axis);
+
+/**
+ * Copies the knots of a tensor surface.
+ *
+ * surface:   not NULL.
+ * axis:      a planish_axis.
+ * out_knots: receives planish_tensor_knot_count() knots.
+ * count:     knots that out_knots has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the axis),
+ * PLANISH_STATUS_WRONG_KIND or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tensor_copy_knots(const struct planish_surface *surface,
+                                              uint32_t axis,
+                                              double *out_knots,
+                                              size_t count);
+
+/**
+ * Copies the control points of a tensor surface.
+ *
+ * surface:            not NULL.
+ * out_control_points: receives planish_surface_coefficient_count() rows of dim numbers, v running fastest, not
+ *                     multiplied by weights.
+ * count:              rows that out_control_points has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
+ * PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tensor_copy_control_points(const struct planish_surface *surface,
+                                                       double *out_control_points,
+                                                       size_t count);
+
+/**
+ * 1 if a tensor surface has weights, else 0; 0 for NULL and other families.
+ */
+PLANISH_API uint32_t planish_tensor_has_weights(const struct planish_surface *surface);
+
+/**
+ * Copies the weights of a tensor surface; all are 1 if it is polynomial.
+ *
+ * surface:     not NULL.
+ * out_weights: receives planish_surface_coefficient_count() weights, in the order of the control points.
+ * count:       weights that out_weights has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
+ * PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tensor_copy_weights(const struct planish_surface *surface,
+                                                double *out_weights,
+                                                size_t count);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options: not NULL.
+ * size:    sizeof(planish_tessellate_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tessellate_options_init(struct planish_tessellate_options *options,
+                                                    size_t size);
+
+/**
+ * Makes a triangle mesh of a surface in space. Its nodes lie on the surface and carry their (u,v) as
+ * parameters; the trims become its boundary loops.
+ *
+ * surface:  not NULL, of dimension 3.
+ * options:  NULL for the defaults.
+ * out_mesh: receives a new mesh; destroy with planish_mesh_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, or the
+ * dimension), PLANISH_STATUS_TOPOLOGY (the trims cross), PLANISH_STATUS_DEGENERATE (they enclose no area),
+ * PLANISH_STATUS_TOO_LARGE (more than max_point_count nodes) or PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_tessellate(const struct planish_surface *surface,
+                                               const struct planish_tessellate_options *options,
+                                               struct planish_mesh **out_mesh);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options: not NULL.
+ * size:    sizeof(planish_project_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_project_options_init(struct planish_project_options *options,
+                                                 size_t size);
+
+/**
+ * Finds the place on a surface nearest to each point, anywhere on the surface: there is no start to choose,
+ * and no local minimum to fall into.
+ *
+ * surface:       not NULL.
+ * points:        count rows of planish_surface_dim() doubles.
+ * count:         number of points; with 0 nothing is done.
+ * options:       NULL for the defaults.
+ * out_uv:        receives count rows u, v; NULL for none.
+ * out_distances: receives count distances; NULL for none.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_POINTS_OUTSIDE (some points are farther than max_distance),
+ * PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_NOT_FINITE (the index is the point),
+ * PLANISH_STATUS_INVALID_ARGUMENT, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOO_LARGE or
+ * PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_project(const struct planish_surface *surface,
+                                            const double *points,
+                                            size_t count,
+                                            const struct planish_project_options *options,
+                                            double *out_uv,
+                                            double *out_distances);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options: not NULL.
+ * size:    sizeof(planish_deviation_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_deviation_options_init(struct planish_deviation_options *options,
+                                                   size_t size);
+
+/**
+ * Measures how far the nodes of a mesh lie from a surface in space: closest-point distances.
+ *
+ * surface:       not NULL, of dimension 3.
+ * mesh:          not NULL.
+ * options:       NULL for the defaults.
+ * out_distances: receives planish_mesh_point_count() distances; NULL for none.
+ * count:         doubles that out_distances has room for.
+ * report:        NULL for none.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, or the
+ * dimension), PLANISH_STATUS_BUFFER_TOO_SMALL, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOPOLOGY or
+ * PLANISH_STATUS_TOO_LARGE (measuring back only), or PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_deviation(const struct planish_surface *surface,
+                                              const struct planish_mesh *mesh,
+                                              const struct planish_deviation_options *options,
+                                              double *out_distances,
+                                              size_t count,
+                                              struct planish_deviation_report *report);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options: not NULL.
+ * size:    sizeof(planish_vtk_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_vtk_options_init(struct planish_vtk_options *options,
+                                             size_t size);
+
+/**
+ * Writes a surface in space as a VTK file of triangles (.vtu), its (u,v) as point data "uv". The file appears
+ * whole or not at all.
+ *
+ * surface: not NULL, of dimension 3.
+ * path:    UTF-8, ends with a NUL; an existing file is replaced.
+ * options: NULL for the defaults.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension, an
+ * option, a path that is not UTF-8), PLANISH_STATUS_FILE, or what planish_surface_tessellate() or
+ * planish_surface_deviation() return.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_write_vtk(const struct planish_surface *surface,
+                                              const char *path,
+                                              const struct planish_vtk_options *options);
+
+/**
+ * How many bytes planish_surface_save() writes; 0 for NULL.
+ */
+PLANISH_API size_t planish_surface_save_size(const struct planish_surface *surface);
+
+/**
+ * Writes everything a surface is into a buffer, to the bit. The layout is documented in docs/format.md; it is
+ * the same on all machines.
+ *
+ * surface: not NULL.
+ * buffer:  receives planish_surface_save_size() bytes.
+ * size:    bytes that the buffer has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_save(const struct planish_surface *surface,
+                                         uint8_t *buffer,
+                                         size_t size);
+
+/**
+ * Makes a surface from bytes of planish_surface_save(). Damaged bytes are refused, sizes are checked before
+ * memory is asked for.
+ *
+ * buffer:      size bytes.
+ * out_surface: receives a new surface; destroy with planish_surface_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_FORMAT (the index is the byte) or
+ * PLANISH_STATUS_VERSION (a later library made it).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_load(const uint8_t *buffer,
+                                         size_t size,
+                                         struct planish_surface **out_surface);
+
+/**
+ * Writes the bytes of planish_surface_save() to a file, which appears whole or not at all.
+ *
+ * surface: not NULL.
+ * path:    UTF-8, ends with a NUL; an existing file is replaced.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the path is not
+ * UTF-8) or PLANISH_STATUS_FILE.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_save_file(const struct planish_surface *surface,
+                                              const char *path);
+
+/**
+ * Makes a surface from a file of planish_surface_save_file().
+ *
+ * path:        UTF-8, ends with a NUL.
+ * out_surface: receives a new surface; destroy with planish_surface_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the path is not
+ * UTF-8), PLANISH_STATUS_FILE, PLANISH_STATUS_FORMAT (the index is the byte) or PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_load_file(const char *path,
+                                              struct planish_surface **out_surface);
+
+/**
+ * Fits a cubic curve to values at parameters, by the method of planish_tensor_fit() in one parameter.
+ *
+ * u:          count parameters, in any order.
+ * values:     count rows of dim numbers.
+ * count:      at least 3.
+ * dim:        numbers of a value, at least 1.
+ * options:    NULL for the defaults. grid_u fixes the grid, and 0 refines; energy, grid_v, max_coefficients,
+ *             correction_sweeps, regularize, parameterize and measure_distance are not used; out_parameters
+ *             must be NULL.
+ * out_curve:  receives a new curve; destroy with planish_curve_free().
+ * out_report: receives what the fit did and how good it is; grid_v is 1. NULL for no report.
+ * Returns what planish_tensor_fit_points() returns.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_curve_fit(const double *u,
+                                      const double *values,
+                                      size_t count,
+                                      size_t dim,
+                                      const struct planish_tensor_options *options,
+                                      struct planish_curve **out_curve,
+                                      struct planish_fit_report *out_report);
+
+/**
+ * Numbers of a value; 0 for NULL.
+ */
+PLANISH_API size_t planish_curve_dim(const struct planish_curve *curve);
+
+/**
+ * Degree of the polynomial pieces; 0 for NULL.
+ */
+PLANISH_API uint32_t planish_curve_degree(const struct planish_curve *curve);
+
+/**
+ * Number of knots, each as often as it occurs; 0 for NULL.
+ */
+PLANISH_API size_t planish_curve_knot_count(const struct planish_curve *curve);
+
+/**
+ * Number of control points; 0 for NULL.
+ */
+PLANISH_API size_t planish_curve_control_point_count(const struct planish_curve *curve);
+
+/**
+ * Copies the knots of a curve.
+ *
+ * curve:     not NULL.
+ * out_knots: receives planish_curve_knot_count() knots.
+ * count:     knots that out_knots has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_curve_copy_knots(const struct planish_curve *curve,
+                                             double *out_knots,
+                                             size_t count);
+
+/**
+ * Copies the control points of a curve.
+ *
+ * curve:              not NULL.
+ * out_control_points: receives planish_curve_control_point_count() rows of dim numbers.
+ * count:              rows that out_control_points has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_curve_copy_control_points(const struct planish_curve *curve,
+                                                      double *out_control_points,
+                                                      size_t count);
+
+/**
+ * The interval on which the curve is defined.
+ *
+ * curve:        not NULL.
+ * out_interval: receives 2 numbers: least u, largest u.
+ * Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_curve_domain(const struct planish_curve *curve,
+                                         double *out_interval);
+
+/**
+ * Evaluates the curve and its derivatives at parameters.
+ *
+ * curve:          not NULL.
+ * u:              count parameters, options->uv_stride doubles apart (0 for 1).
+ * count:          may be 0.
+ * max_derivative: 0 to 3.
+ * options:        NULL for the defaults; thread_count is not used.
+ * out:            receives for each parameter max_derivative + 1 rows of dim numbers: C, C', C'', C''';
+ *                 parameters start options->out_stride doubles apart. It must not overlap u.
+ * Returns what planish_surface_eval() returns; PLANISH_STATUS_INVALID_ARGUMENT also for max_derivative.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_curve_eval(const struct planish_curve *curve,
+                                       const double *u,
+                                       size_t count,
+                                       uint32_t max_derivative,
+                                       const struct planish_eval_options *options,
+                                       double *out);
+
+/**
+ * Makes a copy of a curve.
+ *
+ * curve:     not NULL.
+ * out_curve: receives a new curve; destroy with planish_curve_free().
+ * Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_curve_clone(const struct planish_curve *curve,
+                                        struct planish_curve **out_curve);
+
+/**
+ * Destroys a curve.
+ *
+ * curve: from this library and not destroyed yet; NULL does nothing.
+ */
+PLANISH_API void planish_curve_free(struct planish_curve *curve);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* PLANISH_H */

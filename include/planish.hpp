@@ -1,0 +1,793 @@
+/* SPDX-License-Identifier: MIT OR Apache-2.0 */
+
+/// @file
+/// C++17 over planish.h: owners that free themselves, exceptions, vectors in and out.
+///
+/// Everything here is inline and calls planish.h, so no C++ ABI crosses the border of the library: a program
+/// built with any compiler may use it. Options and reports are the records of planish.h:
+/// @code
+///     planish::mesh mesh = planish::mesh::read("panel.stl");
+///     auto options = planish::defaults<planish_tensor_options>();
+///     options.tolerance = 1e-4;
+///     auto [surface, report, status] = planish::tensor_fit(mesh, options);
+///     if (status == PLANISH_STATUS_TOLERANCE_NOT_MET) { ... report.max_error ... }
+///     planish::point3 middle = surface.point(0.5, 0.5);
+/// @endcode
+/// Errors are thrown as planish::error. Remarks are not: a call that may have one returns it as its status.
+
+#ifndef PLANISH_HPP
+#define PLANISH_HPP
+
+#include "planish.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// Smooth spline surfaces from triangle meshes, rows of points and fields, within a tolerance.
+namespace planish {
+
+/// u, v.
+using point2 = std::array<double, 2>;
+/// x, y, z.
+using point3 = std::array<double, 3>;
+/// Three nodes, counted from 0.
+using triangle = std::array<std::uint32_t, 3>;
+
+/// A call failed; nothing has been changed.
+class error : public std::runtime_error {
+ public:
+  /// With its parts.
+  error(planish_status status, const std::string &text, std::int64_t index)
+      : std::runtime_error(text), status_(status), index_(index) {}
+
+  /// What kind of failure it is: negative.
+  planish_status status() const noexcept { return status_; }
+
+  /// The name of the status, such as "PLANISH_STATUS_SINGULAR".
+  const char *status_name() const noexcept { return planish_status_name(status_); }
+
+  /// The node, triangle, row, value, knot, line or byte to blame, counted from 0; -1 if there is none.
+  std::int64_t index() const noexcept { return index_; }
+
+ private:
+  planish_status status_;
+  std::int64_t index_;
+};
+
+/// Hears how much of a call is done (0 to 1) and the error so far (NaN while unknown), and returns whether to
+/// go on. It is called on the thread that made the call. If it returns false the call fails with
+/// PLANISH_STATUS_CANCELLED; what it throws ends the call and is thrown on unchanged.
+using progress = std::function<bool(double fraction, double error)>;
+
+/// Rows of N numbers in somebody else's memory, which must live as long as the view.
+template <class T, std::size_t N>
+class rows {
+ public:
+  /// `count` rows from `data` on.
+  rows(const T *data, std::size_t count) noexcept : data_(data), count_(count) {}
+
+  /// All numbers of a vector, N to a row. Throws if some are left over.
+  rows(const std::vector<T> &numbers) : data_(numbers.data()), count_(numbers.size() / N) {
+    if (numbers.size() % N != 0) {
+      throw error(PLANISH_STATUS_INVALID_ARGUMENT,
+                  std::to_string(numbers.size()) + " numbers are not rows of " + std::to_string(N), -1);
+    }
+  }
+
+  /// All rows of a vector.
+  rows(const std::vector<std::array<T, N>> &points) noexcept
+      : data_(points.empty() ? nullptr : points.front().data()), count_(points.size()) {}
+
+  /// All rows of an array.
+  template <std::size_t M>
+  rows(const std::array<std::array<T, N>, M> &points) noexcept : data_(points[0].data()), count_(M) {
+    static_assert(M > 0, "an array of no rows has no memory");
+  }
+
+  /// All numbers of an array, N to a row: a point2 is a row of two.
+  template <std::size_t M>
+  rows(const std::array<T, M> &numbers) noexcept : data_(numbers.data()), count_(M / N) {
+    static_assert(M % N == 0, "numbers are left over");
+  }
+
+  /// The first number; may be NULL if there is none.
+  const T *data() const noexcept { return data_; }
+  /// Number of rows.
+  std::size_t count() const noexcept { return count_; }
+
+ private:
+  static_assert(sizeof(std::array<T, N>) == N * sizeof(T), "rows are tight");
+  const T *data_;
+  std::size_t count_;
+};
+
+/// Some numbers in somebody else's memory.
+template <class T>
+using values = rows<T, 1>;
+
+/// @cond
+namespace detail {
+
+inline planish_status init(planish_mesh_options &options) {
+  return planish_mesh_options_init(&options, sizeof options);
+}
+inline planish_status init(planish_parameterize_options &options) {
+  return planish_parameterize_options_init(&options, sizeof options);
+}
+inline planish_status init(planish_tensor_options &options) {
+  return planish_tensor_options_init(&options, sizeof options);
+}
+inline planish_status init(planish_eval_options &options) {
+  return planish_eval_options_init(&options, sizeof options);
+}
+
+[[noreturn]] inline void fail(planish_status status) {
+  std::string text(planish_error_message(nullptr, 0), '\0');
+  planish_error_message(text.data(), text.size() + 1); // the terminator of a string may be set to NUL
+  throw error(status, text, planish_error_index());
+}
+
+inline planish_status checked(planish_status status) {
+  if (status < 0) fail(status);
+  return status;
+}
+
+template <class Report>
+Report sized() {
+  Report report{};
+  report.struct_size = sizeof report;
+  return report;
+}
+
+template <class T, std::size_t N>
+T *flat(std::vector<std::array<T, N>> &points) {
+  return points.empty() ? nullptr : points.front().data();
+}
+
+// Stands between the library and a user's function: what that throws must not meet the library's frames.
+class listener {
+ public:
+  explicit listener(const progress &hear) : hear_(hear) {}
+
+  template <class Options>
+  void attach(Options &options) {
+    if (!hear_) return; // the options may have a C callback of their own
+    options.progress = &listener::call;
+    options.user = this;
+  }
+
+  planish_status checked(planish_status status) const {
+    if (thrown_) std::rethrow_exception(thrown_);
+    return detail::checked(status);
+  }
+
+ private:
+  static std::int32_t call(double fraction, double error, void *user) noexcept {
+    auto &self = *static_cast<listener *>(user);
+    if (self.thrown_) return 1;
+    try {
+      return self.hear_(fraction, error) ? 0 : 1;
+    } catch (...) {
+      self.thrown_ = std::current_exception();
+      return 1;
+    }
+  }
+
+  const progress &hear_;
+  std::exception_ptr thrown_;
+};
+
+// The numbers that `call` writes for `count` points of `width` numbers, at the stride of the options.
+template <class Call>
+std::vector<double> filled(std::size_t count, std::size_t width, const planish_eval_options &options,
+                           const Call &call) {
+  const std::size_t stride = std::max(options.out_stride, width);
+  std::vector<double> out(count == 0 ? 0 : (count - 1) * stride + width);
+  checked(call(out.data()));
+  return out;
+}
+
+struct destroy {
+  void operator()(planish_mesh *mesh) const noexcept { planish_mesh_free(mesh); }
+  void operator()(planish_surface *surface) const noexcept { planish_surface_free(surface); }
+  void operator()(planish_curve *curve) const noexcept { planish_curve_free(curve); }
+};
+
+} // namespace detail
+/// @endcond
+
+/// Options with every field at its default: `defaults<planish_tensor_options>()`.
+template <class Options>
+Options defaults() {
+  Options options{};
+  detail::checked(detail::init(options));
+  return options;
+}
+
+/// The version of the library that is loaded, such as "0.1.0".
+inline std::string version() { return planish_version(); }
+
+/// What came of a map.
+struct parameterized {
+  /// How good the map is.
+  planish_parameterize_report report;
+  /// PLANISH_STATUS_OK or PLANISH_STATUS_FOLDED_PARAMETERS.
+  planish_status status;
+};
+
+/// A triangle mesh. Copies are deep; one that was moved from may only be assigned to or destroyed.
+///
+/// Const members may run at once on any threads; others need the mesh alone.
+class mesh {
+ public:
+  /// From rows of x, y, z and rows of three nodes; both are copied.
+  mesh(const rows<double, 3> &points, const rows<std::uint32_t, 3> &triangles,
+       planish_mesh_options options = defaults<planish_mesh_options>()) {
+    make(options, [&](planish_mesh **out_mesh) {
+      return planish_mesh_new(points.data(), points.count(), triangles.data(), triangles.count(), &options,
+                              out_mesh);
+    });
+  }
+
+  /// From an OFF, OBJ, PLY or STL file; `path` is UTF-8.
+  static mesh read(const std::string &path,
+                   planish_mesh_options options = defaults<planish_mesh_options>()) {
+    mesh made;
+    made.make(options, [&](planish_mesh **out_mesh) {
+      return planish_mesh_read(path.c_str(), &options, out_mesh);
+    });
+    return made;
+  }
+
+  /// Takes a mesh of planish.h over.
+  explicit mesh(planish_mesh *handle) noexcept : handle_(handle) {}
+
+  /// A deep copy.
+  mesh(const mesh &other) : repairs_(other.repairs_) {
+    planish_mesh *copy = nullptr;
+    detail::checked(planish_mesh_clone(other.get(), &copy));
+    handle_.reset(copy);
+  }
+  /// A deep copy.
+  mesh &operator=(const mesh &other) { return *this = mesh(other); }
+  /// Takes over.
+  mesh(mesh &&other) noexcept = default;
+  /// Takes over.
+  mesh &operator=(mesh &&other) noexcept = default;
+  ~mesh() = default;
+
+  /// The handle, for calls of planish.h; it stays this object's.
+  const planish_mesh *get() const noexcept { return handle_.get(); }
+  /// The handle, for calls of planish.h; it stays this object's.
+  planish_mesh *get() noexcept { return handle_.get(); }
+  /// Gives the handle up; the caller destroys it.
+  planish_mesh *release() noexcept { return handle_.release(); }
+
+  /// What was done to the arrays or the file to make this mesh of them; all 0 if nothing.
+  const planish_mesh_repairs &repairs() const noexcept { return repairs_; }
+
+  /// Number of nodes.
+  std::size_t point_count() const noexcept { return planish_mesh_point_count(get()); }
+  /// Number of triangles.
+  std::size_t triangle_count() const noexcept { return planish_mesh_triangle_count(get()); }
+  /// Number of edges.
+  std::size_t edge_count() const noexcept { return planish_mesh_edge_count(get()); }
+  /// Number of parts that hang together by edges.
+  std::size_t component_count() const noexcept { return planish_mesh_component_count(get()); }
+  /// Number of handles.
+  std::size_t genus() const noexcept { return planish_mesh_genus(get()); }
+  /// Nodes that have triangles, minus edges, plus triangles.
+  std::int64_t euler_characteristic() const noexcept { return planish_mesh_euler_characteristic(get()); }
+  /// Number of boundary loops.
+  std::size_t loop_count() const noexcept { return planish_mesh_loop_count(get()); }
+
+  /// The nodes.
+  std::vector<point3> points() const {
+    std::vector<point3> points(point_count());
+    detail::checked(planish_mesh_copy_points(get(), detail::flat(points), points.size()));
+    return points;
+  }
+
+  /// The triangles.
+  std::vector<triangle> triangles() const {
+    std::vector<triangle> triangles(triangle_count());
+    detail::checked(planish_mesh_copy_triangles(get(), detail::flat(triangles), triangles.size()));
+    return triangles;
+  }
+
+  /// The nodes of a boundary loop in order, the surface on their left; loop 0 is the longest.
+  std::vector<std::uint32_t> loop(std::size_t index) const {
+    std::vector<std::uint32_t> nodes(planish_mesh_loop_point_count(get(), index));
+    detail::checked(planish_mesh_copy_loop(get(), index, nodes.data(), nodes.size()));
+    return nodes;
+  }
+
+  /// The names of the fields on the nodes.
+  std::vector<std::string> field_names() const {
+    std::vector<std::string> names(planish_mesh_field_count(get()));
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      names[i].resize(planish_mesh_field_name(get(), i, nullptr, 0));
+      planish_mesh_field_name(get(), i, names[i].data(), names[i].size() + 1);
+    }
+    return names;
+  }
+
+  /// The values of a field, NaN where nothing is known.
+  std::vector<double> field(const std::string &name) const {
+    std::vector<double> numbers(point_count());
+    detail::checked(planish_mesh_copy_field(get(), name.c_str(), numbers.data(), numbers.size()));
+    return numbers;
+  }
+
+  /// Adds a field with one value for each node, or replaces the one of this name.
+  void set_field(const std::string &name, const values<double> &numbers) {
+    detail::checked(planish_mesh_set_field(get(), name.c_str(), numbers.data(), numbers.count()));
+  }
+
+  /// Whether the nodes have parameters.
+  bool has_parameters() const noexcept { return planish_mesh_has_parameters(get()) != 0; }
+
+  /// The (u,v) of the nodes.
+  std::vector<point2> parameters() const {
+    std::vector<point2> uv(point_count());
+    detail::checked(planish_mesh_copy_parameters(get(), detail::flat(uv), uv.size()));
+    return uv;
+  }
+
+  /// Gives each node its (u,v).
+  void set_parameters(const rows<double, 2> &uv) {
+    detail::checked(planish_mesh_set_parameters(get(), uv.data(), uv.count()));
+  }
+
+  /// Computes the (u,v) of the nodes of a disk, possibly with holes.
+  parameterized parameterize(
+      planish_parameterize_options options = defaults<planish_parameterize_options>(),
+      const progress &hear = {}) {
+    detail::listener listener(hear);
+    listener.attach(options);
+    parameterized result{detail::sized<planish_parameterize_report>(), PLANISH_STATUS_OK};
+    result.status = listener.checked(planish_mesh_parameterize(get(), &options, &result.report));
+    return result;
+  }
+
+  /// A mesh without some triangles and without the nodes that only they used.
+  mesh remove_triangles(const values<std::uint32_t> &triangles) const {
+    planish_mesh *made = nullptr;
+    detail::checked(planish_mesh_remove_triangles(get(), triangles.data(), triangles.count(), &made));
+    return mesh(made);
+  }
+
+  /// A mesh that is cut open along a path of nodes.
+  mesh cut_along(const values<std::uint32_t> &nodes) const {
+    planish_mesh *made = nullptr;
+    detail::checked(planish_mesh_cut_along(get(), nodes.data(), nodes.count(), &made));
+    return mesh(made);
+  }
+
+  /// A mesh of each part that hangs together by edges.
+  std::vector<mesh> split_components() const {
+    std::vector<planish_mesh *> made(component_count(), nullptr);
+    std::vector<mesh> meshes;
+    meshes.reserve(made.size());
+    detail::checked(planish_mesh_split_components(get(), made.data(), made.size()));
+    for (planish_mesh *handle : made) meshes.emplace_back(handle);
+    return meshes;
+  }
+
+  /// The nodes of the shortest path along edges, both ends included.
+  std::vector<std::uint32_t> shortest_path(std::uint32_t from, std::uint32_t to) const {
+    std::size_t count = 0;
+    std::vector<std::uint32_t> nodes(point_count());
+    detail::checked(planish_mesh_shortest_path(get(), from, to, nodes.data(), nodes.size(), &count));
+    nodes.resize(count);
+    return nodes;
+  }
+
+ private:
+  mesh() = default;
+
+  template <class Call>
+  void make(planish_mesh_options &options, const Call &call) {
+    if (!options.out_repairs) options.out_repairs = &repairs_;
+    planish_mesh *made = nullptr;
+    detail::checked(call(&made));
+    handle_.reset(made);
+    if (options.out_repairs != &repairs_) {
+      // the caller's record may be of another version
+      const auto size = std::min(options.out_repairs->struct_size, sizeof repairs_);
+      std::copy_n(reinterpret_cast<const unsigned char *>(options.out_repairs), size,
+                  reinterpret_cast<unsigned char *>(&repairs_));
+      repairs_.struct_size = sizeof repairs_;
+    }
+  }
+
+  std::unique_ptr<planish_mesh, detail::destroy> handle_;
+  planish_mesh_repairs repairs_ = detail::sized<planish_mesh_repairs>();
+};
+
+/// Principal curvatures of a surface in a point, and their directions; NaN where there is no normal.
+struct curvature {
+  /// The larger one; positive where the surface bends towards its normal.
+  double k1;
+  /// The smaller one.
+  double k2;
+  /// Unit tangent along which the curvature is k1.
+  point3 d1;
+  /// Unit tangent along which the curvature is k2.
+  point3 d2;
+};
+
+/// A surface: a map from a rectangle of parameters (u,v) to R^dim. Copies are deep; one that was moved from may
+/// only be assigned to or destroyed.
+///
+/// Const members may run at once on any threads; others need the surface alone.
+class surface {
+ public:
+  /// Takes a surface of planish.h over.
+  explicit surface(planish_surface *handle) noexcept : handle_(handle) {}
+
+  /// A deep copy.
+  surface(const surface &other) {
+    planish_surface *copy = nullptr;
+    detail::checked(planish_surface_clone(other.get(), &copy));
+    handle_.reset(copy);
+  }
+  /// A deep copy.
+  surface &operator=(const surface &other) { return *this = surface(other); }
+  /// Takes over.
+  surface(surface &&other) noexcept = default;
+  /// Takes over.
+  surface &operator=(surface &&other) noexcept = default;
+  ~surface() = default;
+
+  /// The handle, for calls of planish.h; it stays this object's.
+  const planish_surface *get() const noexcept { return handle_.get(); }
+  /// The handle, for calls of planish.h; it stays this object's.
+  planish_surface *get() noexcept { return handle_.get(); }
+  /// Gives the handle up; the caller destroys it.
+  planish_surface *release() noexcept { return handle_.release(); }
+
+  /// The family: a planish_kind.
+  std::uint32_t kind() const noexcept { return planish_surface_kind(get()); }
+  /// Numbers of a value: 1 for a scalar field, 3 for a shape.
+  std::size_t dim() const noexcept { return planish_surface_dim(get()); }
+  /// Number of control points.
+  std::size_t coefficient_count() const noexcept { return planish_surface_coefficient_count(get()); }
+
+  /// Least u, largest u, least v, largest v.
+  std::array<double, 4> domain() const {
+    std::array<double, 4> box{};
+    detail::checked(planish_surface_domain(get(), box.data()));
+    return box;
+  }
+
+  /// The box of the data's (u,v), in the same order: beyond it the surface is extrapolated.
+  std::array<double, 4> data_box() const {
+    std::array<double, 4> box{};
+    detail::checked(planish_surface_data_box(get(), box.data()));
+    return box;
+  }
+
+  /// Values at points, dim numbers each. With options.out_stride they stand that far apart. A point outside
+  /// is an error unless options.outside says otherwise; options.out_flags tells which ones are.
+  std::vector<double> eval(const rows<double, 2> &uv,
+                           const planish_eval_options &options = defaults<planish_eval_options>()) const {
+    return detail::filled(uv.count(), dim(), options, [&](double *out) {
+      return planish_surface_eval(get(), uv.data(), uv.count(), &options, out);
+    });
+  }
+
+  /// The value at one point, as a vector of dim numbers.
+  std::vector<double> value(double u, double v) const {
+    return eval(point2{u, v});
+  }
+
+  /// The place of one point of a surface in space.
+  point3 point(double u, double v) const {
+    if (dim() != 3) {
+      const std::string text = "a surface of dimension " + std::to_string(dim()) + " has no points in space";
+      throw error(PLANISH_STATUS_INVALID_ARGUMENT, text, -1);
+    }
+    const point2 uv{u, v};
+    point3 point{};
+    detail::checked(planish_surface_eval(get(), uv.data(), 1, nullptr, point.data()));
+    return point;
+  }
+
+  /// Values and derivatives up to `max_derivative` at points: for each the rows S; Su, Sv; Suu, Suv, Svv.
+  std::vector<double> eval_derivatives(
+      const rows<double, 2> &uv, std::uint32_t max_derivative,
+      const planish_eval_options &options = defaults<planish_eval_options>()) const {
+    const std::size_t degree = std::min<std::size_t>(max_derivative, 2); // the call refuses more
+    const std::size_t row_count = (degree + 1) * (degree + 2) / 2;
+    return detail::filled(uv.count(), row_count * dim(), options, [&](double *out) {
+      return planish_surface_eval_derivatives(get(), uv.data(), uv.count(), max_derivative, &options, out);
+    });
+  }
+
+  /// Values at all pairs of some u and some v, v running fastest.
+  std::vector<double> eval_grid(
+      const values<double> &u, const values<double> &v,
+      const planish_eval_options &options = defaults<planish_eval_options>()) const {
+    return detail::filled(u.count() * v.count(), dim(), options, [&](double *out) {
+      return planish_surface_eval_grid(get(), u.data(), u.count(), v.data(), v.count(), &options, out);
+    });
+  }
+
+  /// Unit normals at points of a surface in space.
+  std::vector<point3> normals(const rows<double, 2> &uv,
+                              planish_eval_options options = defaults<planish_eval_options>()) const {
+    options.out_stride = 0;
+    std::vector<point3> normals(uv.count());
+    detail::checked(
+        planish_surface_normals(get(), uv.data(), uv.count(), &options, detail::flat(normals)));
+    return normals;
+  }
+
+  /// Principal curvatures and directions at points of a surface in space.
+  std::vector<curvature> curvatures(
+      const rows<double, 2> &uv,
+      planish_eval_options options = defaults<planish_eval_options>()) const {
+    options.out_stride = 0;
+    std::vector<std::array<double, 8>> all(uv.count());
+    detail::checked(planish_surface_curvatures(get(), uv.data(), uv.count(), &options, detail::flat(all)));
+    std::vector<curvature> curvatures;
+    curvatures.reserve(all.size());
+    for (const auto &c : all) {
+      curvatures.push_back({c[0], c[1], {c[2], c[3], c[4]}, {c[5], c[6], c[7]}});
+    }
+    return curvatures;
+  }
+
+  /// The closed polylines in (u,v) that bound the part that counts, the outer one first; none if all counts.
+  std::vector<std::vector<point2>> trims() const {
+    std::vector<std::vector<point2>> trims(planish_surface_trim_count(get()));
+    for (std::size_t i = 0; i < trims.size(); ++i) {
+      trims[i].resize(planish_surface_trim_point_count(get(), i));
+      detail::checked(planish_surface_copy_trim(get(), i, detail::flat(trims[i]), trims[i].size()));
+    }
+    return trims;
+  }
+
+  /// Replaces the trims; none lets the whole domain count.
+  void set_trims(const std::vector<std::vector<point2>> &trims) {
+    std::vector<point2> uv;
+    std::vector<std::size_t> counts;
+    for (const auto &trim : trims) {
+      uv.insert(uv.end(), trim.begin(), trim.end());
+      counts.push_back(trim.size());
+    }
+    detail::checked(planish_surface_set_trims(get(), detail::flat(uv), counts.data(), counts.size()));
+  }
+
+  /// Degree of a tensor surface along a planish_axis; 0 for other families.
+  std::uint32_t degree(std::uint32_t axis) const noexcept { return planish_tensor_degree(get(), axis); }
+
+  /// Number of control points of a tensor surface along a planish_axis; 0 for other families.
+  std::size_t control_point_count(std::uint32_t axis) const noexcept {
+    return planish_tensor_control_point_count(get(), axis);
+  }
+
+  /// Knots of a tensor surface along a planish_axis.
+  std::vector<double> knots(std::uint32_t axis) const {
+    std::vector<double> knots(planish_tensor_knot_count(get(), axis));
+    detail::checked(planish_tensor_copy_knots(get(), axis, knots.data(), knots.size()));
+    return knots;
+  }
+
+  /// Control points of a tensor surface, rows of dim numbers, v running fastest.
+  std::vector<double> control_points() const {
+    std::vector<double> points(coefficient_count() * dim());
+    detail::checked(planish_tensor_copy_control_points(get(), points.data(), coefficient_count()));
+    return points;
+  }
+
+  /// Whether a tensor surface has weights.
+  bool has_weights() const noexcept { return planish_tensor_has_weights(get()) != 0; }
+
+  /// Weights of a tensor surface in the order of its control points; all 1 if it is polynomial.
+  std::vector<double> weights() const {
+    std::vector<double> weights(coefficient_count());
+    detail::checked(planish_tensor_copy_weights(get(), weights.data(), weights.size()));
+    return weights;
+  }
+
+ private:
+  std::unique_ptr<planish_surface, detail::destroy> handle_;
+};
+
+/// A B-spline curve: a map from an interval of parameters u to R^dim. Copies are deep; one that was moved from
+/// may only be assigned to or destroyed. Const members may run at once on any threads.
+class curve {
+ public:
+  /// Takes a curve of planish.h over.
+  explicit curve(planish_curve *handle) noexcept : handle_(handle) {}
+
+  /// A deep copy.
+  curve(const curve &other) {
+    planish_curve *copy = nullptr;
+    detail::checked(planish_curve_clone(other.get(), &copy));
+    handle_.reset(copy);
+  }
+  /// A deep copy.
+  curve &operator=(const curve &other) { return *this = curve(other); }
+  /// Takes over.
+  curve(curve &&other) noexcept = default;
+  /// Takes over.
+  curve &operator=(curve &&other) noexcept = default;
+  ~curve() = default;
+
+  /// The handle, for calls of planish.h; it stays this object's.
+  const planish_curve *get() const noexcept { return handle_.get(); }
+  /// Gives the handle up; the caller destroys it.
+  planish_curve *release() noexcept { return handle_.release(); }
+
+  /// Numbers of a value.
+  std::size_t dim() const noexcept { return planish_curve_dim(get()); }
+  /// Degree of the polynomial pieces.
+  std::uint32_t degree() const noexcept { return planish_curve_degree(get()); }
+  /// Number of control points.
+  std::size_t control_point_count() const noexcept { return planish_curve_control_point_count(get()); }
+
+  /// Least u, largest u.
+  std::array<double, 2> domain() const {
+    std::array<double, 2> interval{};
+    detail::checked(planish_curve_domain(get(), interval.data()));
+    return interval;
+  }
+
+  /// The knots, each as often as it occurs.
+  std::vector<double> knots() const {
+    std::vector<double> knots(planish_curve_knot_count(get()));
+    detail::checked(planish_curve_copy_knots(get(), knots.data(), knots.size()));
+    return knots;
+  }
+
+  /// The control points, rows of dim numbers.
+  std::vector<double> control_points() const {
+    std::vector<double> points(control_point_count() * dim());
+    detail::checked(planish_curve_copy_control_points(get(), points.data(), control_point_count()));
+    return points;
+  }
+
+  /// Values and derivatives up to `max_derivative` (at most 3) at parameters: for each the rows C, C', C'',
+  /// C''' of dim numbers. A parameter outside is an error unless options.outside says otherwise.
+  std::vector<double> eval(const values<double> &u, std::uint32_t max_derivative = 0,
+                           const planish_eval_options &options = defaults<planish_eval_options>()) const {
+    const std::size_t row_count = std::min<std::size_t>(max_derivative, 3) + 1; // the call refuses more
+    return detail::filled(u.count(), row_count * dim(), options, [&](double *out) {
+      return planish_curve_eval(get(), u.data(), u.count(), max_derivative, &options, out);
+    });
+  }
+
+  /// The value at one parameter.
+  std::vector<double> value(double u) const { return eval(std::array<double, 1>{u}); }
+
+ private:
+  std::unique_ptr<planish_curve, detail::destroy> handle_;
+};
+
+/// What came of a fit.
+struct fitted {
+  /// The best surface found.
+  planish::surface surface;
+  /// What the fit did and how good it is.
+  planish_fit_report report;
+  /// PLANISH_STATUS_OK, or the gravest remark, such as PLANISH_STATUS_TOLERANCE_NOT_MET.
+  planish_status status;
+};
+
+/// What came of fitting a curve.
+struct fitted_curve {
+  /// The best curve found.
+  planish::curve curve;
+  /// What the fit did and how good it is.
+  planish_fit_report report;
+  /// PLANISH_STATUS_OK, or the gravest remark, such as PLANISH_STATUS_TOLERANCE_NOT_MET.
+  planish_status status;
+};
+
+/// @cond
+namespace detail {
+
+template <class Fitted, class Owner, class Handle, class Call>
+Fitted fit_any(planish_tensor_options options, const progress &hear, const Call &call) {
+  listener listener(hear);
+  listener.attach(options);
+  auto report = sized<planish_fit_report>();
+  Handle *made = nullptr;
+  const planish_status status = call(&options, &made, &report);
+  Owner owner(made); // freed even if the callback's last call has thrown
+  listener.checked(status);
+  return {std::move(owner), report, status};
+}
+
+template <class Call>
+fitted fit(const planish_tensor_options &options, const progress &hear, const Call &call) {
+  return fit_any<fitted, surface, planish_surface>(options, hear, call);
+}
+
+inline void check_rows(std::size_t value_count, std::size_t row_count, std::size_t dim) {
+  if (value_count == row_count * dim) return;
+  const std::string text = std::to_string(value_count) + " values do not fit " + std::to_string(row_count) +
+                           " rows of " + std::to_string(dim);
+  throw error(PLANISH_STATUS_INVALID_ARGUMENT, text, -1);
+}
+
+} // namespace detail
+/// @endcond
+
+/// Fits a bicubic surface to the shape of a mesh. A mesh without parameters is parameterized first.
+inline fitted tensor_fit(const mesh &mesh,
+                         const planish_tensor_options &options = defaults<planish_tensor_options>(),
+                         const progress &hear = {}) {
+  return detail::fit(options, hear, [&](const planish_tensor_options *given, auto out, auto report) {
+    return planish_tensor_fit(mesh.get(), given, out, report);
+  });
+}
+
+/// Fits a bicubic surface to rows of `dim` numbers at scattered parameters.
+inline fitted tensor_fit_points(const rows<double, 2> &uv, const values<double> &values, std::size_t dim,
+                                const planish_tensor_options &options = defaults<planish_tensor_options>(),
+                                const progress &hear = {}) {
+  detail::check_rows(values.count(), uv.count(), dim);
+  return detail::fit(options, hear, [&](const planish_tensor_options *given, auto out, auto report) {
+    return planish_tensor_fit_points(uv.data(), values.data(), uv.count(), dim, given, out, report);
+  });
+}
+
+/// Fits a bicubic surface to rows of `dim` numbers on the nodes of a mesh.
+inline fitted tensor_fit_field(const mesh &mesh, const values<double> &values, std::size_t dim,
+                               const planish_tensor_options &options = defaults<planish_tensor_options>(),
+                               const progress &hear = {}) {
+  detail::check_rows(values.count(), mesh.point_count(), dim);
+  return detail::fit(options, hear, [&](const planish_tensor_options *given, auto out, auto report) {
+    return planish_tensor_fit_field(mesh.get(), values.data(), mesh.point_count(), dim, given, out, report);
+  });
+}
+
+/// Fits a cubic curve to rows of `dim` numbers at parameters in any order.
+inline fitted_curve curve_fit(const values<double> &u, const values<double> &values, std::size_t dim,
+                              const planish_tensor_options &options = defaults<planish_tensor_options>(),
+                              const progress &hear = {}) {
+  detail::check_rows(values.count(), u.count(), dim);
+  return detail::fit_any<fitted_curve, curve, planish_curve>(
+      options, hear, [&](const planish_tensor_options *given, auto out, auto report) {
+        return planish_curve_fit(u.data(), values.data(), u.count(), dim, given, out, report);
+      });
+}
+
+/// Makes a tensor surface from its parts. Control points are rows of `dim` numbers, v running fastest; no
+/// weights make it polynomial.
+inline surface tensor_new(std::size_t dim, std::uint32_t degree_u, std::uint32_t degree_v,
+                          const values<double> &knots_u, const values<double> &knots_v,
+                          const values<double> &control_points, const std::vector<double> &weights = {}) {
+  const auto count = [](const values<double> &knots, std::size_t degree) {
+    return knots.count() > degree + 1 ? knots.count() - degree - 1 : 0;
+  };
+  const std::size_t expected = count(knots_u, degree_u) * count(knots_v, degree_v);
+  if (control_points.count() != expected * dim || (!weights.empty() && weights.size() != expected)) {
+    const std::string text = std::to_string(control_points.count()) + " numbers and " +
+                             std::to_string(weights.size()) + " weights do not fit " + std::to_string(expected) +
+                             " control points of dimension " + std::to_string(dim);
+    throw error(PLANISH_STATUS_INVALID_ARGUMENT, text, -1);
+  }
+  planish_surface *made = nullptr;
+  detail::checked(planish_tensor_new(dim, degree_u, degree_v, knots_u.data(), knots_u.count(), knots_v.data(),
+                                     knots_v.count(), control_points.data(),
+                                     weights.empty() ? nullptr : weights.data(), &made));
+  return surface(made);
+}
+
+} // namespace planish
+
+#endif // PLANISH_HPP

@@ -1,0 +1,280 @@
+//! B-spline curves.
+
+use super::arguments::{
+    ArgumentError, array_len, choice, deref, options, out, rows_mut, slice, slice_mut, slice_mut_or_none,
+    stride, strided_len,
+};
+use super::guard::{Failure, guard};
+use super::progress::{thread_count, with_control};
+use super::report::{FitOutputs, planish_fit_report};
+use super::status::query;
+use super::{planish_eval_options, planish_flag, planish_status, planish_tensor_options};
+use crate::curve::{Curve, MAX_DERIVATIVE};
+use crate::fit::tessellation::fit_curve;
+use crate::surface::evaluate::OutsideRule;
+
+/// A B-spline curve: a map from an interval of parameters u to R^dim. Made by planish_curve_fit(), destroyed by
+/// planish_curve_free().
+///
+/// Calls that take it const may run at once on any threads.
+pub struct planish_curve(Curve);
+
+const _: () = {
+    const fn is_shared<T: Send + Sync>() {}
+    is_shared::<planish_curve>();
+};
+
+impl planish_curve {
+    pub(super) fn into_raw(curve: Curve) -> *mut Self {
+        Box::into_raw(Box::new(Self(curve)))
+    }
+}
+
+/// Fits a cubic curve to values at parameters, by the method of planish_tensor_fit() in one parameter.
+///
+/// u:          count parameters, in any order.
+/// values:     count rows of dim numbers.
+/// count:      at least 3.
+/// dim:        numbers of a value, at least 1.
+/// options:    NULL for the defaults. grid_u fixes the grid, and 0 refines; energy, grid_v, max_coefficients,
+///             correction_sweeps, regularize, parameterize and measure_distance are not used; out_parameters
+///             must be NULL.
+/// out_curve:  receives a new curve; destroy with planish_curve_free().
+/// out_report: receives what the fit did and how good it is; grid_v is 1. NULL for no report.
+/// Returns what planish_tensor_fit_points() returns.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_curve_fit(
+    u: *const f64,
+    values: *const f64,
+    count: usize,
+    dim: usize,
+    options: *const planish_tensor_options,
+    out_curve: *mut *mut planish_curve,
+    out_report: *mut planish_fit_report,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let u = slice(u, count, "u")?;
+        let values = slice(values, array_len::<f64>(count, dim, "values")?, "values")?;
+        let given = self::options(options)?;
+        if !given.out_parameters.is_null() {
+            return Err(ArgumentError::NotNull { name: "out_parameters" }.into());
+        }
+        let (parameters, errors) = (given.out_parameters, given.out_errors);
+        let outputs = FitOutputs::new((out_curve, "out_curve"), out_report, parameters, errors, count)?;
+        // a curve has one direction; the other is given the grid of this one so that both are valid
+        let options = planish_tensor_options { grid_v: given.grid_u, ..given }.to_core(count)?;
+        let fit = with_control(given.thread_count, given.progress, given.user, |control| {
+            fit_curve(u, values, dim, &options, control)
+        })??;
+        Ok(outputs.store_curve(fit))
+    })
+}
+
+/// What `find` reads from a curve; 0 for NULL.
+///
+/// # Safety
+/// `curve` is NULL or a curve.
+unsafe fn query_curve<T: Default>(curve: *const planish_curve, find: impl FnOnce(&Curve) -> T) -> T {
+    // SAFETY: the caller's promise.
+    query(|| Ok(find(&unsafe { deref(curve, "curve") }?.0)))
+}
+
+/// Numbers of a value; 0 for NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_curve_dim(curve: *const planish_curve) -> usize {
+    // SAFETY: the caller's promise.
+    unsafe { query_curve(curve, Curve::dim) }
+}
+
+/// Degree of the polynomial pieces; 0 for NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_curve_degree(curve: *const planish_curve) -> u32 {
+    // SAFETY: the caller's promise.
+    unsafe { query_curve(curve, |curve| curve.knots().degree() as u32) }
+}
+
+/// Number of knots, each as often as it occurs; 0 for NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_curve_knot_count(curve: *const planish_curve) -> usize {
+    // SAFETY: the caller's promise.
+    unsafe { query_curve(curve, |curve| curve.knots().knots().len()) }
+}
+
+/// Number of control points; 0 for NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_curve_control_point_count(curve: *const planish_curve) -> usize {
+    // SAFETY: the caller's promise.
+    unsafe { query_curve(curve, |curve| curve.knots().basis_count()) }
+}
+
+/// Copies the knots of a curve.
+///
+/// curve:     not NULL.
+/// out_knots: receives planish_curve_knot_count() knots.
+/// count:     knots that out_knots has room for.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_curve_copy_knots(
+    curve: *const planish_curve,
+    out_knots: *mut f64,
+    count: usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let knots = deref(curve, "curve")?.0.knots().knots();
+        rows_mut(out_knots, count, knots.len(), 1, "out_knots")?.copy_from_slice(knots);
+        Ok(())
+    })
+}
+
+/// Copies the control points of a curve.
+///
+/// curve:              not NULL.
+/// out_control_points: receives planish_curve_control_point_count() rows of dim numbers.
+/// count:              rows that out_control_points has room for.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_curve_copy_control_points(
+    curve: *const planish_curve,
+    out_control_points: *mut f64,
+    count: usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let curve = &deref(curve, "curve")?.0;
+        let needed = curve.knots().basis_count();
+        let rows = rows_mut(out_control_points, count, needed, curve.dim(), "out_control_points")?;
+        rows.copy_from_slice(curve.control_points());
+        Ok(())
+    })
+}
+
+/// The interval on which the curve is defined.
+///
+/// curve:        not NULL.
+/// out_interval: receives 2 numbers: least u, largest u.
+/// Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_curve_domain(
+    curve: *const planish_curve,
+    out_interval: *mut f64,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let (from, to) = deref(curve, "curve")?.0.knots().domain();
+        slice_mut(out_interval, 2, "out_interval")?.copy_from_slice(&[from, to]);
+        Ok(())
+    })
+}
+
+/// Evaluates the curve and its derivatives at parameters.
+///
+/// curve:          not NULL.
+/// u:              count parameters, options->uv_stride doubles apart (0 for 1).
+/// count:          may be 0.
+/// max_derivative: 0 to 3.
+/// options:        NULL for the defaults; thread_count is not used.
+/// out:            receives for each parameter max_derivative + 1 rows of dim numbers: C, C', C'', C''';
+///                 parameters start options->out_stride doubles apart. It must not overlap u.
+/// Returns what planish_surface_eval() returns; PLANISH_STATUS_INVALID_ARGUMENT also for max_derivative.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_curve_eval(
+    curve: *const planish_curve,
+    u: *const f64,
+    count: usize,
+    max_derivative: u32,
+    options: *const planish_eval_options,
+    out: *mut f64,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let curve = &deref(curve, "curve")?.0;
+        let options = self::options(options)?;
+        let order = max_derivative as usize;
+        if order > MAX_DERIVATIVE {
+            let (name, largest) = ("max_derivative", MAX_DERIVATIVE);
+            return Err(ArgumentError::Limit { name, given: order, largest }.into());
+        }
+        let rules = [OutsideRule::Fail, OutsideRule::Flag, OutsideRule::Extrapolate];
+        let rule = choice(options.outside, &rules, "outside")?;
+        thread_count(options.thread_count)?;
+        let width = array_len::<f64>(order + 1, curve.dim(), "out")?;
+        let u_stride = stride(options.uv_stride, 1, "uv_stride")?;
+        let out_stride = stride(options.out_stride, width, "out_stride")?;
+        let u = slice(u, strided_len::<f64>(count, u_stride, 1, "u")?, "u")?;
+        let u: Vec<f64> = u.iter().step_by(u_stride).copied().collect();
+        let out = slice_mut(out, strided_len::<f64>(count, out_stride, width, "out")?, "out")?;
+        let flags = slice_mut_or_none(options.out_flags, count, "out_flags")?;
+        eval(curve, &u, order, rule, out, (out_stride, width), flags)
+    })
+}
+
+/// Evaluates into rows of `width` numbers every `stride`.
+fn eval(
+    curve: &Curve,
+    u: &[f64],
+    order: usize,
+    rule: OutsideRule,
+    out: &mut [f64],
+    (stride, width): (usize, usize),
+    flags: Option<&mut [u8]>,
+) -> Result<planish_status, Failure> {
+    match rule {
+        OutsideRule::Fail => curve.check_inside(u)?,
+        OutsideRule::Extrapolate => Curve::check_finite(u)?,
+        OutsideRule::Flag => {}
+    }
+    let mut status = planish_status::Ok;
+    for (&u, row) in u.iter().zip(out.chunks_mut(stride)) {
+        if rule == OutsideRule::Flag && !curve.contains(u) {
+            row[..width].fill(f64::NAN);
+            status = planish_status::PointsOutside;
+        } else {
+            curve.eval_rows(&[u], order, &mut row[..width]);
+        }
+    }
+    for (flag, &u) in flags.into_iter().flatten().zip(u) {
+        *flag = if curve.contains(u) { 0 } else { planish_flag::OutsideDomain as u8 };
+    }
+    Ok(status)
+}
+
+/// Makes a copy of a curve.
+///
+/// curve:     not NULL.
+/// out_curve: receives a new curve; destroy with planish_curve_free().
+/// Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_curve_clone(
+    curve: *const planish_curve,
+    out_curve: *mut *mut planish_curve,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let curve = deref(curve, "curve")?;
+        let out_curve = out(out_curve, "out_curve")?;
+        out_curve.write(planish_curve::into_raw(curve.0.clone()));
+        Ok(())
+    })
+}
+
+/// Destroys a curve.
+///
+/// curve: from this library and not destroyed yet; NULL does nothing.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_curve_free(curve: *mut planish_curve) {
+    query(|| {
+        if !curve.is_null() {
+            // SAFETY: the caller's promise.
+            drop(unsafe { Box::from_raw(curve) });
+        }
+        Ok(())
+    });
+}

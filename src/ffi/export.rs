@@ -1,0 +1,198 @@
+//! Files and buffers.
+
+use super::arguments::{ArgumentError, deref, init_options, options, out, slice, slice_mut, text};
+use super::guard::guard;
+use super::mesh::planish_mesh;
+use super::planish_status;
+use super::progress::thread_count;
+use super::query::planish_tessellate_options;
+use super::surface::{Family, planish_surface, query_surface};
+use crate::control::Pool;
+use crate::export::{native, vtk};
+use std::ffi::c_char;
+use std::path::Path;
+
+/// What a VTK file shows. Fill with planish_vtk_options_init(), then change what you need.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct planish_vtk_options {
+    /// Set by planish_vtk_options_init().
+    pub struct_size: usize,
+    /// A mesh to compare with, or NULL (default). Its triangles are then written instead of a tessellation,
+    /// each node moved to its nearest place on the surface, with the distance as point data "deviation".
+    /// Borrowed.
+    pub deviation_from: *const planish_mesh,
+    /// How the surface is tessellated otherwise; NULL (default) for the defaults. Borrowed.
+    pub tessellate: *const planish_tessellate_options,
+    /// Threads to use, at most 1024; 0 (default) for all cores.
+    pub thread_count: u32,
+    /// 0.
+    pub reserved: u32,
+}
+
+record!(planish_vtk_options, 32, {
+    struct_size: 0, deviation_from: 8, tessellate: 16, thread_count: 24, reserved: 28,
+});
+
+impl Default for planish_vtk_options {
+    fn default() -> Self {
+        Self {
+            struct_size: size_of::<Self>(),
+            deviation_from: std::ptr::null(),
+            tessellate: std::ptr::null(),
+            thread_count: 0,
+            reserved: 0,
+        }
+    }
+}
+
+/// Fills options with the defaults.
+///
+/// options: not NULL.
+/// size:    sizeof(planish_vtk_options).
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_vtk_options_init(
+    options: *mut planish_vtk_options,
+    size: usize,
+) -> planish_status {
+    // SAFETY: the caller's promise.
+    guard(|| unsafe { init_options(options, size) })
+}
+
+/// Writes a surface in space as a VTK file of triangles (.vtu), its (u,v) as point data "uv". The file appears
+/// whole or not at all.
+///
+/// surface: not NULL, of dimension 3.
+/// path:    UTF-8, ends with a NUL; an existing file is replaced.
+/// options: NULL for the defaults.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension, an
+/// option, a path that is not UTF-8), PLANISH_STATUS_FILE, or what planish_surface_tessellate() or
+/// planish_surface_deviation() return.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_surface_write_vtk(
+    surface: *const planish_surface,
+    path: *const c_char,
+    options: *const planish_vtk_options,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let surface = deref(surface, "surface")?.any();
+        let path = text(path, "path")?;
+        let given = self::options(options)?;
+        if given.reserved != 0 {
+            return Err(
+                ArgumentError::Reserved { record: "planish_vtk_options", given: given.reserved }.into()
+            );
+        }
+        let deviation_from = match given.deviation_from.is_null() {
+            true => None,
+            false => Some(&deref(given.deviation_from, "deviation_from")?.0),
+        };
+        let tessellate = self::options(given.tessellate)?.core()?;
+        let core = vtk::SurfaceOptions { tessellate, deviation_from };
+        let pool = Pool::new(thread_count(given.thread_count)?);
+        Ok(vtk::write_surface(surface, &core, Path::new(path), &pool)?)
+    })
+}
+
+/// How many bytes planish_surface_save() writes; 0 for NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_surface_save_size(surface: *const planish_surface) -> usize {
+    // SAFETY: the caller's promise.
+    unsafe { query_surface(surface, |surface| Ok(native::save_size(surface.tensor()?))) }
+}
+
+/// Writes everything a surface is into a buffer, to the bit. The layout is documented in docs/format.md; it is
+/// the same on all machines.
+///
+/// surface: not NULL.
+/// buffer:  receives planish_surface_save_size() bytes.
+/// size:    bytes that the buffer has room for.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_surface_save(
+    surface: *const planish_surface,
+    buffer: *mut u8,
+    size: usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let tensor = deref(surface, "surface")?.tensor()?;
+        let needed = native::save_size(tensor);
+        if size < needed {
+            return Err(ArgumentError::TooSmall { name: "buffer", given: size, needed }.into());
+        }
+        let buffer = slice_mut(buffer, needed, "buffer")?;
+        buffer.copy_from_slice(&native::save(tensor));
+        Ok(())
+    })
+}
+
+/// Makes a surface from bytes of planish_surface_save(). Damaged bytes are refused, sizes are checked before
+/// memory is asked for.
+///
+/// buffer:      size bytes.
+/// out_surface: receives a new surface; destroy with planish_surface_free().
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_FORMAT (the index is the byte) or
+/// PLANISH_STATUS_VERSION (a later library made it).
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_surface_load(
+    buffer: *const u8,
+    size: usize,
+    out_surface: *mut *mut planish_surface,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let bytes = slice(buffer, size, "buffer")?;
+        let out_surface = out(out_surface, "out_surface")?;
+        let surface = native::load(bytes)?;
+        out_surface.write(planish_surface::into_raw(Family::Tensor(surface)));
+        Ok(())
+    })
+}
+
+/// Writes the bytes of planish_surface_save() to a file, which appears whole or not at all.
+///
+/// surface: not NULL.
+/// path:    UTF-8, ends with a NUL; an existing file is replaced.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the path is not
+/// UTF-8) or PLANISH_STATUS_FILE.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_surface_save_file(
+    surface: *const planish_surface,
+    path: *const c_char,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let tensor = deref(surface, "surface")?.tensor()?;
+        Ok(native::save_file(tensor, Path::new(text(path, "path")?))?)
+    })
+}
+
+/// Makes a surface from a file of planish_surface_save_file().
+///
+/// path:        UTF-8, ends with a NUL.
+/// out_surface: receives a new surface; destroy with planish_surface_free().
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the path is not
+/// UTF-8), PLANISH_STATUS_FILE, PLANISH_STATUS_FORMAT (the index is the byte) or PLANISH_STATUS_VERSION.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_surface_load_file(
+    path: *const c_char,
+    out_surface: *mut *mut planish_surface,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let path = text(path, "path")?;
+        let out_surface = out(out_surface, "out_surface")?;
+        let surface = native::load_file(Path::new(path))?;
+        out_surface.write(planish_surface::into_raw(Family::Tensor(surface)));
+        Ok(())
+    })
+}

@@ -1,0 +1,680 @@
+//! Triangle meshes.
+
+use super::arguments::{
+    ArgumentError, ReportOut, copy, copy_rows, deref, deref_mut, flag, init_options, options, out, rows_mut,
+    slice, slice_mut_or_none, stride, text, write_text,
+};
+use super::guard::{Failure, guard};
+use super::planish_status;
+use super::report::write_pairs;
+use super::status::query;
+use crate::mesh::{Mesh, MeshOptions, MeshRepairs, Piece};
+use glam::{DVec2, DVec3};
+use std::ffi::c_char;
+use std::mem::MaybeUninit;
+use std::path::Path;
+
+/// A triangle mesh: manifold and consistently oriented, possibly with several components, holes and nodes
+/// without triangles. Made by planish_mesh_new() and others, destroyed by planish_mesh_free().
+///
+/// Calls that take it const may run at once on any threads; a call that takes it non-const needs it alone.
+pub struct planish_mesh(pub(super) Mesh);
+
+const _: () = {
+    const fn is_shared<T: Send + Sync>() {}
+    is_shared::<planish_mesh>();
+};
+
+impl planish_mesh {
+    pub(super) fn into_raw(mesh: Mesh) -> *mut Self {
+        Box::into_raw(Box::new(Self(mesh)))
+    }
+}
+
+/// How arrays or files become a mesh. Fill with planish_mesh_options_init(), then change what you need.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct planish_mesh_options {
+    /// Set by planish_mesh_options_init().
+    pub struct_size: usize,
+    /// Doubles from one node to the next in `points`; at least 3, or 0 (default) for 3. Ignored for files.
+    pub point_stride: usize,
+    /// Indices from one triangle to the next in `triangles`; at least 3, or 0 (default) for 3. Ignored for
+    /// files.
+    pub triangle_stride: usize,
+    /// Nodes not further apart than this become one, in model units. Default 0: nothing is welded, except
+    /// that nodes of STL files with equal coordinates always are.
+    pub weld_distance: f64,
+    /// Receives what was repaired, or NULL (default). Set its struct_size before. Filled on success only.
+    pub out_repairs: *mut planish_mesh_repairs,
+    /// Receives for each node given the node of the mesh that it became, counted from 0: point_count
+    /// elements, or NULL (default). Filled on success only. Must be NULL for files.
+    pub out_node_map: *mut u32,
+    /// 1 turns triangles over until neighbours agree; with 0 (default) disagreement is an error.
+    pub orient: u32,
+    /// The number that `triangles` uses for the first node, such as 1 from Fortran. Default 0. Ignored for
+    /// files. Everything that the library hands back counts from 0.
+    pub index_base: u32,
+}
+
+record!(planish_mesh_options, 56, {
+    struct_size: 0, point_stride: 8, triangle_stride: 16, weld_distance: 24, out_repairs: 32,
+    out_node_map: 40, orient: 48, index_base: 52,
+});
+
+impl Default for planish_mesh_options {
+    fn default() -> Self {
+        let core = MeshOptions::default();
+        Self {
+            struct_size: size_of::<Self>(),
+            point_stride: 0,
+            triangle_stride: 0,
+            weld_distance: core.weld_distance,
+            out_repairs: std::ptr::null_mut(),
+            out_node_map: std::ptr::null_mut(),
+            orient: core.orient.into(),
+            index_base: core.index_base,
+        }
+    }
+}
+
+impl planish_mesh_options {
+    fn to_core(self) -> Result<MeshOptions, ArgumentError> {
+        Ok(MeshOptions {
+            weld_distance: self.weld_distance,
+            orient: flag(self.orient, "orient")?,
+            index_base: self.index_base,
+        })
+    }
+}
+
+/// What was done to arrays or a file to make a mesh of them. Set struct_size to sizeof(planish_mesh_repairs)
+/// before the call.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default)]
+pub struct planish_mesh_repairs {
+    /// sizeof(planish_mesh_repairs) as the caller sees it.
+    pub struct_size: usize,
+    /// Nodes that vanished because they were welded to others.
+    pub welded_node_count: usize,
+    /// Triangles that vanished because welding made two of their nodes one.
+    pub dropped_triangle_count: usize,
+    /// Triangles that were turned over.
+    pub flipped_triangle_count: usize,
+    /// 1 if the file has texture coordinates that are no parameters, because a node has several or none.
+    pub dropped_parameters: u32,
+    /// 0.
+    pub reserved: u32,
+}
+
+record!(planish_mesh_repairs, 40, {
+    struct_size: 0, welded_node_count: 8, dropped_triangle_count: 16, flipped_triangle_count: 24,
+    dropped_parameters: 32, reserved: 36,
+});
+
+impl From<&MeshRepairs> for planish_mesh_repairs {
+    fn from(repairs: &MeshRepairs) -> Self {
+        Self {
+            struct_size: size_of::<Self>(),
+            welded_node_count: repairs.welded_nodes,
+            dropped_triangle_count: repairs.dropped_triangles,
+            flipped_triangle_count: repairs.flipped_triangles,
+            dropped_parameters: repairs.dropped_parameters.into(),
+            reserved: 0,
+        }
+    }
+}
+
+/// Where the caller wants a new mesh and what is known of it.
+struct MeshOutputs<'a> {
+    mesh: &'a mut MaybeUninit<*mut planish_mesh>,
+    repairs: ReportOut<planish_mesh_repairs>,
+    node_map: Option<&'a mut [u32]>,
+}
+
+impl MeshOutputs<'_> {
+    /// # Safety
+    /// The outputs are NULL or as the header says, for `point_count` nodes.
+    unsafe fn new(
+        mesh: *mut *mut planish_mesh,
+        options: &planish_mesh_options,
+        point_count: usize,
+    ) -> Result<Self, ArgumentError> {
+        // SAFETY: the caller's promise.
+        unsafe {
+            Ok(Self {
+                mesh: out(mesh, "out_mesh")?,
+                repairs: ReportOut::new(options.out_repairs)?,
+                node_map: slice_mut_or_none(options.out_node_map, point_count, "out_node_map")?,
+            })
+        }
+    }
+
+    fn store(self, mesh: Mesh, repairs: &MeshRepairs) -> planish_status {
+        if let Some(node_map) = self.node_map {
+            match &repairs.node_map {
+                Some(map) => node_map.copy_from_slice(map),
+                None => node_map.iter_mut().zip(0..).for_each(|(node, same)| *node = same),
+            }
+        }
+        self.repairs.store(repairs.into());
+        self.mesh.write(planish_mesh::into_raw(mesh));
+        if repairs.is_empty() { planish_status::Ok } else { planish_status::InputRepaired }
+    }
+}
+
+/// Fills options with the defaults.
+///
+/// options:     struct_size writable bytes.
+/// struct_size: sizeof(planish_mesh_options).
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_options_init(
+    options: *mut planish_mesh_options,
+    struct_size: usize,
+) -> planish_status {
+    // SAFETY: the caller's promise.
+    guard(|| unsafe { init_options(options, struct_size) })
+}
+
+/// Makes a mesh from arrays, which are copied.
+///
+/// points:         point_count rows of x, y, z in model units; rows start options->point_stride doubles apart.
+/// point_count:    at least 1.
+/// triangles:      triangle_count rows of three nodes, counter-clockwise seen from outside, counted from
+///                 options->index_base; rows start options->triangle_stride indices apart.
+/// triangle_count: at least 1.
+/// options:        NULL for the defaults.
+/// out_mesh:       receives a new mesh; destroy with planish_mesh_free().
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_INPUT_REPAIRED (something was welded or turned over, see
+/// options->out_repairs) or an error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (empty
+/// arrays, a stride, the weld distance), PLANISH_STATUS_NOT_FINITE (a coordinate; the index is the node),
+/// PLANISH_STATUS_INDEX (a triangle refers to a node that does not exist; the index is the triangle),
+/// PLANISH_STATUS_DEGENERATE (a triangle has a node twice, or welding leaves nothing),
+/// PLANISH_STATUS_TOPOLOGY (an edge of three triangles, two triangles with the same nodes, neighbours that
+/// disagree in orientation, a surface of one side), PLANISH_STATUS_TOO_LARGE, PLANISH_STATUS_VERSION or
+/// PLANISH_STATUS_OUT_OF_MEMORY.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_new(
+    points: *const f64,
+    point_count: usize,
+    triangles: *const u32,
+    triangle_count: usize,
+    options: *const planish_mesh_options,
+    out_mesh: *mut *mut planish_mesh,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let options = self::options(options)?;
+        let outputs = MeshOutputs::new(out_mesh, &options, point_count)?;
+        let point_stride = stride(options.point_stride, 3, "point_stride")?;
+        let triangle_stride = stride(options.triangle_stride, 3, "triangle_stride")?;
+        let points = copy_rows(points, point_count, point_stride, "points", DVec3::from_array)?;
+        let triangles = copy_rows(triangles, triangle_count, triangle_stride, "triangles", |nodes| nodes)?;
+        let (mesh, repairs) = Mesh::with_options(points, triangles, &options.to_core()?)?;
+        Ok(outputs.store(mesh, &repairs))
+    })
+}
+
+/// Reads a mesh from an OFF, OBJ, PLY or STL file, told by the name's end or else by the content.
+///
+/// Polygons become triangles. The `vt` of an OBJ become parameters if each node has one; the numbers that a
+/// PLY has on its nodes become fields.
+///
+/// path:     the file, in UTF-8, terminated.
+/// options:  NULL for the defaults.
+/// out_mesh: receives a new mesh; destroy with planish_mesh_free().
+/// Returns what planish_mesh_new() returns, or PLANISH_STATUS_FILE (cannot be read), PLANISH_STATUS_FORMAT (not
+/// what it claims to be; the index is the line or the byte, counted from 0) or PLANISH_STATUS_INVALID_ARGUMENT
+/// (out_node_map is not NULL, or path is not UTF-8).
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_read(
+    path: *const c_char,
+    options: *const planish_mesh_options,
+    out_mesh: *mut *mut planish_mesh,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let path = text(path, "path")?;
+        let options = self::options(options)?;
+        if !options.out_node_map.is_null() {
+            return Err(ArgumentError::NotNull { name: "out_node_map" }.into());
+        }
+        let outputs = MeshOutputs::new(out_mesh, &options, 0)?;
+        let (mesh, repairs) = crate::mesh::read(Path::new(path), &options.to_core()?)?;
+        Ok(outputs.store(mesh, &repairs))
+    })
+}
+
+/// Makes a copy of a mesh with its parameters and fields.
+///
+/// mesh:     not NULL.
+/// out_mesh: receives a new mesh; destroy with planish_mesh_free().
+/// Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_clone(
+    mesh: *const planish_mesh,
+    out_mesh: *mut *mut planish_mesh,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let mesh = deref(mesh, "mesh")?;
+        let out_mesh = out(out_mesh, "out_mesh")?;
+        out_mesh.write(planish_mesh::into_raw(mesh.0.clone()));
+        Ok(())
+    })
+}
+
+/// Destroys a mesh.
+///
+/// mesh: from this library and not destroyed yet; NULL does nothing.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_free(mesh: *mut planish_mesh) {
+    query(|| {
+        if !mesh.is_null() {
+            // SAFETY: the caller's promise.
+            drop(unsafe { Box::from_raw(mesh) });
+        }
+        Ok(())
+    });
+}
+
+/// What `find` reads from a mesh; 0 for NULL.
+///
+/// # Safety
+/// `mesh` is NULL or a mesh that nobody changes meanwhile.
+unsafe fn query_mesh<T: Default>(
+    mesh: *const planish_mesh,
+    find: impl FnOnce(&Mesh) -> Result<T, ArgumentError>,
+) -> T {
+    // SAFETY: the caller's promise.
+    query(|| Ok(find(&unsafe { deref(mesh, "mesh") }?.0)?))
+}
+
+/// Number of nodes; 0 for NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_point_count(mesh: *const planish_mesh) -> usize {
+    // SAFETY: the caller's promise.
+    unsafe { query_mesh(mesh, |mesh| Ok(mesh.points().len())) }
+}
+
+/// Number of triangles; 0 for NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_triangle_count(mesh: *const planish_mesh) -> usize {
+    // SAFETY: the caller's promise.
+    unsafe { query_mesh(mesh, |mesh| Ok(mesh.triangles().len())) }
+}
+
+/// Number of edges, each counted once; 0 for NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_edge_count(mesh: *const planish_mesh) -> usize {
+    // SAFETY: the caller's promise.
+    unsafe { query_mesh(mesh, |mesh| Ok(mesh.edge_count())) }
+}
+
+/// Number of parts that hang together by edges; 0 for NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_component_count(mesh: *const planish_mesh) -> usize {
+    // SAFETY: the caller's promise.
+    unsafe { query_mesh(mesh, |mesh| Ok(mesh.component_count())) }
+}
+
+/// Number of handles of all components together; 0 for NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_genus(mesh: *const planish_mesh) -> usize {
+    // SAFETY: the caller's promise.
+    unsafe { query_mesh(mesh, |mesh| Ok(mesh.genus())) }
+}
+
+/// Nodes that have triangles, minus edges, plus triangles; 0 for NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_euler_characteristic(mesh: *const planish_mesh) -> i64 {
+    // SAFETY: the caller's promise.
+    unsafe { query_mesh(mesh, |mesh| Ok(mesh.euler_characteristic())) }
+}
+
+/// Number of boundary loops; 0 for NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_loop_count(mesh: *const planish_mesh) -> usize {
+    // SAFETY: the caller's promise.
+    unsafe { query_mesh(mesh, |mesh| Ok(mesh.loops().len())) }
+}
+
+fn boundary_loop(mesh: &Mesh, index: usize) -> Result<&[u32], ArgumentError> {
+    let count = mesh.loops().len();
+    mesh.loops().get(index).map(Vec::as_slice).ok_or(ArgumentError::NoSuch { name: "loop", index, count })
+}
+
+/// Number of nodes of a boundary loop; 0 for NULL or a loop that does not exist.
+///
+/// loop: below planish_mesh_loop_count(); loop 0 is the longest.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_loop_point_count(mesh: *const planish_mesh, r#loop: usize) -> usize {
+    // SAFETY: the caller's promise.
+    unsafe { query_mesh(mesh, |mesh| Ok(boundary_loop(mesh, r#loop)?.len())) }
+}
+
+/// Copies the nodes' coordinates.
+///
+/// mesh:       not NULL.
+/// out_points: receives planish_mesh_point_count() rows of x, y, z.
+/// count:      rows that out_points has room for.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_copy_points(
+    mesh: *const planish_mesh,
+    out_points: *mut f64,
+    count: usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let points = deref(mesh, "mesh")?.0.points();
+        let rows = rows_mut(out_points, count, points.len(), 3, "out_points")?;
+        points.iter().zip(rows.chunks_exact_mut(3)).for_each(|(point, row)| point.write_to_slice(row));
+        Ok(())
+    })
+}
+
+/// Copies the triangles.
+///
+/// mesh:          not NULL.
+/// out_triangles: receives planish_mesh_triangle_count() rows of three nodes, counted from 0.
+/// count:         rows that out_triangles has room for.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_copy_triangles(
+    mesh: *const planish_mesh,
+    out_triangles: *mut u32,
+    count: usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let triangles = deref(mesh, "mesh")?.0.triangles();
+        let rows = rows_mut(out_triangles, count, triangles.len(), 3, "out_triangles")?;
+        rows.copy_from_slice(triangles.as_flattened());
+        Ok(())
+    })
+}
+
+/// Copies the nodes of a boundary loop in order, the surface on their left. The first is not repeated.
+///
+/// mesh:      not NULL.
+/// loop:      below planish_mesh_loop_count(); loop 0 is the longest in space.
+/// out_nodes: receives planish_mesh_loop_point_count() nodes, counted from 0.
+/// count:     nodes that out_nodes has room for.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INDEX (the loop) or
+/// PLANISH_STATUS_BUFFER_TOO_SMALL.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_copy_loop(
+    mesh: *const planish_mesh,
+    r#loop: usize,
+    out_nodes: *mut u32,
+    count: usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let nodes = boundary_loop(&deref(mesh, "mesh")?.0, r#loop)?;
+        rows_mut(out_nodes, count, nodes.len(), 1, "out_nodes")?.copy_from_slice(nodes);
+        Ok(())
+    })
+}
+
+/// Number of fields on the nodes; 0 for NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_field_count(mesh: *const planish_mesh) -> usize {
+    // SAFETY: the caller's promise.
+    unsafe { query_mesh(mesh, |mesh| Ok(mesh.fields().len())) }
+}
+
+/// The name of a field.
+///
+/// mesh:  not NULL.
+/// field: below planish_mesh_field_count().
+/// name:  receives the name in UTF-8, cut off if it is too long and always terminated; NULL if size is 0.
+/// size:  bytes that name has room for, the NUL included.
+/// Returns the length of the whole name in bytes without the NUL; 0 for NULL or a field that does not exist.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_field_name(
+    mesh: *const planish_mesh,
+    field: usize,
+    name: *mut c_char,
+    size: usize,
+) -> usize {
+    // SAFETY: the caller's promises.
+    unsafe {
+        query_mesh(mesh, |mesh| {
+            let count = mesh.fields().len();
+            let found = mesh.fields().get(field);
+            let found = found.ok_or(ArgumentError::NoSuch { name: "field", index: field, count })?;
+            Ok(write_text(&found.name, name, size))
+        })
+    }
+}
+
+/// Copies the values of a field.
+///
+/// mesh:       not NULL.
+/// name:       the field's name in UTF-8, terminated.
+/// out_values: receives planish_mesh_point_count() values; NaN where nothing is known.
+/// count:      values that out_values has room for.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (no such field, or
+/// name is not UTF-8) or PLANISH_STATUS_BUFFER_TOO_SMALL.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_copy_field(
+    mesh: *const planish_mesh,
+    name: *const c_char,
+    out_values: *mut f64,
+    count: usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let mesh = &deref(mesh, "mesh")?.0;
+        let name = text(name, "name")?;
+        let values = mesh.field(name).ok_or_else(|| ArgumentError::NoField { name: name.to_owned() })?;
+        rows_mut(out_values, count, values.len(), 1, "out_values")?.copy_from_slice(values);
+        Ok(())
+    })
+}
+
+/// Adds a field, or replaces the one of this name.
+///
+/// mesh:   not NULL; changed.
+/// name:   the field's name in UTF-8, terminated.
+/// values: count values, one for each node; NaN where nothing is known. Copied.
+/// count:  planish_mesh_point_count().
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (count, or name is
+/// not UTF-8), PLANISH_STATUS_TOO_LARGE or PLANISH_STATUS_OUT_OF_MEMORY.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_set_field(
+    mesh: *mut planish_mesh,
+    name: *const c_char,
+    values: *const f64,
+    count: usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let mesh = &mut deref_mut(mesh, "mesh")?.0;
+        let name = text(name, "name")?;
+        Ok(mesh.set_field(name, copy(values, count, "values")?)?)
+    })
+}
+
+/// 1 if the nodes have parameters, else 0; 0 for NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_has_parameters(mesh: *const planish_mesh) -> u32 {
+    // SAFETY: the caller's promise.
+    unsafe { query_mesh(mesh, |mesh| Ok(mesh.parameters().is_some().into())) }
+}
+
+/// Gives each node its (u,v).
+///
+/// mesh:  not NULL; changed.
+/// uv:    count rows of u, v. Copied.
+/// count: planish_mesh_point_count().
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (count),
+/// PLANISH_STATUS_NOT_FINITE (the index is the node), PLANISH_STATUS_TOO_LARGE or PLANISH_STATUS_OUT_OF_MEMORY.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_set_parameters(
+    mesh: *mut planish_mesh,
+    uv: *const f64,
+    count: usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let mesh = &mut deref_mut(mesh, "mesh")?.0;
+        Ok(mesh.set_parameters(copy_rows(uv, count, 2, "uv", DVec2::from_array)?)?)
+    })
+}
+
+/// Copies the (u,v) of the nodes.
+///
+/// mesh:   not NULL.
+/// out_uv: receives planish_mesh_point_count() rows of u, v.
+/// count:  rows that out_uv has room for.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the mesh has no
+/// parameters) or PLANISH_STATUS_BUFFER_TOO_SMALL.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_copy_parameters(
+    mesh: *const planish_mesh,
+    out_uv: *mut f64,
+    count: usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let parameters = deref(mesh, "mesh")?.0.parameters().ok_or(ArgumentError::NoParameters)?;
+        write_pairs(parameters, rows_mut(out_uv, count, parameters.len(), 2, "out_uv")?);
+        Ok(())
+    })
+}
+
+/// Makes a mesh without some of the triangles, and without the nodes that no triangle needs any more.
+///
+/// Parameters and fields go with their nodes: to know which node each one was, give the mesh a field of node
+/// numbers before.
+///
+/// mesh:      not NULL; stays as it is.
+/// triangles: count triangles to leave out, counted from 0, in any order.
+/// count:     may be 0.
+/// out_mesh:  receives a new mesh; destroy with planish_mesh_free().
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INDEX (no such triangle; it is the
+/// index) or PLANISH_STATUS_INVALID_ARGUMENT (nothing is left).
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_remove_triangles(
+    mesh: *const planish_mesh,
+    triangles: *const u32,
+    count: usize,
+    out_mesh: *mut *mut planish_mesh,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let mesh = &deref(mesh, "mesh")?.0;
+        let triangles = slice(triangles, count, "triangles")?;
+        let out_mesh = out(out_mesh, "out_mesh")?;
+        out_mesh.write(planish_mesh::into_raw(mesh.remove_triangles(triangles)?.mesh));
+        Ok(())
+    })
+}
+
+/// Makes a mesh that is cut open along a path of edges: how a closed mesh or a handle is opened.
+///
+/// Nodes inside the path are doubled, and so are its ends on the boundary; ends inside the mesh are not. A
+/// closed path, whose last node is its first, separates what it surrounds. Triangles keep their numbers and
+/// nodes theirs; copies come after them. Parameters and fields go with their nodes.
+///
+/// mesh:     not NULL; stays as it is.
+/// nodes:    count nodes of the path in order, counted from 0; see planish_mesh_shortest_path().
+/// count:    at least 2.
+/// out_mesh: receives a new mesh; destroy with planish_mesh_free().
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (count),
+/// PLANISH_STATUS_INDEX (no such node; it is the index) or PLANISH_STATUS_TOPOLOGY (two nodes that follow each
+/// other have no common edge, the index is the first; or the path opens nothing).
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_cut_along(
+    mesh: *const planish_mesh,
+    nodes: *const u32,
+    count: usize,
+    out_mesh: *mut *mut planish_mesh,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let mesh = &deref(mesh, "mesh")?.0;
+        let nodes = slice(nodes, count, "nodes")?;
+        let out_mesh = out(out_mesh, "out_mesh")?;
+        out_mesh.write(planish_mesh::into_raw(mesh.cut_along(nodes)?.mesh));
+        Ok(())
+    })
+}
+
+/// Makes a mesh of each part that hangs together by edges, in the order of their first triangles. Parameters
+/// and fields go with their nodes.
+///
+/// mesh:       not NULL; stays as it is.
+/// out_meshes: receives planish_mesh_component_count() new meshes, all or none; destroy each with
+///             planish_mesh_free().
+/// count:      meshes that out_meshes has room for.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_split_components(
+    mesh: *const planish_mesh,
+    out_meshes: *mut *mut planish_mesh,
+    count: usize,
+) -> planish_status {
+    // SAFETY: the caller's promises; MaybeUninit has the layout of a pointer.
+    guard(|| unsafe {
+        let mesh = &deref(mesh, "mesh")?.0;
+        let out_meshes = out_meshes.cast::<MaybeUninit<*mut planish_mesh>>();
+        let out_meshes = rows_mut(out_meshes, count, mesh.component_count(), 1, "out_meshes")?;
+        let pieces = mesh.split_components()?;
+        for (out, Piece { mesh, .. }) in out_meshes.iter_mut().zip(pieces) {
+            out.write(planish_mesh::into_raw(mesh));
+        }
+        Ok(())
+    })
+}
+
+/// Finds the shortest path along edges, by length in space.
+///
+/// mesh:      not NULL.
+/// from, to:  its ends, nodes counted from 0.
+/// out_nodes: receives the nodes of the path, both ends included; NULL if count is 0.
+/// count:     nodes that out_nodes has room for; 0 asks for the length only.
+/// out_count: receives the number of nodes of the path; not NULL.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INDEX (no such node; it is the
+/// index), PLANISH_STATUS_TOPOLOGY (no path joins them) or PLANISH_STATUS_BUFFER_TOO_SMALL.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_shortest_path(
+    mesh: *const planish_mesh,
+    from: u32,
+    to: u32,
+    out_nodes: *mut u32,
+    count: usize,
+    out_count: *mut usize,
+) -> planish_status {
+    guard(|| -> Result<(), Failure> {
+        // SAFETY: the caller's promises.
+        unsafe {
+            let mesh = &deref(mesh, "mesh")?.0;
+            let out_count = out(out_count, "out_count")?;
+            let path = mesh.shortest_path(from, to)?;
+            if count > 0 {
+                rows_mut(out_nodes, count, path.len(), 1, "out_nodes")?.copy_from_slice(&path);
+            }
+            out_count.write(path.len());
+            Ok(())
+        }
+    })
+}

@@ -1,0 +1,40 @@
+//! The C ABI: `include/planish.h` is generated from these files.
+//!
+//! The only place with `unsafe`, and one without mathematics: every function borrows its arguments, calls
+//! the core and stores the results. [`guard`](self) keeps panics in, one file for each C type holds its
+//! functions in the order of the header. The documentation of a function is its safety contract: what each
+//! argument must be is said there once, for readers of the header.
+
+#![allow(non_camel_case_types, reason = "these are the names of the header")]
+#![allow(
+    clippy::missing_safety_doc,
+    reason = "each function's documentation of its arguments is that section"
+)]
+#![allow(clippy::too_many_arguments, reason = "C passes an array as two arguments")]
+
+#[macro_use]
+mod arguments;
+mod curve;
+mod export;
+mod guard;
+mod mesh;
+mod parameterize;
+mod progress;
+mod query;
+mod report;
+mod status;
+mod surface;
+mod tensor;
+#[cfg(test)]
+mod tests;
+
+pub use curve::*;
+pub use export::*;
+pub use mesh::*;
+pub use parameterize::*;
+pub use progress::*;
+pub use query::*;
+pub use report::*;
+pub use status::*;
+pub use surface::*;
+pub use tensor::*;

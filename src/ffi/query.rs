@@ -1,0 +1,366 @@
+//! Questions to surfaces of any family: tessellation, closest points, deviation.
+
+use super::arguments::{
+    ArgumentError, ReportOut, array_len, copy_rows, deref, flag, init_options, options, out, slice,
+    slice_mut, slice_mut_or_none,
+};
+use super::guard::guard;
+use super::mesh::planish_mesh;
+use super::planish_status;
+use super::progress::thread_count;
+use super::report::write_pairs;
+use super::surface::planish_surface;
+use crate::control::Pool;
+use crate::query::deviation::{DeviationOptions, DeviationReport, deviation};
+use crate::query::project::{ProjectOptions, Projector};
+use crate::query::tessellate::{TessellateOptions, tessellate};
+use glam::DVec2;
+
+/// How fine a tessellation is. Fill with planish_tessellate_options_init(), then change what you need.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct planish_tessellate_options {
+    /// Set by planish_tessellate_options_init().
+    pub struct_size: usize,
+    /// Largest distance between the surface and the middles of the edges, in model units, positive; 0 (default)
+    /// takes 1e-3 of the surface's diagonal.
+    pub chord_tolerance: f64,
+    /// Longest edge in model units, positive; 0 (default) for no limit.
+    pub max_edge_length: f64,
+    /// Most nodes; with more the call fails. Default 4000000.
+    pub max_point_count: usize,
+    /// 1 (default) keeps to the part inside the trims, 0 covers the whole domain.
+    pub keep_trims: u32,
+    /// 0.
+    pub reserved: u32,
+}
+
+record!(planish_tessellate_options, 40, {
+    struct_size: 0, chord_tolerance: 8, max_edge_length: 16, max_point_count: 24, keep_trims: 32, reserved: 36,
+});
+
+impl Default for planish_tessellate_options {
+    fn default() -> Self {
+        let core = TessellateOptions::default();
+        Self {
+            struct_size: size_of::<Self>(),
+            chord_tolerance: core.chord_tolerance,
+            max_edge_length: core.max_edge_length,
+            max_point_count: core.max_points,
+            keep_trims: u32::from(core.keep_trims),
+            reserved: 0,
+        }
+    }
+}
+
+impl planish_tessellate_options {
+    pub(super) fn core(&self) -> Result<TessellateOptions, ArgumentError> {
+        check_reserved("planish_tessellate_options", self.reserved)?;
+        Ok(TessellateOptions {
+            chord_tolerance: self.chord_tolerance,
+            max_edge_length: self.max_edge_length,
+            max_points: self.max_point_count,
+            keep_trims: flag(self.keep_trims, "keep_trims")?,
+        })
+    }
+}
+
+fn check_reserved(record: &'static str, given: u32) -> Result<(), ArgumentError> {
+    if given == 0 { Ok(()) } else { Err(ArgumentError::Reserved { record, given }) }
+}
+
+/// Fills options with the defaults.
+///
+/// options: not NULL.
+/// size:    sizeof(planish_tessellate_options).
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_tessellate_options_init(
+    options: *mut planish_tessellate_options,
+    size: usize,
+) -> planish_status {
+    // SAFETY: the caller's promise.
+    guard(|| unsafe { init_options(options, size) })
+}
+
+/// Makes a triangle mesh of a surface in space. Its nodes lie on the surface and carry their (u,v) as
+/// parameters; the trims become its boundary loops.
+///
+/// surface:  not NULL, of dimension 3.
+/// options:  NULL for the defaults.
+/// out_mesh: receives a new mesh; destroy with planish_mesh_free().
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, or the
+/// dimension), PLANISH_STATUS_TOPOLOGY (the trims cross), PLANISH_STATUS_DEGENERATE (they enclose no area),
+/// PLANISH_STATUS_TOO_LARGE (more than max_point_count nodes) or PLANISH_STATUS_VERSION.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_surface_tessellate(
+    surface: *const planish_surface,
+    options: *const planish_tessellate_options,
+    out_mesh: *mut *mut planish_mesh,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let surface = deref(surface, "surface")?.any();
+        let out_mesh = out(out_mesh, "out_mesh")?;
+        let result = tessellate(surface, &self::options(options)?.core()?)?;
+        out_mesh.write(planish_mesh::into_raw(result.mesh));
+        Ok(())
+    })
+}
+
+/// How points are projected. Fill with planish_project_options_init(), then change what you need.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct planish_project_options {
+    /// Set by planish_project_options_init().
+    pub struct_size: usize,
+    /// A row u, v near the answer for each point, or NULL (default). It saves time and may choose between
+    /// equally near places; the answer is the nearest place all the same. Borrowed.
+    pub guesses: *const f64,
+    /// Points farther from the surface than this get NaN, and the call returns
+    /// PLANISH_STATUS_POINTS_OUTSIDE. Not negative; default infinity.
+    pub max_distance: f64,
+    /// 1 (default) looks for the nearest place inside the trims, 0 in the whole domain.
+    pub keep_trims: u32,
+    /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+    pub thread_count: u32,
+}
+
+record!(planish_project_options, 32, {
+    struct_size: 0, guesses: 8, max_distance: 16, keep_trims: 24, thread_count: 28,
+});
+
+impl Default for planish_project_options {
+    fn default() -> Self {
+        Self {
+            struct_size: size_of::<Self>(),
+            guesses: std::ptr::null(),
+            max_distance: f64::INFINITY,
+            keep_trims: 1,
+            thread_count: 0,
+        }
+    }
+}
+
+/// Fills options with the defaults.
+///
+/// options: not NULL.
+/// size:    sizeof(planish_project_options).
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_project_options_init(
+    options: *mut planish_project_options,
+    size: usize,
+) -> planish_status {
+    // SAFETY: the caller's promise.
+    guard(|| unsafe { init_options(options, size) })
+}
+
+/// Finds the place on a surface nearest to each point, anywhere on the surface: there is no start to choose,
+/// and no local minimum to fall into.
+///
+/// surface:       not NULL.
+/// points:        count rows of planish_surface_dim() doubles.
+/// count:         number of points; with 0 nothing is done.
+/// options:       NULL for the defaults.
+/// out_uv:        receives count rows u, v; NULL for none.
+/// out_distances: receives count distances; NULL for none.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_POINTS_OUTSIDE (some points are farther than max_distance),
+/// PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_NOT_FINITE (the index is the point),
+/// PLANISH_STATUS_INVALID_ARGUMENT, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOO_LARGE or
+/// PLANISH_STATUS_VERSION.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_surface_project(
+    surface: *const planish_surface,
+    points: *const f64,
+    count: usize,
+    options: *const planish_project_options,
+    out_uv: *mut f64,
+    out_distances: *mut f64,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let surface = deref(surface, "surface")?.any();
+        let given = self::options(options)?;
+        let points = slice(points, array_len::<f64>(count, surface.dim(), "points")?, "points")?;
+        let guesses = match given.guesses.is_null() {
+            true => None,
+            false => Some(copy_rows(given.guesses, count, 2, "guesses", DVec2::from_array)?),
+        };
+        let core = ProjectOptions {
+            guesses: guesses.as_deref(),
+            max_distance: given.max_distance,
+            keep_trims: flag(given.keep_trims, "keep_trims")?,
+        };
+        let pool = Pool::new(thread_count(given.thread_count)?);
+        let out_uv = slice_mut_or_none(out_uv, array_len::<f64>(count, 2, "out_uv")?, "out_uv")?;
+        let out_distances = slice_mut_or_none(out_distances, count, "out_distances")?;
+        let (mut uv, mut distances) = (vec![DVec2::ZERO; count], vec![0.0; count]);
+        let missed = Projector::new(surface)?.project(points, &core, &mut uv, &mut distances, &pool)?;
+        if let Some(out_uv) = out_uv {
+            write_pairs(&uv, out_uv);
+        }
+        if let Some(out_distances) = out_distances {
+            out_distances.copy_from_slice(&distances);
+        }
+        Ok(if missed > 0 { planish_status::PointsOutside } else { planish_status::Ok })
+    })
+}
+
+/// How a surface is compared with a mesh. Fill with planish_deviation_options_init(), then change what you
+/// need.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct planish_deviation_options {
+    /// Set by planish_deviation_options_init().
+    pub struct_size: usize,
+    /// Chord tolerance of the tessellation that is measured back from, in model units; 0 (default) takes 1e-3
+    /// of the surface's diagonal.
+    pub chord_tolerance: f64,
+    /// Longest edge of that tessellation in model units; 0 (default) takes 1e-2 of the mesh's diagonal.
+    /// Smaller holes may be missed.
+    pub max_edge_length: f64,
+    /// 1 (default): only the part of the surface inside its trims counts.
+    pub keep_trims: u32,
+    /// 1 (default): the mesh's parameters, if it has any, are where searches start. The distances are the
+    /// least ones all the same.
+    pub use_parameters: u32,
+    /// 1: measure from the surface to the mesh as well, which notices filled holes and surplus sheets.
+    /// Default 0.
+    pub measure_back: u32,
+    /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+    pub thread_count: u32,
+}
+
+record!(planish_deviation_options, 40, {
+    struct_size: 0, chord_tolerance: 8, max_edge_length: 16, keep_trims: 24, use_parameters: 28,
+    measure_back: 32, thread_count: 36,
+});
+
+impl Default for planish_deviation_options {
+    fn default() -> Self {
+        let core = DeviationOptions::default();
+        Self {
+            struct_size: size_of::<Self>(),
+            chord_tolerance: core.chord_tolerance,
+            max_edge_length: core.max_edge_length,
+            keep_trims: u32::from(core.keep_trims),
+            use_parameters: u32::from(core.use_parameters),
+            measure_back: u32::from(core.measure_back),
+            thread_count: 0,
+        }
+    }
+}
+
+/// Distances between a surface and a mesh, in model units. Set struct_size to
+/// sizeof(planish_deviation_report) before the call; filled as far as that goes, on success only.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default)]
+pub struct planish_deviation_report {
+    /// sizeof(planish_deviation_report) as the caller sees it.
+    pub struct_size: usize,
+    /// Largest distance from a node to its nearest place on the surface.
+    pub max_distance: f64,
+    /// Square root of the mean of its square.
+    pub rms_distance: f64,
+    /// Its mean.
+    pub mean_distance: f64,
+    /// Largest distance from a place on the surface to the mesh; NaN unless measure_back asked for it.
+    pub max_back_distance: f64,
+    /// u of that place; NaN unless asked for.
+    pub worst_back_u: f64,
+    /// v of that place; NaN unless asked for.
+    pub worst_back_v: f64,
+    /// The node farthest from the surface.
+    pub worst_index: usize,
+    /// Places on the surface that were measured back from.
+    pub back_count: usize,
+}
+
+record!(planish_deviation_report, 72, {
+    struct_size: 0, max_distance: 8, rms_distance: 16, mean_distance: 24, max_back_distance: 32,
+    worst_back_u: 40, worst_back_v: 48, worst_index: 56, back_count: 64,
+});
+
+impl From<&DeviationReport> for planish_deviation_report {
+    fn from(report: &DeviationReport) -> Self {
+        Self {
+            struct_size: size_of::<Self>(),
+            max_distance: report.nodes.max,
+            rms_distance: report.nodes.rms,
+            mean_distance: report.nodes.mean,
+            max_back_distance: report.max_back_distance,
+            worst_back_u: report.worst_back_uv.x,
+            worst_back_v: report.worst_back_uv.y,
+            worst_index: report.nodes.worst_index,
+            back_count: report.back_count,
+        }
+    }
+}
+
+/// Fills options with the defaults.
+///
+/// options: not NULL.
+/// size:    sizeof(planish_deviation_options).
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_deviation_options_init(
+    options: *mut planish_deviation_options,
+    size: usize,
+) -> planish_status {
+    // SAFETY: the caller's promise.
+    guard(|| unsafe { init_options(options, size) })
+}
+
+/// Measures how far the nodes of a mesh lie from a surface in space: closest-point distances.
+///
+/// surface:       not NULL, of dimension 3.
+/// mesh:          not NULL.
+/// options:       NULL for the defaults.
+/// out_distances: receives planish_mesh_point_count() distances; NULL for none.
+/// count:         doubles that out_distances has room for.
+/// report:        NULL for none.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, or the
+/// dimension), PLANISH_STATUS_BUFFER_TOO_SMALL, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOPOLOGY or
+/// PLANISH_STATUS_TOO_LARGE (measuring back only), or PLANISH_STATUS_VERSION.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_surface_deviation(
+    surface: *const planish_surface,
+    mesh: *const planish_mesh,
+    options: *const planish_deviation_options,
+    out_distances: *mut f64,
+    count: usize,
+    report: *mut planish_deviation_report,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let surface = deref(surface, "surface")?.any();
+        let mesh = &deref(mesh, "mesh")?.0;
+        let given = self::options(options)?;
+        let report = ReportOut::new(report)?;
+        let needed = mesh.points().len();
+        if !out_distances.is_null() && count < needed {
+            return Err(ArgumentError::TooSmall { name: "out_distances", given: count, needed }.into());
+        }
+        let core = DeviationOptions {
+            keep_trims: flag(given.keep_trims, "keep_trims")?,
+            use_parameters: flag(given.use_parameters, "use_parameters")?,
+            measure_back: flag(given.measure_back, "measure_back")?,
+            chord_tolerance: given.chord_tolerance,
+            max_edge_length: given.max_edge_length,
+        };
+        let pool = Pool::new(thread_count(given.thread_count)?);
+        let result = deviation(surface, mesh, &core, &pool)?;
+        if !out_distances.is_null() {
+            slice_mut(out_distances, needed, "out_distances")?.copy_from_slice(&result.nodes.each);
+        }
+        report.store((&result).into());
+        Ok(())
+    })
+}

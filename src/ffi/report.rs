@@ -1,0 +1,245 @@
+//! What fits say of themselves, and what they hand back.
+
+use super::arguments::{ArgumentError, ReportOut, out, slice_mut_or_none};
+use super::curve::planish_curve;
+use super::planish_status;
+use super::surface::{Family, planish_surface};
+use crate::fit::report::{FitReport, Remarks, StopReason};
+use crate::fit::tessellation::{CurveFit, TensorFit};
+use glam::DVec2;
+use std::mem::MaybeUninit;
+
+/// Things worth knowing about a map or a fit: the bits of `remarks` in reports, several may hold.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum planish_remark {
+    /// The surface misses the tolerance.
+    ToleranceNotMet = 1,
+    /// The fit ended because refinement no longer lowered the error.
+    Stagnated = 2,
+    /// Some triangles are turned over or flat in the parameter plane: the surface may fold there.
+    FoldedParameters = 4,
+    /// The mesh had no parameters and was parameterized first.
+    Parameterized = 8,
+    /// Given parameters were uneven and have been regularized.
+    Regularized = 16,
+    /// The tolerance was below what double precision can keep and was raised.
+    ToleranceRaised = 32,
+    /// Some cells hold no data; the surface is extrapolated there.
+    EmptyCells = 64,
+    /// Between the nodes the surface departs from the facets by more than tolerance and facet sagitta.
+    RoughBetweenNodes = 128,
+    /// The map is so compressed that one chart is the wrong tool: cut the mesh into several.
+    SegmentationAdvised = 256,
+    /// The data do not determine the beam energy's null space; the plate energy was used instead.
+    PlateEnergyUsed = 512,
+    /// Holes were closed by fans of triangles while the map was computed.
+    HolesFilled = 65536,
+    /// Triangles without area in space were left out of the map's weights.
+    ZeroAreaTriangles = 131072,
+}
+
+/// Why a fit ended.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum planish_stop_reason {
+    /// The tolerance is met.
+    ToleranceMet = 0,
+    /// The caller fixed the grid, so there was nothing to refine.
+    FixedGrid = 1,
+    /// The limit on grid or coefficients is reached.
+    Limit = 2,
+    /// There would be more coefficients than data.
+    DataExhausted = 3,
+    /// Refinement no longer lowered the error.
+    Stagnated = 4,
+}
+
+impl From<StopReason> for planish_stop_reason {
+    fn from(reason: StopReason) -> Self {
+        match reason {
+            StopReason::ToleranceMet => Self::ToleranceMet,
+            StopReason::FixedGrid => Self::FixedGrid,
+            StopReason::Limit => Self::Limit,
+            StopReason::DataExhausted => Self::DataExhausted,
+            StopReason::Stagnated => Self::Stagnated,
+        }
+    }
+}
+
+/// What a fit did and how good it is. Set struct_size to sizeof(planish_fit_report) before the call; the
+/// report is filled as far as that goes, on success only. Errors and lengths are in model units (for a field,
+/// in units of its values) and measured on the finished surface.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default)]
+pub struct planish_fit_report {
+    /// sizeof(planish_fit_report) as the caller sees it.
+    pub struct_size: usize,
+    /// Largest distance between a datum and the surface at the datum's (u,v): what the tolerance bounds.
+    pub max_error: f64,
+    /// Square root of the mean of its square.
+    pub rms_error: f64,
+    /// Its mean.
+    pub mean_error: f64,
+    /// The tolerance that was kept or missed.
+    pub tolerance: f64,
+    /// Diagonal of the data's bounding box: an error divided by it is relative.
+    pub diagonal: f64,
+    /// Largest distance from a triangle's centroid or an edge's middle to the surface's tangent plane at the
+    /// mean of the nodes' (u,v) (for a field: to its value there); 0 for data without triangles.
+    pub max_interior_error: f64,
+    /// The part of max_interior_error that flat facets on a curved shape explain.
+    pub facet_sagitta: f64,
+    /// Largest closest-point distance from a node to the surface; NaN unless measure_distance asked for it.
+    pub max_distance: f64,
+    /// Weight of the smoothing energy in the surface returned.
+    pub smoothing: f64,
+    /// L2 stretch of the map: 1 is an isometry; 0 for data without triangles.
+    pub stretch: f64,
+    /// Wall time spent on the map, in seconds.
+    pub parameterize_seconds: f64,
+    /// Wall time in all, in seconds.
+    pub seconds: f64,
+    /// The datum with the largest error, counted from 0.
+    pub worst_index: usize,
+    /// Different knots along u.
+    pub grid_u: usize,
+    /// Different knots along v.
+    pub grid_v: usize,
+    /// Unknowns of the fit. The surface may have more control points, which these determine.
+    pub coefficient_count: usize,
+    /// Cells without data inside the trims' box.
+    pub empty_cell_count: usize,
+    /// Triangles that are turned over or flat in the parameter plane.
+    pub flipped_count: usize,
+    /// Everything worth knowing: bits of planish_remark.
+    pub remarks: u64,
+    /// Rounds of fitting and measuring.
+    pub pass_count: u32,
+    /// Why the fit ended: a planish_stop_reason.
+    pub stop_reason: u32,
+}
+
+record!(planish_fit_report, 168, {
+    struct_size: 0, max_error: 8, rms_error: 16, mean_error: 24, tolerance: 32, diagonal: 40,
+    max_interior_error: 48, facet_sagitta: 56, max_distance: 64, smoothing: 72, stretch: 80,
+    parameterize_seconds: 88, seconds: 96, worst_index: 104, grid_u: 112, grid_v: 120,
+    coefficient_count: 128, empty_cell_count: 136, flipped_count: 144, remarks: 152, pass_count: 160,
+    stop_reason: 164,
+});
+
+impl From<&FitReport> for planish_fit_report {
+    fn from(report: &FitReport) -> Self {
+        Self {
+            struct_size: size_of::<Self>(),
+            max_error: report.max_error,
+            rms_error: report.rms_error,
+            mean_error: report.mean_error,
+            tolerance: report.tolerance,
+            diagonal: report.diagonal,
+            max_interior_error: report.max_interior_error,
+            facet_sagitta: report.facet_sagitta,
+            max_distance: report.max_distance,
+            smoothing: report.smoothing,
+            stretch: report.stretch,
+            parameterize_seconds: report.parameterize_seconds,
+            seconds: report.seconds,
+            worst_index: report.worst_index,
+            grid_u: report.grid_u,
+            grid_v: report.grid_v,
+            coefficient_count: report.coefficient_count,
+            empty_cell_count: report.empty_cell_count,
+            flipped_count: report.flipped_count,
+            remarks: report.remarks.0,
+            pass_count: u32::try_from(report.passes).unwrap_or(u32::MAX),
+            stop_reason: planish_stop_reason::from(report.stop) as u32,
+        }
+    }
+}
+
+/// The bits of a fit's remarks are those of the ABI.
+const _: () = {
+    assert!(Remarks::TOLERANCE_NOT_MET.0 == planish_remark::ToleranceNotMet as u64);
+    assert!(Remarks::STAGNATED.0 == planish_remark::Stagnated as u64);
+    assert!(Remarks::FOLDED_PARAMETERS.0 == planish_remark::FoldedParameters as u64);
+    assert!(Remarks::PARAMETERIZED.0 == planish_remark::Parameterized as u64);
+    assert!(Remarks::REGULARIZED.0 == planish_remark::Regularized as u64);
+    assert!(Remarks::TOLERANCE_RAISED.0 == planish_remark::ToleranceRaised as u64);
+    assert!(Remarks::EMPTY_CELLS.0 == planish_remark::EmptyCells as u64);
+    assert!(Remarks::ROUGH_BETWEEN_NODES.0 == planish_remark::RoughBetweenNodes as u64);
+    assert!(Remarks::SEGMENTATION_ADVISED.0 == planish_remark::SegmentationAdvised as u64);
+    assert!(Remarks::PLATE_ENERGY_USED.0 == planish_remark::PlateEnergyUsed as u64);
+};
+
+/// The gravest remark has the say. A fold may spoil any surface, so it comes before a missed tolerance, and
+/// that before the reason why it was missed.
+pub(super) fn gravest(remarks: u64) -> planish_status {
+    let by_gravity = [
+        (planish_remark::FoldedParameters, planish_status::FoldedParameters),
+        (planish_remark::ToleranceNotMet, planish_status::ToleranceNotMet),
+        (planish_remark::Stagnated, planish_status::Stagnated),
+    ];
+    let found = by_gravity.into_iter().find(|&(remark, _)| remarks & remark as u64 != 0);
+    found.map_or(planish_status::Ok, |(_, status)| status)
+}
+
+/// Where the caller wants the results of a fit: of a surface or, as `T`, of a curve.
+pub(super) struct FitOutputs<'a, T> {
+    handle: &'a mut MaybeUninit<*mut T>,
+    report: ReportOut<planish_fit_report>,
+    parameters: Option<&'a mut [f64]>,
+    errors: Option<&'a mut [f64]>,
+}
+
+impl<T> FitOutputs<'_, T> {
+    /// # Safety
+    /// Each is NULL or as the header says, for `count` data.
+    pub unsafe fn new(
+        handle: (*mut *mut T, &'static str),
+        report: *mut planish_fit_report,
+        parameters: *mut f64,
+        errors: *mut f64,
+        count: usize,
+    ) -> Result<Self, ArgumentError> {
+        // SAFETY: the caller's promise.
+        unsafe {
+            Ok(Self {
+                handle: out(handle.0, handle.1)?,
+                report: ReportOut::new(report)?,
+                parameters: slice_mut_or_none(parameters, count.saturating_mul(2), "out_parameters")?,
+                errors: slice_mut_or_none(errors, count, "out_errors")?,
+            })
+        }
+    }
+
+    /// Hands everything over.
+    fn store(self, uv: &[DVec2], errors: &[f64], report: &FitReport, handle: *mut T) -> planish_status {
+        if let Some(out) = self.parameters {
+            write_pairs(uv, out);
+        }
+        if let Some(out) = self.errors {
+            out.copy_from_slice(errors);
+        }
+        self.report.store(report.into());
+        self.handle.write(handle);
+        gravest(report.remarks.0)
+    }
+}
+
+impl FitOutputs<'_, planish_surface> {
+    pub fn store_surface(self, fit: TensorFit) -> planish_status {
+        let handle = planish_surface::into_raw(Family::Tensor(fit.surface));
+        self.store(&fit.parameters, &fit.errors, &fit.report, handle)
+    }
+}
+
+impl FitOutputs<'_, planish_curve> {
+    pub fn store_curve(self, fit: CurveFit) -> planish_status {
+        self.store(&[], &fit.errors, &fit.report, planish_curve::into_raw(fit.curve))
+    }
+}
+
+/// Pairs as plain numbers.
+pub(super) fn write_pairs(pairs: &[DVec2], out: &mut [f64]) {
+    pairs.iter().zip(out.chunks_exact_mut(2)).for_each(|(pair, out)| pair.write_to_slice(out));
+}

@@ -1,0 +1,535 @@
+//! Tensor product B-spline surfaces: fits, parts in and out.
+
+use super::arguments::{
+    ArgumentError, Record, array_len, choice, copy, copy_rows, deref, flag, init_options, options, out,
+    rows_mut, slice,
+};
+use super::guard::{Failure, guard};
+use super::mesh::planish_mesh;
+use super::progress::with_control;
+use super::report::{FitOutputs, planish_fit_report};
+use super::surface::{Family, planish_surface, query_surface};
+use super::{planish_parameterize_options, planish_progress, planish_status};
+use crate::Control;
+use crate::fit::report::{Tolerance, ToleranceScale};
+use crate::fit::tessellation::{
+    Ends, Energy, FitError, Method, Regularize, TensorFit, TensorOptions, fit_field, fit_mesh, fit_points,
+};
+use crate::knots::KnotVector;
+use crate::surface::tensor::{Axis, TensorError, TensorSurface};
+use glam::DVec2;
+use std::ffi::c_void;
+
+/// A parameter direction.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum planish_axis {
+    /// The first parameter.
+    U = 0,
+    /// The second parameter.
+    V = 1,
+}
+
+/// What a tolerance is measured in.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum planish_tolerance_scale {
+    /// The diagonal of the data's bounding box; for a field, of the box of its values.
+    Relative = 0,
+    /// Model units.
+    Absolute = 1,
+}
+
+/// Which equations determine a tensor surface on a grid.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum planish_tensor_method {
+    /// Least squares in the spline space.
+    LeastSquares = 0,
+    /// The equations of Dannenhoffer and Haimes, 2009: less accurate on fine grids, for comparison.
+    Ferguson = 1,
+}
+
+/// What happens at the ends of the knots.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum planish_ends {
+    /// Zero curvature across the ends.
+    Natural = 0,
+    /// Two more unknowns a direction.
+    Free = 1,
+}
+
+/// Which second derivatives cost energy.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum planish_energy {
+    /// Elastic beams along the knot lines.
+    Beam = 0,
+    /// An elastic plate over the cells.
+    Plate = 1,
+}
+
+/// What to do with parameters that came with a mesh.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum planish_regularize {
+    /// Even them out if they are uneven and it helps.
+    Auto = 0,
+    /// Take them as they are.
+    Never = 1,
+    /// Even them out.
+    Always = 2,
+}
+
+/// Options of tensor fits. Fill with planish_tensor_options_init(), then change what you need.
+///
+/// A datum is a node of the mesh, or a point.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct planish_tensor_options {
+    /// Set by planish_tensor_options_init().
+    pub struct_size: usize,
+    /// The largest error allowed at the data, positive, measured in tolerance_scale. Default 1e-3.
+    pub tolerance: f64,
+    /// Weight of the bending energy; 0 (default) takes the largest of 1e-3, 1e-4, 1e-5, 1e-6 that meets the
+    /// tolerance (for PLANISH_TENSOR_METHOD_FERGUSON 1e-3).
+    pub smoothing: f64,
+    /// How far the knots reach beyond the data, as a fraction of the data's range, 0 to 10. Default 0.1.
+    pub buffer: f64,
+    /// How a mesh without parameters gets them; NULL (default) for the defaults. Of this record progress, user
+    /// and thread_count are not looked at, and node_weights must be NULL. Not used for points.
+    pub parameterize: *const planish_parameterize_options,
+    /// A positive weight for each datum; NULL (default) for all 1.
+    pub weights: *const f64,
+    /// Hears of the progress and may cancel; NULL (default) for nobody.
+    pub progress: planish_progress,
+    /// Handed to progress as it is.
+    pub user: *mut c_void,
+    /// Receives the (u,v) at which the error of each datum is measured: two numbers for each datum, or NULL
+    /// (default). Written on success only.
+    pub out_parameters: *mut f64,
+    /// Receives the error of each datum in model units: one number for each datum, or NULL (default). Written
+    /// on success only.
+    pub out_errors: *mut f64,
+    /// Most unknowns of one grid, at least 4. Default 66049.
+    pub max_coefficients: usize,
+    /// A planish_tolerance_scale. Default PLANISH_TOLERANCE_SCALE_RELATIVE.
+    pub tolerance_scale: u32,
+    /// A planish_tensor_method. Default PLANISH_TENSOR_METHOD_LEAST_SQUARES.
+    pub method: u32,
+    /// A planish_ends. Default PLANISH_ENDS_NATURAL.
+    pub ends: u32,
+    /// A planish_energy. Default PLANISH_ENERGY_BEAM.
+    pub energy: u32,
+    /// A planish_regularize. Default PLANISH_REGULARIZE_AUTO.
+    pub regularize: u32,
+    /// Most knots along one direction, at least 2. Default 257.
+    pub max_grid: u32,
+    /// Knots along u to use without refinement, 2 to 8193; 0 (default, then grid_v too) refines.
+    pub grid_u: u32,
+    /// Knots along v to use without refinement, 2 to 8193; 0 (default, then grid_u too) refines.
+    pub grid_v: u32,
+    /// Sweeps of parameter correction on each grid: data move to their foot points, then the fit is repeated.
+    /// Default 0.
+    pub correction_sweeps: u32,
+    /// 1 measures the closest-point distance of the nodes for the report. Default 0.
+    pub measure_distance: u32,
+    /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+    pub thread_count: u32,
+    /// 0.
+    pub reserved: u32,
+}
+
+record!(planish_tensor_options, 136, {
+    struct_size: 0, tolerance: 8, smoothing: 16, buffer: 24, parameterize: 32, weights: 40, progress: 48,
+    user: 56, out_parameters: 64, out_errors: 72, max_coefficients: 80, tolerance_scale: 88, method: 92,
+    ends: 96, energy: 100, regularize: 104, max_grid: 108, grid_u: 112, grid_v: 116, correction_sweeps: 120,
+    measure_distance: 124, thread_count: 128, reserved: 132,
+});
+
+impl Default for planish_tensor_options {
+    fn default() -> Self {
+        let core = TensorOptions::default();
+        Self {
+            struct_size: size_of::<Self>(),
+            tolerance: core.tolerance.value,
+            smoothing: core.smoothing,
+            buffer: core.buffer,
+            parameterize: std::ptr::null(),
+            weights: std::ptr::null(),
+            progress: None,
+            user: std::ptr::null_mut(),
+            out_parameters: std::ptr::null_mut(),
+            out_errors: std::ptr::null_mut(),
+            max_coefficients: core.max_coefficients,
+            tolerance_scale: planish_tolerance_scale::Relative as u32,
+            method: planish_tensor_method::LeastSquares as u32,
+            ends: planish_ends::Natural as u32,
+            energy: planish_energy::Beam as u32,
+            regularize: planish_regularize::Auto as u32,
+            max_grid: core.max_grid as u32,
+            grid_u: 0,
+            grid_v: 0,
+            correction_sweeps: core.correction_sweeps as u32,
+            measure_distance: core.measure_distance.into(),
+            thread_count: 0,
+            reserved: 0,
+        }
+    }
+}
+
+impl planish_tensor_options {
+    /// # Safety
+    /// The pointers are NULL or as the header says, for `count` data, until the options are no longer used.
+    pub(super) unsafe fn to_core<'a>(self, count: usize) -> Result<TensorOptions<'a>, ArgumentError> {
+        if self.reserved != 0 {
+            return Err(ArgumentError::Reserved { record: Self::NAME, given: self.reserved });
+        }
+        let scales = [ToleranceScale::Relative, ToleranceScale::Absolute];
+        let scale = choice(self.tolerance_scale, &scales, "tolerance_scale")?;
+        // SAFETY: the caller's promise.
+        let parameterize: planish_parameterize_options = unsafe { options(self.parameterize) }?;
+        if !parameterize.node_weights.is_null() {
+            return Err(ArgumentError::NotNull { name: "node_weights" });
+        }
+        let weights = match self.weights {
+            at if at.is_null() => None,
+            // SAFETY: the caller's promise.
+            at => Some(unsafe { slice(at, count, "weights") }?),
+        };
+        Ok(TensorOptions {
+            tolerance: Tolerance { value: self.tolerance, scale },
+            method: choice(self.method, &[Method::LeastSquares, Method::Ferguson], "method")?,
+            ends: choice(self.ends, &[Ends::Natural, Ends::Free], "ends")?,
+            energy: choice(self.energy, &[Energy::Beam, Energy::Plate], "energy")?,
+            smoothing: self.smoothing,
+            buffer: self.buffer,
+            max_grid: self.max_grid as usize,
+            max_coefficients: self.max_coefficients,
+            fixed_grid: match [self.grid_u, self.grid_v] {
+                [0, 0] => None,
+                grid => Some(grid.map(|count| count as usize)),
+            },
+            correction_sweeps: self.correction_sweeps as usize,
+            regularize: choice(
+                self.regularize,
+                &[Regularize::Auto, Regularize::Never, Regularize::Always],
+                "regularize",
+            )?,
+            parameterize: parameterize.to_core()?,
+            weights,
+            measure_distance: flag(self.measure_distance, "measure_distance")?,
+        })
+    }
+}
+
+/// Runs a fit of `count` data.
+///
+/// # Safety
+/// The pointers are NULL or as the header says.
+unsafe fn fit(
+    count: usize,
+    options: *const planish_tensor_options,
+    out_surface: *mut *mut planish_surface,
+    out_report: *mut planish_fit_report,
+    method: impl FnOnce(&TensorOptions, &mut Control) -> Result<TensorFit, FitError>,
+) -> Result<planish_status, Failure> {
+    // SAFETY: the caller's promises.
+    unsafe {
+        let given = self::options(options)?;
+        let (parameters, errors) = (given.out_parameters, given.out_errors);
+        let outputs = FitOutputs::new((out_surface, "out_surface"), out_report, parameters, errors, count)?;
+        let options = given.to_core(count)?;
+        let fit = with_control(given.thread_count, given.progress, given.user, |control| {
+            method(&options, control)
+        })??;
+        Ok(outputs.store_surface(fit))
+    }
+}
+
+/// Fills options with the defaults.
+///
+/// options:     struct_size writable bytes.
+/// struct_size: sizeof(planish_tensor_options).
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_tensor_options_init(
+    options: *mut planish_tensor_options,
+    struct_size: usize,
+) -> planish_status {
+    // SAFETY: the caller's promise.
+    guard(|| unsafe { init_options(options, struct_size) })
+}
+
+/// Fits a bicubic surface to the shape of a mesh, within a tolerance if the limits allow it. A mesh without
+/// parameters is parameterized first, which changes nothing in the mesh. The boundary loops become trims.
+///
+/// mesh:        not NULL.
+/// options:     NULL for the defaults.
+/// out_surface: receives a new surface of dim 3; destroy with planish_surface_free().
+/// out_report:  receives what the fit did and how good it is; NULL for no report.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_FOLDED_PARAMETERS, PLANISH_STATUS_TOLERANCE_NOT_MET,
+/// PLANISH_STATUS_STAGNATED (all three with the best surface found) or an error: PLANISH_STATUS_NULL_POINTER,
+/// PLANISH_STATUS_INVALID_ARGUMENT (an option, or fewer than 3 data), PLANISH_STATUS_NOT_FINITE (a weight; the
+/// index is the datum), PLANISH_STATUS_DEGENERATE (all data have the same u or the same v),
+/// PLANISH_STATUS_SINGULAR (the data do not determine a surface), PLANISH_STATUS_VERSION or
+/// PLANISH_STATUS_CANCELLED; for a mesh without parameters also what planish_mesh_parameterize() returns.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_tensor_fit(
+    mesh: *const planish_mesh,
+    options: *const planish_tensor_options,
+    out_surface: *mut *mut planish_surface,
+    out_report: *mut planish_fit_report,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let mesh = &deref(mesh, "mesh")?.0;
+        let count = mesh.points().len();
+        fit(count, options, out_surface, out_report, |options, control| fit_mesh(mesh, options, control))
+    })
+}
+
+/// Fits a bicubic surface to values at scattered parameters.
+///
+/// uv:          count rows of u, v.
+/// values:      count rows of dim numbers.
+/// count:       at least 3.
+/// dim:         numbers of a value, at least 1.
+/// options:     NULL for the defaults; parameterize and regularize are not used.
+/// out_surface: receives a new surface; destroy with planish_surface_free().
+/// out_report:  receives what the fit did and how good it is; NULL for no report.
+/// Returns what planish_tensor_fit() returns; PLANISH_STATUS_NOT_FINITE also for uv and values (the index is
+/// the datum), PLANISH_STATUS_TOO_LARGE (count times dim) and PLANISH_STATUS_OUT_OF_MEMORY.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_tensor_fit_points(
+    uv: *const f64,
+    values: *const f64,
+    count: usize,
+    dim: usize,
+    options: *const planish_tensor_options,
+    out_surface: *mut *mut planish_surface,
+    out_report: *mut planish_fit_report,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let uv = copy_rows(uv, count, 2, "uv", DVec2::from_array)?;
+        let values = slice(values, array_len::<f64>(count, dim, "values")?, "values")?;
+        fit(count, options, out_surface, out_report, |options, control| {
+            fit_points(&uv, values, dim, options, control)
+        })
+    })
+}
+
+/// Fits a bicubic surface to values on the nodes of a mesh, over the same parameters as its shape.
+///
+/// mesh:        not NULL.
+/// values:      count rows of dim numbers.
+/// count:       planish_mesh_point_count().
+/// dim:         numbers of a value, at least 1.
+/// options:     NULL for the defaults.
+/// out_surface: receives a new surface; destroy with planish_surface_free().
+/// out_report:  receives what the fit did and how good it is; NULL for no report.
+/// Returns what planish_tensor_fit() returns; PLANISH_STATUS_INVALID_ARGUMENT also for count,
+/// PLANISH_STATUS_NOT_FINITE also for values (the index is the node), and PLANISH_STATUS_TOO_LARGE.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_tensor_fit_field(
+    mesh: *const planish_mesh,
+    values: *const f64,
+    count: usize,
+    dim: usize,
+    options: *const planish_tensor_options,
+    out_surface: *mut *mut planish_surface,
+    out_report: *mut planish_fit_report,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let mesh = &deref(mesh, "mesh")?.0;
+        let expected = mesh.points().len();
+        if count != expected {
+            return Err(FitError::Count { what: "the nodes", count, expected }.into());
+        }
+        let values = slice(values, array_len::<f64>(count, dim, "values")?, "values")?;
+        fit(count, options, out_surface, out_report, |options, control| {
+            fit_field(mesh, values, dim, options, control)
+        })
+    })
+}
+
+/// Makes a tensor surface from its parts, which are copied.
+///
+/// dim:            numbers of a control point, at least 1.
+/// degree_u:       1 to 9.
+/// degree_v:       1 to 9.
+/// knots_u:        knot_count_u knots that do not decrease, none more than degree_u + 1 times.
+/// knot_count_u:   at least 2 * (degree_u + 1); there are knot_count_u - degree_u - 1 control points along u.
+/// knots_v:        knot_count_v knots that do not decrease, none more than degree_v + 1 times.
+/// knot_count_v:   at least 2 * (degree_v + 1); there are knot_count_v - degree_v - 1 control points along v.
+/// control_points: rows of dim numbers, v running fastest, not multiplied by weights.
+/// weights:        one positive number for each control point in the same order; NULL for a polynomial surface.
+/// out_surface:    receives a new surface; destroy with planish_surface_free().
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (dim, a degree, a
+/// count, a knot, a weight; the index is the knot or the control point), PLANISH_STATUS_NOT_FINITE (likewise),
+/// PLANISH_STATUS_DEGENERATE (the knots span no interval), PLANISH_STATUS_TOO_LARGE or
+/// PLANISH_STATUS_OUT_OF_MEMORY.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_tensor_new(
+    dim: usize,
+    degree_u: u32,
+    degree_v: u32,
+    knots_u: *const f64,
+    knot_count_u: usize,
+    knots_v: *const f64,
+    knot_count_v: usize,
+    control_points: *const f64,
+    weights: *const f64,
+    out_surface: *mut *mut planish_surface,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let out_surface = out(out_surface, "out_surface")?;
+        if dim == 0 {
+            return Err(TensorError::Dimension.into());
+        }
+        let knots = |at, count, degree: u32, axis| -> Result<KnotVector, Failure> {
+            let name = if axis == Axis::U { "knots_u" } else { "knots_v" };
+            let knots = KnotVector::new(copy(at, count, name)?, degree as usize);
+            Ok(knots.map_err(|error| TensorError::Knots { axis, error })?)
+        };
+        let knots_u = knots(knots_u, knot_count_u, degree_u, Axis::U)?;
+        let knots_v = knots(knots_v, knot_count_v, degree_v, Axis::V)?;
+        let count = array_len::<f64>(knots_u.basis_count(), knots_v.basis_count(), "control_points")?;
+        let len = array_len::<f64>(count, dim, "control_points")?;
+        let control_points = copy(control_points, len, "control_points")?;
+        let weights = if weights.is_null() { None } else { Some(copy(weights, count, "weights")?) };
+        let tensor = TensorSurface::new(dim, knots_u, knots_v, control_points, weights)?;
+        out_surface.write(planish_surface::into_raw(Family::Tensor(tensor)));
+        Ok(())
+    })
+}
+
+fn axis(given: u32) -> Result<Axis, ArgumentError> {
+    choice(given, &[Axis::U, Axis::V], "axis")
+}
+
+/// Degree of a tensor surface; 0 for NULL, another family or an axis that does not exist.
+///
+/// axis: a planish_axis.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_tensor_degree(surface: *const planish_surface, axis: u32) -> u32 {
+    // SAFETY: the caller's promise.
+    unsafe {
+        query_surface(surface, |surface| Ok(surface.tensor()?.knots(self::axis(axis)?).degree() as u32))
+    }
+}
+
+/// Number of knots of a tensor surface, each as often as it occurs; 0 for NULL, another family or an axis that
+/// does not exist.
+///
+/// axis: a planish_axis.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_tensor_knot_count(surface: *const planish_surface, axis: u32) -> usize {
+    // SAFETY: the caller's promise.
+    unsafe { query_surface(surface, |surface| Ok(surface.tensor()?.knots(self::axis(axis)?).knots().len())) }
+}
+
+/// Number of control points of a tensor surface along one axis; 0 for NULL, another family or an axis that does
+/// not exist. planish_surface_coefficient_count() is the product of both.
+///
+/// axis: a planish_axis.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_tensor_control_point_count(
+    surface: *const planish_surface,
+    axis: u32,
+) -> usize {
+    // SAFETY: the caller's promise.
+    unsafe { query_surface(surface, |surface| Ok(surface.tensor()?.knots(self::axis(axis)?).basis_count())) }
+}
+
+/// Copies the knots of a tensor surface.
+///
+/// surface:   not NULL.
+/// axis:      a planish_axis.
+/// out_knots: receives planish_tensor_knot_count() knots.
+/// count:     knots that out_knots has room for.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the axis),
+/// PLANISH_STATUS_WRONG_KIND or PLANISH_STATUS_BUFFER_TOO_SMALL.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_tensor_copy_knots(
+    surface: *const planish_surface,
+    axis: u32,
+    out_knots: *mut f64,
+    count: usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let knots = deref(surface, "surface")?.tensor()?.knots(self::axis(axis)?).knots();
+        rows_mut(out_knots, count, knots.len(), 1, "out_knots")?.copy_from_slice(knots);
+        Ok(())
+    })
+}
+
+/// Copies the control points of a tensor surface.
+///
+/// surface:            not NULL.
+/// out_control_points: receives planish_surface_coefficient_count() rows of dim numbers, v running fastest, not
+///                     multiplied by weights.
+/// count:              rows that out_control_points has room for.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
+/// PLANISH_STATUS_BUFFER_TOO_SMALL.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_tensor_copy_control_points(
+    surface: *const planish_surface,
+    out_control_points: *mut f64,
+    count: usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let surface = deref(surface, "surface")?;
+        let (tensor, any) = (surface.tensor()?, surface.any());
+        let needed = any.coefficient_count();
+        let rows = rows_mut(out_control_points, count, needed, any.dim(), "out_control_points")?;
+        rows.copy_from_slice(tensor.control_points());
+        Ok(())
+    })
+}
+
+/// 1 if a tensor surface has weights, else 0; 0 for NULL and other families.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_tensor_has_weights(surface: *const planish_surface) -> u32 {
+    // SAFETY: the caller's promise.
+    unsafe { query_surface(surface, |surface| Ok(surface.tensor()?.weights().is_some().into())) }
+}
+
+/// Copies the weights of a tensor surface; all are 1 if it is polynomial.
+///
+/// surface:     not NULL.
+/// out_weights: receives planish_surface_coefficient_count() weights, in the order of the control points.
+/// count:       weights that out_weights has room for.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
+/// PLANISH_STATUS_BUFFER_TOO_SMALL.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_tensor_copy_weights(
+    surface: *const planish_surface,
+    out_weights: *mut f64,
+    count: usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let surface = deref(surface, "surface")?;
+        let tensor = surface.tensor()?;
+        let out_weights = rows_mut(out_weights, count, surface.any().coefficient_count(), 1, "out_weights")?;
+        match tensor.weights() {
+            Some(weights) => out_weights.copy_from_slice(weights),
+            None => out_weights.fill(1.0),
+        }
+        Ok(())
+    })
+}
