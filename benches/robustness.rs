@@ -9,6 +9,7 @@ use planish::fit::report::{Remarks, Tolerance};
 use planish::fit::tessellation::{TensorOptions, fit_mesh};
 use planish::mesh::Mesh;
 use planish::samples::{Random, grid};
+use std::f64::consts::TAU;
 use std::time::Instant;
 
 const SURFACES: u64 = 500;
@@ -88,7 +89,7 @@ fn surface(seed: u64) -> Mesh {
     let bend = 2.0 * random.unit();
     let (places, triangles) = grid(counts, 0.25, seed, keep);
     let points = places.iter().map(|p| {
-        let z = height * (6.28 * waves.x * p.x).sin() * (6.28 * waves.y * p.y).cos();
+        let z = height * (TAU * waves.x * p.x).sin() * (TAU * waves.y * p.y).cos();
         let angle = bend * (p.x - 0.5);
         // a sheet bent about a cylinder, with waves along its normal
         let radius = 1.0 / bend.max(1e-3) + z;

@@ -161,7 +161,7 @@ impl KnotVector {
     /// The span `k` with `t_k <= u < t_{k+1}`; the first or last span beyond the ends of the domain,
     /// and the last at its end. The basis functions `k - degree ..= k` are the ones not zero there.
     pub fn span(&self, u: f64) -> usize {
-        self.finder.find(&self.knots, u)
+        self.finder.find(u)
     }
 
     /// The spans of positive length in the domain, in order.
@@ -176,7 +176,7 @@ impl KnotVector {
 
     /// How many spans of positive length lie before the one of `u`.
     pub fn rank_at(&self, u: f64) -> usize {
-        self.finder.rank_at(&self.knots, u)
+        self.finder.rank_at(u)
     }
 
     /// The different knots of the domain, in order.
@@ -204,13 +204,15 @@ struct SpanFinder {
     buckets_per_unit: f64,
     /// The spans of positive length; a rank is a place in this list.
     spans: Vec<u32>,
+    /// The begins of the spans, and infinity.
+    starts: Vec<f64>,
     /// The rank at the begin of each bucket, and the last rank at the end.
     first_rank: Vec<u32>,
 }
 
 impl SpanFinder {
-    /// Buckets per span: with two, a uniform knot vector needs at most one comparison.
-    const BUCKETS_PER_SPAN: usize = 2;
+    /// Buckets per span: with four, one comparison is nearly always enough.
+    const BUCKETS_PER_SPAN: usize = 4;
 
     fn new(knots: &[f64], degree: usize) -> Self {
         let end = knots.len() - degree - 1;
@@ -228,23 +230,31 @@ impl SpanFinder {
             }
         }
         first_rank.resize(bucket_count + 1, spans.len().saturating_sub(1) as u32);
-        Self { start, buckets_per_unit, spans, first_rank }
+        let starts = spans.iter().map(|&k| knots[k as usize]).chain([f64::INFINITY]).collect();
+        Self { start, buckets_per_unit, spans, starts, first_rank }
     }
 
-    fn find(&self, knots: &[f64], u: f64) -> usize {
-        self.spans[self.rank_at(knots, u)] as usize
+    fn find(&self, u: f64) -> usize {
+        self.spans[self.rank_at(u)] as usize
     }
 
-    fn rank_at(&self, knots: &[f64], u: f64) -> usize {
+    #[inline]
+    fn rank_at(&self, u: f64) -> usize {
         // a negative or NaN position becomes bucket 0
         let bucket = ((u - self.start) * self.buckets_per_unit) as usize;
         let Some(next) = self.first_rank.get(bucket + 1) else {
             return self.first_rank[self.first_rank.len() - 1] as usize;
         };
-        let (mut low, mut high) = (self.first_rank[bucket] as usize, *next as usize);
+        // an addition in place of a branch that would be guessed wrong half of the time
+        let first = self.first_rank[bucket] as usize;
+        let rank = first + usize::from(self.starts[first + 1] <= u);
+        if self.starts[rank + 1] <= u { self.search(rank + 1, *next as usize, u) } else { rank }
+    }
+
+    fn search(&self, mut low: usize, mut high: usize, u: f64) -> usize {
         while low < high {
             let middle = (low + high).div_ceil(2);
-            if knots[self.spans[middle] as usize] <= u { low = middle } else { high = middle - 1 }
+            if self.starts[middle] <= u { low = middle } else { high = middle - 1 }
         }
         low
     }

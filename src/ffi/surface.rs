@@ -11,8 +11,8 @@ use super::report::write_pairs;
 use super::status::query;
 use crate::control::Pool;
 use crate::surface::evaluate::{
-    FLAG_IN_BUFFER, FLAG_NO_NORMAL, FLAG_OUTSIDE_DOMAIN, FLAG_OUTSIDE_TRIMS, OutsideRule, Points, Quantity,
-    evaluate,
+    FLAG_IN_BUFFER, FLAG_NO_NORMAL, FLAG_OUTSIDE_DOMAIN, FLAG_OUTSIDE_TRIMS, Output, OutsideRule, Points,
+    Quantity, evaluate,
 };
 use crate::surface::tensor::TensorSurface;
 use crate::surface::{Domain, Kind, MAX_DERIVATIVE, Surface, Trims};
@@ -187,13 +187,14 @@ unsafe fn eval(
     let rules = [OutsideRule::Fail, OutsideRule::Flag, OutsideRule::Extrapolate];
     let rule = choice(options.outside, &rules, "outside")?;
     let width = quantity.width(surface.dim());
-    let out_stride = stride(options.out_stride, width, "out_stride")?;
+    let stride = stride(options.out_stride, width, "out_stride")?;
     let pool = Pool::new(thread_count(options.thread_count)?);
-    let len = strided_len::<f64>(count, out_stride, width, name)?;
+    let len = strided_len::<f64>(count, stride, width, name)?;
     // SAFETY: the caller's promise.
-    let (out, flags) =
+    let (rows, flags) =
         unsafe { (slice_mut(out, len, name)?, slice_mut_or_none(options.out_flags, count, "out_flags")?) };
-    let outside = evaluate(surface, quantity, points, rule, out, out_stride, flags, &pool)?;
+    let flags = flags.unwrap_or(&mut []);
+    let outside = evaluate(surface, quantity, points, rule, Output { rows, stride, flags }, &pool)?;
     let has_nan = rule == OutsideRule::Flag && outside > 0;
     Ok(if has_nan { planish_status::PointsOutside } else { planish_status::Ok })
 }

@@ -343,7 +343,7 @@ mod tests {
 
     fn area(mesh: &Mesh) -> f64 {
         let corners = |t: &[u32; 3]| t.map(|n| mesh.points()[n as usize]);
-        mesh.triangles().iter().map(|t| corners(t)).map(|[a, b, c]| (b - a).cross(c - a).length() / 2.0).sum()
+        mesh.triangles().iter().map(corners).map(|[a, b, c]| (b - a).cross(c - a).length() / 2.0).sum()
     }
 
     #[test]

@@ -156,18 +156,24 @@ impl<'a> Points<'a> {
 /// Points of one piece of work. Pieces do not depend on the number of threads.
 const CHUNK: usize = 1024;
 
-/// Evaluates `quantity` at all `points`; row `i` goes to `out[i * out_stride ..]`. Returns how many points
-/// lie outside the domain.
-///
-/// `flags`, if given, has an entry for each point and receives the `FLAG_` bits that hold.
+/// Where results go.
+#[derive(Debug)]
+pub struct Output<'a> {
+    /// Row `i` starts `i * stride` numbers after the first; what lies between rows is left alone.
+    pub rows: &'a mut [f64],
+    /// At least the width of the quantity.
+    pub stride: usize,
+    /// An entry for each point, which receives the `FLAG_` bits that hold; empty for none.
+    pub flags: &'a mut [u8],
+}
+
+/// Evaluates `quantity` at all `points`. Returns how many of them lie outside the domain.
 pub fn evaluate(
     surface: &dyn Surface,
     quantity: Quantity,
     points: Points,
     rule: OutsideRule,
-    out: &mut [f64],
-    out_stride: usize,
-    flags: Option<&mut [u8]>,
+    output: Output,
     pool: &Pool,
 ) -> Result<usize, EvalError> {
     let width = quantity.width(surface.dim());
@@ -177,28 +183,27 @@ pub fn evaluate(
         OutsideRule::Extrapolate => check_finite(&points)?,
         OutsideRule::Flag => {}
     }
-    assert!(out_stride >= width, "rows of {width} numbers every {out_stride}");
-    let mut no_flags = Vec::new();
-    let flags = flags.unwrap_or(&mut no_flags);
+    let Output { rows, stride, flags } = output;
+    assert!(stride >= width, "rows of {width} numbers every {stride}");
     let wants_flags = !flags.is_empty();
-    let piece = |chunk: usize, out: &mut [f64], flags: &mut [u8]| {
+    let piece = |chunk: usize, rows: &mut [f64], flags: &mut [u8]| {
         let first = chunk * CHUNK;
         let uv: Vec<DVec2> = (first..points.count.min(first + CHUNK)).map(|i| points.get(i)).collect();
-        eval_piece(surface, quantity, &uv, rule, out, out_stride, flags)
+        eval_piece(surface, quantity, &uv, rule, Output { rows, stride, flags })
     };
     if pool.thread_count() == 1 || points.count <= CHUNK {
-        let outs = out.chunks_mut(CHUNK * out_stride);
+        let rows = rows.chunks_mut(CHUNK * stride);
         if wants_flags {
-            return Ok(outs.zip(flags.chunks_mut(CHUNK)).enumerate().map(|(k, (o, f))| piece(k, o, f)).sum());
+            return Ok(rows.zip(flags.chunks_mut(CHUNK)).enumerate().map(|(k, (r, f))| piece(k, r, f)).sum());
         }
-        return Ok(outs.enumerate().map(|(k, o)| piece(k, o, &mut [])).sum());
+        return Ok(rows.enumerate().map(|(k, r)| piece(k, r, &mut [])).sum());
     }
     Ok(pool.run(|| {
-        let outs = out.par_chunks_mut(CHUNK * out_stride).enumerate();
+        let rows = rows.par_chunks_mut(CHUNK * stride).enumerate();
         if wants_flags {
-            return outs.zip(flags.par_chunks_mut(CHUNK)).map(|((k, o), f)| piece(k, o, f)).sum();
+            return rows.zip(flags.par_chunks_mut(CHUNK)).map(|((k, r), f)| piece(k, r, f)).sum();
         }
-        outs.map(|(k, o)| piece(k, o, &mut [])).sum()
+        rows.map(|(k, r)| piece(k, r, &mut [])).sum()
     }))
 }
 
@@ -239,10 +244,9 @@ fn eval_piece(
     quantity: Quantity,
     uv: &[DVec2],
     rule: OutsideRule,
-    out: &mut [f64],
-    out_stride: usize,
-    flags: &mut [u8],
+    output: Output,
 ) -> usize {
+    let Output { rows: out, stride: out_stride, flags } = output;
     let (dim, domain) = (surface.dim(), surface.domain());
     let width = quantity.width(dim);
     let is_raw = matches!(quantity, Quantity::Values | Quantity::Derivatives(_));

@@ -68,13 +68,7 @@ pub trait Surface: Send + Sync {
     }
 
     /// Values at all pairs of `u` and `v`, `v` running fastest.
-    fn eval_grid(&self, u: &[f64], v: &[f64], out: &mut [f64]) {
-        let row = v.len() * self.dim();
-        for (&u, out) in u.iter().zip(out.chunks_exact_mut(row.max(1))) {
-            let uv: Vec<DVec2> = v.iter().map(|&v| DVec2::new(u, v)).collect();
-            self.eval_rows(&uv, 0, out);
-        }
-    }
+    fn eval_grid(&self, u: &[f64], v: &[f64], out: &mut [f64]);
 }
 
 /// The common view of tensor surfaces, T-splines and PHT-splines: Bezier patches over rectangles that cover
@@ -89,4 +83,13 @@ pub trait Patches: Send + Sync {
     /// The patch over a parameter pair, in constant or logarithmic time; beyond the domain the one whose
     /// polynomial is continued there.
     fn patch_at(&self, uv: DVec2) -> usize;
+}
+
+/// [`Surface::eval_grid`] for families without a faster way: row by row.
+fn eval_grid_by_rows(surface: &dyn Surface, u: &[f64], v: &[f64], out: &mut [f64]) {
+    let row = v.len() * surface.dim();
+    for (&u, out) in u.iter().zip(out.chunks_exact_mut(row.max(1))) {
+        let uv: Vec<DVec2> = v.iter().map(|&v| DVec2::new(u, v)).collect();
+        surface.eval_rows(&uv, 0, out);
+    }
 }

@@ -4,7 +4,7 @@ use crate::{Failure, Outcome};
 use clap::Args;
 use planish::Control;
 use planish::export::native;
-use planish::surface::evaluate::{OutsideRule, Points, Quantity, evaluate};
+use planish::surface::evaluate::{Output, OutsideRule, Points, Quantity, evaluate};
 use planish::surface::{Domain, Surface};
 use std::io::{Read, Write};
 use std::path::PathBuf;
@@ -41,7 +41,8 @@ pub fn run(arguments: &EvalArguments) -> Result<Outcome, Failure> {
     let mut values = vec![0.0; count * width];
     let control = Control::default();
     let points = Points::new(&uv, 2, count);
-    evaluate(&surface, quantity, points, rule, &mut values, width, None, control.pool())?;
+    let output = Output { rows: &mut values, stride: width, flags: &mut [] };
+    evaluate(&surface, quantity, points, rule, output, control.pool())?;
     let mut out = std::io::BufWriter::new(std::io::stdout().lock());
     for (uv, row) in uv.chunks_exact(2).zip(values.chunks_exact(width)) {
         let numbers: Vec<String> = uv.iter().chain(row).map(f64::to_string).collect();

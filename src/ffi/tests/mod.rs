@@ -3,6 +3,7 @@
 mod curves;
 mod fits;
 mod meshes;
+mod queries;
 mod records;
 mod statuses;
 mod surfaces;
@@ -44,6 +45,10 @@ impl Surface for OtherFamily {
     }
 
     fn eval_rows(&self, _: &[DVec2], _: usize, out: &mut [f64]) {
+        out.fill(0.0);
+    }
+
+    fn eval_grid(&self, _: &[f64], _: &[f64], out: &mut [f64]) {
         out.fill(0.0);
     }
 }

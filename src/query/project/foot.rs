@@ -34,6 +34,7 @@ struct Local {
 }
 
 /// The local minimum that Newton's method finds from `start`.
+#[inline(always)]
 pub fn find(form: &Form, cell: &[f64], start: [f64; 2]) -> Foot {
     let mut at = start;
     let mut here = local(form, cell, at);
@@ -65,6 +66,7 @@ pub fn find(form: &Form, cell: &[f64], start: [f64; 2]) -> Foot {
 
 /// The step to the minimum of the quadratic model, with the parameters at their bounds held where the slope
 /// points outward.
+#[inline(always)]
 fn constrained_step(form: &Form, here: &Local, at: [f64; 2], damping: f64) -> [f64; 2] {
     let is_held = |k: usize| {
         (at[k] <= 0.0 && here.slope[k] >= 0.0)
@@ -85,6 +87,7 @@ fn constrained_step(form: &Form, here: &Local, at: [f64; 2], damping: f64) -> [f
 }
 
 /// The minimum of the model in the box around `at`, or on the side it crosses first.
+#[inline(always)]
 fn boxed_step(here: &Local, [a, b, c]: [f64; 3], at: [f64; 2]) -> [f64; 2] {
     let [p, q] = here.slope;
     let determinant = a * c - b * b;
@@ -108,11 +111,13 @@ fn boxed_step(here: &Local, [a, b, c]: [f64; 3], at: [f64; 2]) -> [f64; 2] {
     [clip(0, step[0]), clip(1, step[1])]
 }
 
+#[inline(always)]
 fn single_step(slope: f64, curvature: f64) -> f64 {
     if curvature > 0.0 { -slope / curvature } else { -slope.signum() * f64::from(slope != 0.0) }
 }
 
 /// The Hessian if it is positive, else the metric, with `added` on the diagonal.
+#[inline(always)]
 fn positive(here: &Local, added: f64) -> [f64; 3] {
     let [a, b, c] = here.hessian;
     let is_positive = a > 0.0 && c > 0.0 && a * c > b * b;
@@ -120,9 +125,10 @@ fn positive(here: &Local, added: f64) -> [f64; 3] {
     [a + added, b, c + added]
 }
 
-/// Bernstein functions with first and second derivatives.
+/// Bernstein functions of `degree < N` with first and second derivatives.
 #[inline(always)]
-fn bernstein(degree: usize, t: f64, rows: &mut [[f64; MAX_FUNCTIONS]; 3]) {
+fn bernstein<const N: usize>(degree: usize, t: f64) -> [[f64; N]; 3] {
+    let mut rows = [[0.0; N]; 3];
     rows[0][0] = 1.0;
     for p in 1..=degree {
         if p == degree {
@@ -140,12 +146,13 @@ fn bernstein(degree: usize, t: f64, rows: &mut [[f64; MAX_FUNCTIONS]; 3]) {
         }
         rows[0][p] = carried;
     }
+    rows
 }
 
 /// The derivatives of functions of `degree + 1` from those of `degree`, which has `factor` one more.
 #[inline(always)]
-fn differences(functions: &[f64; MAX_FUNCTIONS], degree: usize, factor: f64) -> [f64; MAX_FUNCTIONS] {
-    let mut rows = [0.0; MAX_FUNCTIONS];
+fn differences<const N: usize>(functions: &[f64; N], degree: usize, factor: f64) -> [f64; N] {
+    let mut rows = [0.0; N];
     let mut carried = 0.0;
     for r in 0..=degree {
         let share = factor * functions[r];
@@ -156,10 +163,12 @@ fn differences(functions: &[f64; MAX_FUNCTIONS], degree: usize, factor: f64) -> 
     rows
 }
 
+/// Compiled once more for bicubic surfaces in space, whose loops have fixed lengths.
+#[inline(always)]
 fn local(form: &Form, cell: &[f64], at: [f64; 2]) -> Local {
     match *form {
-        Form { degree: [3, 3], dim: 3, is_rational: false } => local_of([3, 3], 3, false, cell, at),
-        Form { degree, dim, is_rational } => local_of(degree, dim, is_rational, cell, at),
+        Form { degree: [3, 3], dim: 3, is_rational: false } => local_of::<4>([3, 3], 3, false, cell, at),
+        Form { degree, dim, is_rational } => local_of::<MAX_FUNCTIONS>(degree, dim, is_rational, cell, at),
     }
 }
 
@@ -167,10 +176,14 @@ fn local(form: &Form, cell: &[f64], at: [f64; 2]) -> Local {
 type Jet = [f64; 6];
 
 #[inline(always)]
-fn local_of([p, q]: [usize; 2], dim: usize, is_rational: bool, cell: &[f64], at: [f64; 2]) -> Local {
-    let (mut rows_u, mut rows_v) = ([[0.0; MAX_FUNCTIONS]; 3], [[0.0; MAX_FUNCTIONS]; 3]);
-    bernstein(p, at[0], &mut rows_u);
-    bernstein(q, at[1], &mut rows_v);
+fn local_of<const N: usize>(
+    [p, q]: [usize; 2],
+    dim: usize,
+    is_rational: bool,
+    cell: &[f64],
+    at: [f64; 2],
+) -> Local {
+    let (rows_u, rows_v) = (bernstein::<N>(p, at[0]), bernstein::<N>(q, at[1]));
     let count = (p + 1) * (q + 1);
     let weight = is_rational.then(|| jet([p, q], &cell[dim * count..], &rows_u, &rows_v));
     let mut sum = Local::default();
@@ -191,14 +204,14 @@ fn local_of([p, q]: [usize; 2], dim: usize, is_rational: bool, cell: &[f64], at:
 }
 
 #[inline(always)]
-fn jet(
+fn jet<const N: usize>(
     [p, q]: [usize; 2],
     component: &[f64],
-    rows_u: &[[f64; MAX_FUNCTIONS]; 3],
-    rows_v: &[[f64; MAX_FUNCTIONS]; 3],
+    rows_u: &[[f64; N]; 3],
+    rows_v: &[[f64; N]; 3],
 ) -> Jet {
     let component = &component[..(p + 1) * (q + 1)];
-    let mut lines = [[0.0; MAX_FUNCTIONS]; 3];
+    let mut lines = [[0.0; N]; 3];
     for i in 0..=p {
         let line = &component[i * (q + 1)..][..q + 1];
         for (order, sums) in lines.iter_mut().enumerate() {
@@ -213,6 +226,7 @@ fn jet(
 }
 
 /// Derivatives of `r / w`: Leibniz' rule.
+#[inline(always)]
 fn divide(r: &Jet, w: &Jet) -> Jet {
     let s = r[0] / w[0];
     let su = (r[1] - w[1] * s) / w[0];

@@ -124,6 +124,7 @@ impl Index {
     }
 
     /// The children of a node that are used.
+    #[inline(always)]
     pub fn children(&self, node: u32) -> &[u32] {
         let children = &self.nodes[node as usize];
         &children[..children.iter().position(|&child| child == NONE).unwrap_or(BRANCHES)]

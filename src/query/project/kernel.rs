@@ -87,6 +87,7 @@ impl Kernel {
 
     /// Looks at a cell: whether its squared distance can be less than `limit_sq`. `slack` is a change of
     /// `g` that does not matter.
+    #[inline(always)]
     pub fn judge(&self, cell: &[f64], limit_sq: f64, slack: f64, square: &mut Square) -> Verdict {
         self.expand(cell, square);
         let Square { distance, weight, g, .. } = square;
@@ -128,7 +129,8 @@ impl Kernel {
             }
             (hessian, Hessian::of(g, p, q))
         } else {
-            let hessian = Hessian::of(distance, p, q);
+            let hessian =
+                if degree == [6, 6] { Hessian::of(distance, 6, 6) } else { Hessian::of(distance, p, q) };
             (hessian, hessian)
         };
         if first.is_convex(slack) && second.is_convex(slack) {
@@ -137,6 +139,7 @@ impl Kernel {
         Verdict::Split(usize::from(first.size[1] > first.size[0]), place)
     }
 
+    #[inline(always)]
     fn expand(&self, cell: &[f64], square: &mut Square) {
         let count = self.form.count();
         square.distance.clear();
@@ -191,8 +194,10 @@ struct Hessian {
 }
 
 impl Hessian {
+    #[inline(always)]
     fn of(g: &[f64], p: usize, q: usize) -> Self {
         let n = q + 1;
+        let g = &g[..(p + 1) * n];
         let mut hessian = Self { least: [f64::INFINITY; 2], size: [0.0; 2], mixed: 0.0, is_curve: q == 0 };
         let mut add = |axis: usize, x: f64| {
             hessian.least[axis] = hessian.least[axis].min(x);
@@ -217,6 +222,7 @@ impl Hessian {
         hessian
     }
 
+    #[inline(always)]
     fn is_convex(&self, slack: f64) -> bool {
         let [a, c] = self.least.map(|x| x + slack);
         if self.is_curve { a >= 0.0 } else { a >= 0.0 && c >= 0.0 && a * c >= self.mixed * self.mixed }

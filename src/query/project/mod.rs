@@ -167,12 +167,18 @@ impl Projector {
         let piece = |chunk: usize, uv: &mut [DVec2], distances: &mut [f64]| {
             let mut workspace = Workspace::default();
             let mut missed = 0;
-            for (k, (uv, distance)) in uv.iter_mut().zip(distances).enumerate() {
-                let i = chunk * CHUNK + k;
-                let point = &points[i * self.dim..][..self.dim];
-                (*uv, *distance) = self.nearest(point, guess(i), options, &mut workspace);
-                missed += usize::from(distance.is_nan());
-            }
+            // all that is inlined here uses the wide registers that the processor has
+            pulp::Arch::new().dispatch(
+                #[inline(always)]
+                || {
+                    for (k, (uv, distance)) in uv.iter_mut().zip(&mut *distances).enumerate() {
+                        let i = chunk * CHUNK + k;
+                        let point = &points[i * self.dim..][..self.dim];
+                        (*uv, *distance) = self.nearest(point, guess(i), options, &mut workspace);
+                        missed += usize::from(distance.is_nan());
+                    }
+                },
+            );
             missed
         };
         if pool.thread_count() == 1 || count <= CHUNK {
@@ -216,6 +222,7 @@ impl Projector {
         }
     }
 
+    #[inline(always)]
     fn nearest(
         &self,
         point: &[f64],
@@ -228,7 +235,7 @@ impl Projector {
         let mut search = Search {
             point,
             tolerance: self.tolerance,
-            best: Best { uv: DVec2::NAN, distance_sq: farthest * farthest },
+            best: Best::new(farthest * farthest, DVec2::NAN, self.tolerance),
             trims: None,
             workspace,
         };

@@ -19,6 +19,16 @@ const RELATIVE_TOLERANCE: f64 = 1e-14;
 pub struct Best {
     pub uv: DVec2,
     pub distance_sq: f64,
+    /// The square of the distance that another place must have to be worth a look.
+    limit_sq: f64,
+}
+
+impl Best {
+    pub fn new(distance_sq: f64, uv: DVec2, tolerance: f64) -> Self {
+        // coefficients of the squared distance are rounded in proportion to it
+        let limit = (distance_sq.sqrt() * (1.0 - RELATIVE_TOLERANCE) - tolerance).max(0.0);
+        Self { uv, distance_sq, limit_sq: limit * limit }
+    }
 }
 
 /// Memory that points share one after the other.
@@ -51,20 +61,15 @@ pub struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// The square of the distance that a place must have to be worth a look.
-    fn limit_sq(&self) -> f64 {
-        // coefficients of the squared distance are rounded in proportion to it
-        let limit = (self.best.distance_sq.sqrt() * (1.0 - RELATIVE_TOLERANCE) - self.tolerance).max(0.0);
-        limit * limit
-    }
-
+    #[inline(always)]
     fn offer(&mut self, distance_sq: f64, uv: DVec2) {
         if distance_sq < self.best.distance_sq && self.trims.is_none_or(|trims| trims.contains(uv)) {
-            self.best = Best { uv, distance_sq };
+            self.best = Best::new(distance_sq, uv, self.tolerance);
         }
     }
 
     /// Searches all leaves of an index.
+    #[inline(always)]
     pub fn run(&mut self, index: &Index) {
         if index.leaf_count() == 0 {
             return;
@@ -73,7 +78,7 @@ impl Search<'_> {
         self.workspace.nodes.clear();
         self.workspace.nodes.push((0.0, 0));
         while let Some((bound, entry)) = self.workspace.nodes.pop() {
-            if bound >= self.limit_sq() {
+            if bound >= self.best.limit_sq {
                 continue;
             }
             if entry & LEAF != 0 {
@@ -85,9 +90,10 @@ impl Search<'_> {
     }
 
     /// Puts the children of a node on the stack, the nearest on top.
+    #[inline(always)]
     fn open(&mut self, index: &Index, node: u32) {
         let bounds = index.distances_sq(node, self.point);
-        let limit_sq = self.limit_sq();
+        let limit_sq = self.best.limit_sq;
         let mut near = [(0.0, 0); BRANCHES];
         let mut count = 0;
         for (&child, &bound) in index.children(node).iter().zip(&bounds) {
@@ -105,6 +111,7 @@ impl Search<'_> {
     }
 
     /// Starts from a place given by the caller: what it finds bounds the rest of the search.
+    #[inline(always)]
     pub fn try_leaf(&mut self, index: &Index, leaf: usize, at: [f64; 2]) {
         self.load(index, leaf);
         let form = index.kernel.form;
@@ -113,6 +120,7 @@ impl Search<'_> {
     }
 
     /// Ordinates of a leaf relative to the point.
+    #[inline(always)]
     fn load(&mut self, index: &Index, leaf: usize) {
         let (form, source) = (index.kernel.form, index.ordinates(leaf));
         let count = form.count();
@@ -128,6 +136,7 @@ impl Search<'_> {
         cell.extend_from_slice(weights.unwrap_or(&[]));
     }
 
+    #[inline(always)]
     fn search_leaf(&mut self, index: &Index, leaf: usize, budget: &mut usize) {
         self.load(index, leaf);
         self.workspace.cells.clear();
@@ -142,6 +151,7 @@ impl Search<'_> {
     }
 
     /// Settles the last cell of the stack, or replaces it by its halves.
+    #[inline(always)]
     fn search_cell(&mut self, index: &Index, leaf: usize, cell: Cell) {
         let form = index.kernel.form;
         let first = self.workspace.ordinates.len() - form.len();
@@ -153,7 +163,7 @@ impl Search<'_> {
                 self.offer(corner_distance_sq(index, &self.workspace.ordinates[first..], at), uv(at));
             }
         }
-        let (limit_sq, slack) = (self.limit_sq(), self.tolerance * self.best.distance_sq.sqrt());
+        let (limit_sq, slack) = (self.best.limit_sq, self.tolerance * self.best.distance_sq.sqrt());
         let workspace = &mut *self.workspace;
         let ordinates = &workspace.ordinates[first..];
         let (axis, start) = match index.kernel.judge(ordinates, limit_sq, slack, &mut workspace.square) {

@@ -9,7 +9,7 @@ use glam::DVec2;
 const ORDERS: [(usize, usize); 6] = [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)];
 
 impl TensorSurface {
-    pub(super) fn eval_rows_tensor(&self, uv: &[DVec2], max_derivative: usize, out: &mut [f64]) {
+    pub(super) fn eval_rows_generic(&self, uv: &[DVec2], max_derivative: usize, out: &mut [f64]) {
         let rows = derivative_rows(max_derivative);
         let point_len = rows * self.dim;
         match &self.weights {

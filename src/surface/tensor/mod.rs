@@ -5,12 +5,15 @@
 //! S(u,v) = sum_ij N_i(u) N_j(v) w_ij P_ij / sum_ij N_i(u) N_j(v) w_ij
 //! ```
 
+mod bicubic;
 mod evaluate;
 
-use super::{Domain, Kind, Patches, Region, Surface};
+use super::{Domain, Kind, Patches, Region, Surface, eval_grid_by_rows};
 use crate::bezier::{BezierPatch, apply, extraction};
 use crate::knots::KnotVector;
+use bicubic::BicubicTable;
 use glam::DVec2;
+use std::sync::OnceLock;
 
 /// A parameter direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -93,7 +96,7 @@ impl TensorError {
 /// A tensor product B-spline surface.
 ///
 /// Control point `(i, j)`, `i` along u, is row `i * count_v + j` of `dim` numbers.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct TensorSurface {
     dim: usize,
     knots_u: KnotVector,
@@ -101,6 +104,19 @@ pub struct TensorSurface {
     control_points: Vec<f64>,
     weights: Option<Weights>,
     region: Region,
+    /// Made at the first evaluation; None for surfaces that it does not serve.
+    bicubic: OnceLock<Option<BicubicTable>>,
+}
+
+impl PartialEq for TensorSurface {
+    fn eq(&self, other: &Self) -> bool {
+        self.dim == other.dim
+            && self.knots_u == other.knots_u
+            && self.knots_v == other.knots_v
+            && self.control_points == other.control_points
+            && self.weights == other.weights
+            && self.region == other.region
+    }
 }
 
 /// The weights, and the control points times their weights with the weight as one more component: what
@@ -132,7 +148,15 @@ impl TensorSurface {
             return Err(TensorError::NotFinite { index: index / dim });
         }
         let weights = weights.map(|weights| Weights::new(weights, &control_points, dim)).transpose()?;
-        Ok(Self { dim, knots_u, knots_v, control_points, weights, region: Region::default() })
+        Ok(Self {
+            dim,
+            knots_u,
+            knots_v,
+            control_points,
+            weights,
+            region: Region::default(),
+            bicubic: OnceLock::new(),
+        })
     }
 
     /// The knot vector along one axis.
@@ -199,7 +223,15 @@ impl Surface for TensorSurface {
     }
 
     fn eval_rows(&self, uv: &[DVec2], max_derivative: usize, out: &mut [f64]) {
-        self.eval_rows_tensor(uv, max_derivative, out);
+        if !self.eval_bicubic(uv, max_derivative, out) {
+            self.eval_rows_generic(uv, max_derivative, out);
+        }
+    }
+
+    fn eval_grid(&self, u: &[f64], v: &[f64], out: &mut [f64]) {
+        if !self.eval_bicubic_grid(u, v, out) {
+            eval_grid_by_rows(self, u, v, out);
+        }
     }
 
     fn patches(&self) -> Option<&dyn Patches> {

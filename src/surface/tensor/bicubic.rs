@@ -1,0 +1,287 @@
+//! Fast evaluation of bicubic polynomial surfaces in space.
+//!
+//! On each knot span the four basis functions are cubics of the place in the span, `x` in [0, 1]; their
+//! coefficients are kept, which makes a basis function three multiplications whatever the knots are. The sums
+//! run over rows of twelve numbers, the four control points of one line, and are compiled once more for
+//! processors with wide registers (through `pulp`).
+//!
+//! ```text
+//! N_r(u) = ((c_r3 x + c_r2) x + c_r1) x + c_r0,    x = (u - t_k) / (t_{k+1} - t_k)
+//! ```
+
+use super::{Axis, TensorSurface};
+use crate::bezier::extraction;
+use crate::knots::KnotVector;
+use glam::DVec2;
+use pulp::{Arch, Simd, WithSimd};
+
+/// Basis functions of one span.
+#[derive(Debug, Clone)]
+struct CubicSpan {
+    /// Row `m` has the coefficients of `x^m`.
+    coefficients: [[f64; 4]; 4],
+    start: f64,
+    inverse_length: f64,
+    /// The first control point of the span.
+    first: usize,
+}
+
+/// The spans of both directions.
+#[derive(Debug, Clone)]
+pub(super) struct BicubicTable {
+    spans: [Vec<CubicSpan>; 2],
+}
+
+impl BicubicTable {
+    /// None for surfaces of another kind.
+    pub fn new(surface: &TensorSurface) -> Option<Self> {
+        let knots = [Axis::U, Axis::V].map(|axis| surface.knots(axis));
+        let is_cubic = knots.iter().all(|knots| knots.degree() == 3);
+        (is_cubic && surface.dim == 3 && surface.weights.is_none()).then(|| Self {
+            spans: knots.map(|knots| knots.spans().map(|k| CubicSpan::new(knots, k)).collect()),
+        })
+    }
+}
+
+impl CubicSpan {
+    fn new(knots: &KnotVector, span: usize) -> Self {
+        let (t, e) = (knots.knots(), extraction(knots, span));
+        let ordinate = |j: usize, r: usize| e[4 * j + r];
+        let mut coefficients = [[0.0; 4]; 4];
+        for r in 0..4 {
+            let b = [0, 1, 2, 3].map(|j| ordinate(j, r));
+            coefficients[0][r] = b[0];
+            coefficients[1][r] = 3.0 * (b[1] - b[0]);
+            coefficients[2][r] = 3.0 * ((b[2] - b[1]) - (b[1] - b[0]));
+            coefficients[3][r] = (b[3] - b[0]) - 3.0 * (b[2] - b[1]);
+        }
+        Self { coefficients, start: t[span], inverse_length: 1.0 / (t[span + 1] - t[span]), first: span - 3 }
+    }
+
+    #[inline(always)]
+    fn basis<S: Simd>(&self, u: f64) -> [f64; 4] {
+        let x = (u - self.start) * self.inverse_length;
+        let [c0, c1, c2, c3] = &self.coefficients;
+        let mut n = [0.0; 4];
+        for r in 0..4 {
+            n[r] = fma::<S>(fma::<S>(fma::<S>(c3[r], x, c2[r]), x, c1[r]), x, c0[r]);
+        }
+        n
+    }
+
+    #[inline(always)]
+    fn slopes<S: Simd>(&self, u: f64) -> [f64; 4] {
+        let x = (u - self.start) * self.inverse_length;
+        let [_, c1, c2, c3] = &self.coefficients;
+        let mut n = [0.0; 4];
+        for r in 0..4 {
+            n[r] = fma::<S>(fma::<S>(3.0 * c3[r], x, 2.0 * c2[r]), x, c1[r]) * self.inverse_length;
+        }
+        n
+    }
+}
+
+/// `a b + c`, in one instruction where there is one; the library function is slow.
+#[inline(always)]
+fn fma<S: Simd>(a: f64, b: f64, c: f64) -> f64 {
+    if S::IS_SCALAR { a * b + c } else { a.mul_add(b, c) }
+}
+
+/// Points whose spans are looked up before the first of them is summed, so that the memory of the next ones is
+/// fetched meanwhile.
+const BLOCK: usize = 32;
+
+/// A batch of points on one surface.
+struct Batch<'a> {
+    surface: &'a TensorSurface,
+    table: &'a BicubicTable,
+    uv: &'a [DVec2],
+    has_slopes: bool,
+    out: &'a mut [f64],
+}
+
+impl WithSimd for Batch<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        if self.has_slopes { self.eval::<S, true>() } else { self.eval::<S, false>() }
+    }
+}
+
+impl Batch<'_> {
+    #[inline(always)]
+    fn eval<S: Simd, const SLOPES: bool>(self) {
+        let (knots_u, knots_v) = (&self.surface.knots_u, &self.surface.knots_v);
+        let count_v = knots_v.basis_count();
+        let width = if SLOPES { 9 } else { 3 };
+        let mut ranks = [(0, 0); BLOCK];
+        for (uv, out) in self.uv.chunks(BLOCK).zip(self.out.chunks_mut(BLOCK * width)) {
+            for (rank, uv) in ranks.iter_mut().zip(uv) {
+                *rank = (knots_u.rank_at(uv.x), knots_v.rank_at(uv.y));
+            }
+            for ((rank, uv), out) in ranks.iter().zip(uv).zip(out.chunks_exact_mut(width)) {
+                let (span_u, span_v) = (&self.table.spans[0][rank.0], &self.table.spans[1][rank.1]);
+                let net = &self.surface.control_points[3 * (span_u.first * count_v + span_v.first)..];
+                let net = &net[..9 * count_v + 12];
+                let lines = [0, 1, 2, 3].map(|r| &net[3 * r * count_v..][..12]);
+                let (n_u, n_v) = (span_u.basis::<S>(uv.x), span_v.basis::<S>(uv.y));
+                let line = combine::<S>(lines, n_u);
+                out[..3].copy_from_slice(&contract::<S>(&line, n_v));
+                if SLOPES {
+                    let across = combine::<S>(lines, span_u.slopes::<S>(uv.x));
+                    out[3..6].copy_from_slice(&contract::<S>(&across, n_v));
+                    out[6..9].copy_from_slice(&contract::<S>(&line, span_v.slopes::<S>(uv.y)));
+                }
+            }
+        }
+    }
+}
+
+/// Four control points along v out of four lines of them.
+#[inline(always)]
+fn combine<S: Simd>(lines: [&[f64]; 4], n: [f64; 4]) -> [f64; 12] {
+    let mut sums = [0.0; 12];
+    for k in 0..12 {
+        sums[k] = n[0] * lines[0][k];
+    }
+    for r in 1..4 {
+        for k in 0..12 {
+            sums[k] = fma::<S>(n[r], lines[r][k], sums[k]);
+        }
+    }
+    sums
+}
+
+/// One point out of four.
+#[inline(always)]
+fn contract<S: Simd>(line: &[f64; 12], n: [f64; 4]) -> [f64; 3] {
+    let mut point = [0.0; 3];
+    for k in 0..3 {
+        let low = fma::<S>(n[1], line[3 + k], n[0] * line[k]);
+        let high = fma::<S>(n[3], line[9 + k], n[2] * line[6 + k]);
+        point[k] = low + high;
+    }
+    point
+}
+
+/// A grid of points on one surface.
+struct Grid<'a> {
+    surface: &'a TensorSurface,
+    table: &'a BicubicTable,
+    u: &'a [f64],
+    v: &'a [f64],
+    out: &'a mut [f64],
+}
+
+impl WithSimd for Grid<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let (knots_u, knots_v) = (&self.surface.knots_u, &self.surface.knots_v);
+        let line_length = 3 * knots_v.basis_count();
+        let along_v: Vec<(usize, [f64; 4])> = self
+            .v
+            .iter()
+            .map(|&v| &self.table.spans[1][knots_v.rank_at(v)])
+            .zip(self.v)
+            .map(|(span, &v)| (3 * span.first, span.basis::<S>(v)))
+            .collect();
+        let mut line = vec![0.0; line_length];
+        for (&u, out) in self.u.iter().zip(self.out.chunks_exact_mut(3 * self.v.len())) {
+            let span = &self.table.spans[0][knots_u.rank_at(u)];
+            let net = &self.surface.control_points[span.first * line_length..];
+            let n = span.basis::<S>(u);
+            let [a, b, c, d] = [0, 1, 2, 3].map(|r| &net[r * line_length..][..line_length]);
+            for k in 0..line_length {
+                let low = fma::<S>(n[1], b[k], n[0] * a[k]);
+                line[k] = fma::<S>(n[3], d[k], fma::<S>(n[2], c[k], low));
+            }
+            for (&(first, n), out) in along_v.iter().zip(out.chunks_exact_mut(3)) {
+                if let Some(points) = line[first..].first_chunk() {
+                    out.copy_from_slice(&contract::<S>(points, n));
+                }
+            }
+        }
+    }
+}
+
+impl TensorSurface {
+    /// The tables of a bicubic polynomial surface in space; None for all others.
+    fn bicubic_table(&self) -> Option<&BicubicTable> {
+        self.bicubic.get_or_init(|| BicubicTable::new(self)).as_ref()
+    }
+
+    /// Values, and first derivatives on request. False if the surface is of another kind.
+    pub(super) fn eval_bicubic(&self, uv: &[DVec2], max_derivative: usize, out: &mut [f64]) -> bool {
+        let Some(table) = self.bicubic_table().filter(|_| max_derivative <= 1) else { return false };
+        Arch::new().dispatch(Batch { surface: self, table, uv, has_slopes: max_derivative == 1, out });
+        true
+    }
+
+    /// Values on a grid. False if the surface is of another kind.
+    pub(super) fn eval_bicubic_grid(&self, u: &[f64], v: &[f64], out: &mut [f64]) -> bool {
+        let Some(table) = self.bicubic_table() else { return false };
+        if !v.is_empty() {
+            Arch::new().dispatch(Grid { surface: self, table, u, v, out });
+        }
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::samples::Random;
+    use crate::surface::{Surface, derivative_rows};
+
+    fn surface(counts: [usize; 2], evenness: f64, seed: u64) -> TensorSurface {
+        let mut random = Random::new(seed);
+        let mut knots = |count: usize| {
+            let mut t = -1.0;
+            let breaks: Vec<f64> = (0..count - 2)
+                .map(|_| {
+                    t += evenness + (1.0 - evenness) * random.unit().powi(4);
+                    t
+                })
+                .collect();
+            KnotVector::clamped(&breaks, 3).unwrap()
+        };
+        let (knots_u, knots_v) = (knots(counts[0]), knots(counts[1]));
+        let points = (0..3 * counts[0] * counts[1]).map(|_| random.signed()).collect();
+        TensorSurface::new(3, knots_u, knots_v, points, None).unwrap()
+    }
+
+    #[test]
+    fn both_paths_agree() {
+        for (counts, evenness) in [([4, 4], 1.0), ([12, 40], 1.0), ([30, 9], 0.1), ([50, 50], 1e-2)] {
+            let surface = surface(counts, evenness, 3);
+            let domain = surface.domain();
+            let mut random = Random::new(1);
+            let mut uv: Vec<DVec2> = (0..1000)
+                .map(|_| domain.min + DVec2::new(random.unit(), random.unit()) * domain.size())
+                .collect();
+            uv.extend([domain.min, domain.max]);
+            for order in 0..=1 {
+                let rows = 3 * derivative_rows(order);
+                let (mut fast, mut slow) = (vec![0.0; uv.len() * rows], vec![0.0; uv.len() * rows]);
+                assert!(surface.eval_bicubic(&uv, order, &mut fast));
+                surface.eval_rows_generic(&uv, order, &mut slow);
+                // coefficients of the basis stay below 6, those of slopes are divided by a span
+                let scale = if order == 0 { 1.0 } else { 6.0 / evenness };
+                for (k, (a, b)) in fast.iter().zip(&slow).enumerate() {
+                    assert!((a - b).abs() <= 1e-12 * scale, "{counts:?} {k}: {a} is not {b}");
+                }
+            }
+            let (u, v): (Vec<f64>, Vec<f64>) = uv[..30].iter().map(|uv| (uv.x, uv.y)).unzip();
+            let mut grid = vec![0.0; 3 * 900];
+            surface.eval_grid(&u, &v, &mut grid);
+            for (k, row) in grid.chunks_exact(3).enumerate() {
+                let mut value = [0.0; 3];
+                surface.eval_rows_generic(&[DVec2::new(u[k / 30], v[k % 30])], 0, &mut value);
+                assert!(row.iter().zip(value).all(|(a, b)| (a - b).abs() <= 1e-12), "{row:?} {value:?}");
+            }
+        }
+    }
+}
