@@ -108,7 +108,7 @@ pub struct planish_fit_report {
     pub grid_v: usize,
     /// Unknowns of the fit. The surface may have more control points, which these determine.
     pub coefficient_count: usize,
-    /// Cells without data inside the trims' box.
+    /// Cells without data inside the trims.
     pub empty_cell_count: usize,
     /// Triangles that are turned over or flat in the parameter plane.
     pub flipped_count: usize,

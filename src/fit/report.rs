@@ -130,7 +130,7 @@ pub struct FitReport {
     pub coefficient_count: usize,
     /// Weight of the smoothing energy in the chosen fit.
     pub smoothing: f64,
-    /// Cells without data inside the trims' box.
+    /// Cells without data inside the trims.
     pub empty_cell_count: usize,
     /// Rounds of fitting and measuring.
     pub passes: usize,

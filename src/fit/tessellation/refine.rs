@@ -20,46 +20,46 @@ impl Problem<'_> {
     /// Fits grids of growing size (`ferguson.md` 5).
     pub fn fit(&mut self, control: &mut Control) -> Result<TensorFit, FitError> {
         let first = self.options.fixed_grid.unwrap_or([2, 2]);
-        let mut current = control.watch(|pool, watch| self.fit_grid(first, pool, watch))??;
-        current = self.correct(current, control)?;
-        let mut state = Rounds { passes: 1, stagnant: 0, first_error: current.errors.max };
-        let mut best = Best { candidate: current, uv: self.uv.clone(), is_current: true };
-        let mut counts = first;
+        let candidate = control.watch(|pool, watch| self.fit_grid(first, pool, watch))??;
+        let candidate = self.correct(candidate, control)?;
+        let mut rounds = Rounds { passes: 1, stagnant: 0, first_error: candidate.errors.max, counts: first };
+        let mut best = Best { candidate, uv: self.uv.clone(), is_current: true };
         let stop = loop {
-            let is_met = best.is_current && self.is_met(&best.candidate, control);
-            control.report(
-                state.fraction(best.candidate.errors.max, self.tolerance.0),
-                best.candidate.errors.max,
-            )?;
-            if is_met {
-                break StopReason::ToleranceMet;
+            let error = best.candidate.errors.max;
+            control.report(rounds.fraction(error, self.tolerance.0), error)?;
+            if let Some(stop) = self.reason_to_stop(&best, &rounds, control) {
+                break stop;
             }
-            if self.options.fixed_grid.is_some() {
-                break StopReason::FixedGrid;
-            }
-            let could_resolve =
-                DATA_PER_UNKNOWN * self.coefficient_count(counts) as f64 > self.uv.len() as f64;
-            if state.stagnant >= STAGNANT_ROUNDS && could_resolve {
-                break StopReason::Stagnated;
-            }
-            let next = match self.next_grids(counts, state.stagnant) {
+            let next = match self.next_grids(rounds.counts, rounds.stagnant) {
                 Ok(next) => next,
                 Err(stop) => break stop,
             };
             let candidate = self.better_of(next, control)?;
             let candidate = self.correct(candidate, control)?;
-            state.passes += 1;
-            counts = candidate.counts();
-            if candidate.errors.max < best.candidate.errors.max {
-                state.stagnant = 0;
+            rounds.passes += 1;
+            rounds.counts = candidate.counts();
+            best.is_current = candidate.errors.max < error;
+            rounds.stagnant = if best.is_current { 0 } else { rounds.stagnant + 1 };
+            if best.is_current {
                 best = Best { candidate, uv: self.uv.clone(), is_current: true };
-            } else {
-                state.stagnant += 1;
-                best.is_current = false;
             }
         };
         self.uv = best.uv;
-        Ok(self.finish(best.candidate, stop, state.passes, control))
+        Ok(self.finish(best.candidate, stop, rounds.passes, control))
+    }
+
+    fn reason_to_stop(&self, best: &Best, rounds: &Rounds, control: &Control) -> Option<StopReason> {
+        let unknowns = self.coefficient_count(rounds.counts) as f64;
+        let could_resolve = DATA_PER_UNKNOWN * unknowns > self.uv.len() as f64;
+        if best.is_current && self.is_met(&best.candidate, control) {
+            Some(StopReason::ToleranceMet)
+        } else if self.options.fixed_grid.is_some() {
+            Some(StopReason::FixedGrid)
+        } else if rounds.stagnant >= STAGNANT_ROUNDS && could_resolve {
+            Some(StopReason::Stagnated)
+        } else {
+            None
+        }
     }
 
     /// Whether data and, above the sagitta, what lies between them are within the tolerance.
@@ -241,8 +241,11 @@ struct Best {
 
 struct Rounds {
     passes: usize,
+    /// Rounds in a row that did not lower the error.
     stagnant: usize,
     first_error: f64,
+    /// The grid of the latest round.
+    counts: [usize; 2],
 }
 
 impl Rounds {
