@@ -1,6 +1,6 @@
 //! Tensor fits of mesh files: map, stretch, grid, coefficients, errors, seconds.
 //!
-//! `cargo bench --bench tensor_fit -- [--tolerance T] FILE...`
+//! `cargo bench --bench tensor_fit -- [--tolerance T] [--ignore-parameters] FILE...`
 
 use planish::Control;
 use planish::fit::report::Tolerance;
@@ -11,10 +11,12 @@ use std::path::Path;
 fn main() {
     let mut tolerances = vec![1e-2, 1e-3];
     let mut files = Vec::new();
+    let mut ignores_parameters = false;
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
             "--bench" => {}
+            "--ignore-parameters" => ignores_parameters = true,
             "--tolerance" => {
                 let value = arguments.next().and_then(|value| value.parse().ok());
                 tolerances = vec![value.expect("--tolerance needs a number")];
@@ -39,7 +41,7 @@ fn main() {
     );
     for file in files {
         let (mut mesh, _) = read(Path::new(&file), &MeshOptions::default()).expect("the file is a mesh");
-        if std::env::var_os("FORGET").is_some() {
+        if ignores_parameters {
             mesh.clear_parameters();
         }
         for &value in &tolerances {

@@ -37,7 +37,7 @@ pub enum LoadError {
         reason: String,
     },
     /// The bytes are not what they claim to be.
-    #[error("not a saved surface: {problem} at byte {byte}")]
+    #[error("not a saved surface: byte {byte}: {problem}")]
     Format {
         /// Where.
         byte: usize,

@@ -68,7 +68,9 @@ pub trait Surface: Send + Sync {
     }
 
     /// Values at all pairs of `u` and `v`, `v` running fastest.
-    fn eval_grid(&self, u: &[f64], v: &[f64], out: &mut [f64]);
+    fn eval_grid(&self, u: &[f64], v: &[f64], out: &mut [f64]) {
+        eval_grid_by_rows(self, u, v, out);
+    }
 }
 
 /// The common view of tensor surfaces, T-splines and PHT-splines: Bezier patches over rectangles that cover
@@ -86,7 +88,7 @@ pub trait Patches: Send + Sync {
 }
 
 /// [`Surface::eval_grid`] for families without a faster way: row by row.
-fn eval_grid_by_rows(surface: &dyn Surface, u: &[f64], v: &[f64], out: &mut [f64]) {
+fn eval_grid_by_rows<S: Surface + ?Sized>(surface: &S, u: &[f64], v: &[f64], out: &mut [f64]) {
     let row = v.len() * surface.dim();
     for (&u, out) in u.iter().zip(out.chunks_exact_mut(row.max(1))) {
         let uv: Vec<DVec2> = v.iter().map(|&v| DVec2::new(u, v)).collect();

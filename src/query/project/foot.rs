@@ -8,8 +8,9 @@ use super::kernel::{Form, MAX_FUNCTIONS};
 
 /// Most steps; a regular foot point takes three or four, a singular one some twenty.
 const MAX_STEPS: usize = 60;
-/// A Newton step this short against the cell is followed by one of its square.
-const LAST_STEP: f64 = 1e-8;
+/// A Newton step this short against the cell is followed by one of about its square, which moves the place by
+/// roundoff and the distance not at all.
+const LAST_STEP: f64 = 1e-7;
 /// Steps this short change nothing.
 const SHORTEST_STEP: f64 = 1e-14;
 
@@ -31,6 +32,12 @@ struct Local {
     hessian: [f64; 3],
     /// The part of it without second derivatives of the surface.
     metric: [f64; 3],
+}
+
+/// The squared distance at a place.
+#[inline(always)]
+pub fn distance_sq(form: &Form, cell: &[f64], at: [f64; 2]) -> f64 {
+    local(form, cell, at).distance_sq
 }
 
 /// The local minimum that Newton's method finds from `start`.
@@ -92,7 +99,7 @@ fn boxed_step(here: &Local, [a, b, c]: [f64; 3], at: [f64; 2]) -> [f64; 2] {
     let [p, q] = here.slope;
     let determinant = a * c - b * b;
     let clip = |k: usize, step: f64| step.clamp(-at[k], 1.0 - at[k]);
-    if !(determinant > 1e-14 * a * c) {
+    if determinant <= 1e-14 * a * c {
         // parallel tangents: down the slope to the minimum of the model along it
         let curvature = (a * p + 2.0 * b * q) * p + c * q * q;
         let length = if curvature > 0.0 { (p * p + q * q) / curvature } else { 1.0 };
@@ -130,7 +137,7 @@ fn positive(here: &Local, added: f64) -> [f64; 3] {
 fn bernstein<const N: usize>(degree: usize, t: f64) -> [[f64; N]; 3] {
     let mut rows = [[0.0; N]; 3];
     rows[0][0] = 1.0;
-    for p in 1..=degree {
+    for p in 1..degree + 1 {
         if p == degree {
             rows[1] = differences(&rows[0], p - 1, p as f64);
         }
@@ -154,7 +161,7 @@ fn bernstein<const N: usize>(degree: usize, t: f64) -> [[f64; N]; 3] {
 fn differences<const N: usize>(functions: &[f64; N], degree: usize, factor: f64) -> [f64; N] {
     let mut rows = [0.0; N];
     let mut carried = 0.0;
-    for r in 0..=degree {
+    for r in 0..degree + 1 {
         let share = factor * functions[r];
         rows[r] = carried - share;
         carried = share;
@@ -212,17 +219,22 @@ fn jet<const N: usize>(
 ) -> Jet {
     let component = &component[..(p + 1) * (q + 1)];
     let mut lines = [[0.0; N]; 3];
-    for i in 0..=p {
+    for i in 0..p + 1 {
         let line = &component[i * (q + 1)..][..q + 1];
         for (order, sums) in lines.iter_mut().enumerate() {
             let share = rows_u[order][i];
-            for j in 0..=q {
+            for j in 0..q + 1 {
                 sums[j] += share * line[j];
             }
         }
     }
-    let dot = |a: usize, b: usize| (0..=q).map(|j| lines[a][j] * rows_v[b][j]).sum::<f64>();
-    [dot(0, 0), dot(1, 0), dot(0, 1), dot(2, 0), dot(1, 1), dot(0, 2)]
+    let mut jet = [0.0; 6];
+    for (sum, (a, b)) in jet.iter_mut().zip([(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)]) {
+        for j in 0..q + 1 {
+            *sum += lines[a][j] * rows_v[b][j];
+        }
+    }
+    jet
 }
 
 /// Derivatives of `r / w`: Leibniz' rule.

@@ -135,15 +135,12 @@ impl Index {
     pub fn distances_sq(&self, node: u32, point: &[f64]) -> [f64; BRANCHES] {
         let dim = point.len();
         let boxes = &self.boxes[node as usize * 2 * dim..][..2 * dim];
-        let mut sums = [0.0; BRANCHES];
-        for (k, &x) in point.iter().enumerate() {
-            let (min, max) = (&boxes[k], &boxes[dim + k]);
-            for b in 0..BRANCHES {
-                let outside = (min[b] - x).max(x - max[b]).max(0.0);
-                sums[b] += outside * outside;
-            }
+        // the same loop, once more with a fixed length
+        if let Ok(point) = <&[f64; 3]>::try_from(point) {
+            sum_gaps(boxes, point)
+        } else {
+            sum_gaps(boxes, point)
         }
-        sums
     }
 
     fn add_node(&mut self, leaves: &mut [u32], bounds: &[Bounds]) -> u32 {
@@ -167,6 +164,22 @@ impl Index {
         }
         node as u32
     }
+}
+
+#[inline(always)]
+fn sum_gaps(boxes: &[[f64; BRANCHES]], point: &[f64]) -> [f64; BRANCHES] {
+    let (least, largest) = boxes.split_at(point.len());
+    let mut sums = [0.0; BRANCHES];
+    for ((&x, min), max) in point.iter().zip(least).zip(largest) {
+        for b in 0..BRANCHES {
+            // comparisons, because f64::max cares for NaN
+            let (below, above) = (min[b] - x, x - max[b]);
+            let gap = if below > above { below } else { above };
+            let gap = if gap > 0.0 { gap } else { 0.0 };
+            sums[b] += gap * gap;
+        }
+    }
+    sums
 }
 
 /// Four parts of nearly equal size by two halvings.

@@ -60,6 +60,8 @@ pub struct Square {
     distance: Vec<f64>,
     weight: Vec<f64>,
     g: Vec<f64>,
+    /// Nothing in the cell judged last is nearer than the root of this.
+    pub lowest: f64,
 }
 
 /// What [`Kernel::judge`] found.
@@ -90,7 +92,7 @@ impl Kernel {
     #[inline(always)]
     pub fn judge(&self, cell: &[f64], limit_sq: f64, slack: f64, square: &mut Square) -> Verdict {
         self.expand(cell, square);
-        let Square { distance, weight, g, .. } = square;
+        let Square { distance, weight, g, lowest: bound, .. } = square;
         let (mut least, mut at, mut lowest, mut largest) = (f64::INFINITY, 0, f64::INFINITY, 0.0_f64);
         if self.form.is_rational {
             g.clear();
@@ -110,8 +112,10 @@ impl Kernel {
                 }
                 largest = largest.max(d.abs());
             }
+            lowest = least;
             least -= limit_sq;
         }
+        *bound = lowest;
         if least >= 0.0 {
             return Verdict::Beyond;
         }
@@ -142,24 +146,28 @@ impl Kernel {
     #[inline(always)]
     fn expand(&self, cell: &[f64], square: &mut Square) {
         let count = self.form.count();
-        square.distance.clear();
-        square.distance.resize(self.unscale.len(), 0.0);
-        square.scaled.clear();
-        let scale = self.scale.iter().cycle();
-        square.scaled.extend(cell.iter().zip(scale).map(|(x, s)| x * s));
         let [p, q] = self.form.degree;
-        for component in square.scaled.chunks_exact(count).take(self.form.dim) {
+        let size = self.unscale.len();
+        for (sums, wanted) in [(&mut square.distance, true), (&mut square.weight, self.form.is_rational)] {
+            sums.clear();
+            sums.resize(if wanted { size } else { 0 }, 0.0);
+        }
+        square.scaled.clear();
+        square.scaled.resize(count, 0.0);
+        for (k, component) in cell.chunks_exact(count).enumerate() {
+            for i in 0..count {
+                square.scaled[i] = component[i] * self.scale[i];
+            }
+            let sums = if k < self.form.dim { &mut square.distance } else { &mut square.weight };
             match [p, q] {
-                [3, 3] => convolve(component, 3, 3, &mut square.distance),
-                _ => convolve(component, p, q, &mut square.distance),
+                [3, 3] => convolve(&square.scaled, 3, 3, sums),
+                _ => convolve(&square.scaled, p, q, sums),
             }
         }
-        square.distance.iter_mut().zip(&self.unscale).for_each(|(x, s)| *x *= s);
-        if self.form.is_rational {
-            square.weight.clear();
-            square.weight.resize(self.unscale.len(), 0.0);
-            convolve(&square.scaled[self.form.dim * count..], p, q, &mut square.weight);
-            square.weight.iter_mut().zip(&self.unscale).for_each(|(x, s)| *x *= s);
+        for sums in [&mut square.distance, &mut square.weight] {
+            for (sum, factor) in sums.iter_mut().zip(&self.unscale) {
+                *sum *= factor;
+            }
         }
     }
 }
@@ -169,13 +177,14 @@ impl Kernel {
 fn convolve(a: &[f64], p: usize, q: usize, out: &mut [f64]) {
     let (n, wide) = (q + 1, 2 * q + 1);
     let a = &a[..(p + 1) * n];
-    for i in 0..=p {
-        for k in i..=p {
+    let out = &mut out[..(2 * p + 1) * wide];
+    for i in 0..p + 1 {
+        for k in i..p + 1 {
             let twice = if i == k { 1.0 } else { 2.0 };
             let out = &mut out[(i + k) * wide..][..wide];
-            for j in 0..=q {
+            for j in 0..q + 1 {
                 let x = twice * a[i * n + j];
-                for l in 0..=q {
+                for l in 0..q + 1 {
                     out[j + l] += x * a[k * n + l];
                 }
             }
@@ -200,8 +209,9 @@ impl Hessian {
         let g = &g[..(p + 1) * n];
         let mut hessian = Self { least: [f64::INFINITY; 2], size: [0.0; 2], mixed: 0.0, is_curve: q == 0 };
         let mut add = |axis: usize, x: f64| {
-            hessian.least[axis] = hessian.least[axis].min(x);
-            hessian.size[axis] = hessian.size[axis].max(x.abs());
+            // comparisons, because f64::min and f64::max care for NaN
+            hessian.least[axis] = if x < hessian.least[axis] { x } else { hessian.least[axis] };
+            hessian.size[axis] = if x.abs() > hessian.size[axis] { x.abs() } else { hessian.size[axis] };
         };
         let factor = (p * p.saturating_sub(1)) as f64;
         for k in 0..(p + 1).saturating_sub(2) * n {
@@ -216,7 +226,8 @@ impl Hessian {
         let factor = (p * q) as f64;
         for (row, next) in g.chunks_exact(n).zip(g.chunks_exact(n).skip(1)) {
             for (c, d) in row.windows(2).zip(next.windows(2)) {
-                hessian.mixed = hessian.mixed.max((factor * (c[0] - c[1] - d[0] + d[1])).abs());
+                let x = (factor * (c[0] - c[1] - d[0] + d[1])).abs();
+                hessian.mixed = if x > hessian.mixed { x } else { hessian.mixed };
             }
         }
         hessian

@@ -210,7 +210,7 @@ impl Projector {
                 return Err(ProjectError::Count { what, count: given, expected });
             }
         }
-        if !(options.max_distance >= 0.0) {
+        if options.max_distance.is_nan() || options.max_distance < 0.0 {
             return Err(ProjectError::MaxDistance { value: options.max_distance });
         }
         if let Some(index) = points.iter().position(|x| !x.is_finite()) {

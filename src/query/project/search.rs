@@ -35,6 +35,8 @@ impl Best {
 #[derive(Debug, Default)]
 pub struct Workspace {
     nodes: Vec<(f64, u32)>,
+    /// Leaves whose foot point can wait: a sample's squared distance, the bound, the leaf.
+    waiting: Vec<(f64, f64, u32)>,
     /// Cells of the leaf in hand, one after the other.
     ordinates: Vec<f64>,
     cells: Vec<Cell>,
@@ -82,11 +84,26 @@ impl Search<'_> {
                 continue;
             }
             if entry & LEAF != 0 {
-                self.search_leaf(index, (entry & !LEAF) as usize, &mut budget);
+                self.search_leaf(index, (entry & !LEAF) as usize, true, &mut budget);
             } else {
                 self.open(index, entry);
             }
         }
+        self.settle(index, &mut budget);
+    }
+
+    /// Searches the leaves that were put off, beginning with the one whose sample is nearest.
+    #[inline(always)]
+    fn settle(&mut self, index: &Index, budget: &mut usize) {
+        let mut waiting = std::mem::take(&mut self.workspace.waiting);
+        waiting.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.2.cmp(&b.2)));
+        for &(_, bound, leaf) in &waiting {
+            if bound < self.best.limit_sq {
+                self.search_leaf(index, leaf as usize, false, budget);
+            }
+        }
+        waiting.clear();
+        self.workspace.waiting = waiting;
     }
 
     /// Puts the children of a node on the stack, the nearest on top.
@@ -137,7 +154,7 @@ impl Search<'_> {
     }
 
     #[inline(always)]
-    fn search_leaf(&mut self, index: &Index, leaf: usize, budget: &mut usize) {
+    fn search_leaf(&mut self, index: &Index, leaf: usize, can_wait: bool, budget: &mut usize) {
         self.load(index, leaf);
         self.workspace.cells.clear();
         self.workspace.cells.push(Cell { min: [0.0; 2], max: [1.0; 2], is_whole: true });
@@ -146,13 +163,13 @@ impl Search<'_> {
                 return;
             }
             *budget -= 1;
-            self.search_cell(index, leaf, cell);
+            self.search_cell(index, leaf, cell, can_wait);
         }
     }
 
     /// Settles the last cell of the stack, or replaces it by its halves.
     #[inline(always)]
-    fn search_cell(&mut self, index: &Index, leaf: usize, cell: Cell) {
+    fn search_cell(&mut self, index: &Index, leaf: usize, cell: Cell, can_wait: bool) {
         let form = index.kernel.form;
         let first = self.workspace.ordinates.len() - form.len();
         let uv = |at: [f64; 2]| {
@@ -171,6 +188,14 @@ impl Search<'_> {
             Verdict::Convex(start) => (None, start),
             Verdict::Split(axis, start) => (Some(axis), start),
         };
+        // a least coefficient on the border says that the nearest place is probably on a neighbour
+        let is_inside = |k: usize| form.degree[k] == 0 || (start[k] > 0.0 && start[k] < 1.0);
+        if axis.is_none() && cell.is_whole && can_wait && !(is_inside(0) && is_inside(1)) {
+            let sample = foot::distance_sq(&form, ordinates, start);
+            workspace.waiting.push((sample, workspace.square.lowest, leaf as u32));
+            workspace.ordinates.truncate(first);
+            return self.offer(sample, uv(start));
+        }
         if axis.is_none() || cell.is_whole {
             let foot = foot::find(&form, ordinates, start);
             self.offer(foot.distance_sq, uv(foot.at));
