@@ -1,5 +1,6 @@
 # Fails if the shared library exports anything but planish_*, lacks a function of the header, or has another
 # soname than SONAME. Needs LIB, HEADER, NM, READELF and SONAME.
+cmake_policy(VERSION 3.22)
 execute_process(COMMAND ${NM} -D --defined-only --format=posix ${LIB} OUTPUT_VARIABLE lines COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCHALL "[^\n]+" lines "${lines}")
 set(exported)

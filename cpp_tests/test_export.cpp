@@ -126,7 +126,8 @@ TEST(Vtk, WritesATessellationOrADeviation) {
   CHECK_FAILS(planish_surface_write_vtk(surface.get(), path, &options), invalid, -1, "chord_tolerance is -1");
   options = vtk_options();
   options.reserved = 1;
-  CHECK_FAILS(planish_surface_write_vtk(surface.get(), path, &options), invalid, -1, "planish_vtk_options");
+  CHECK_FAILS(planish_surface_write_vtk(surface.get(), path, &options), PLANISH_STATUS_VERSION, -1,
+              "planish_vtk_options");
   CHECK_FAILS(planish_surface_write_vtk(nullptr, path, nullptr), null, -1, "surface is NULL");
   CHECK_FAILS(planish_surface_write_vtk(surface.get(), nullptr, nullptr), null, -1, "path is NULL");
   CHECK_FAILS(planish_surface_write_vtk(surface.get(), "no/such/folder/x.vtu", nullptr), PLANISH_STATUS_FILE, -1,

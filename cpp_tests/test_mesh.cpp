@@ -522,7 +522,7 @@ TEST(MeshParameterize, RefusesByName) {
   refuse(mesh.get(), options, invalid, -1, "unroll is 2");
   options = parameterize_options();
   options.reserved = 1;
-  refuse(mesh.get(), options, invalid, -1, "planish_parameterize_options");
+  refuse(mesh.get(), options, PLANISH_STATUS_VERSION, -1, "planish_parameterize_options");
   options = parameterize_options();
   options.thread_count = 2000;
   refuse(mesh.get(), options, invalid, -1, "thread_count is 2000");

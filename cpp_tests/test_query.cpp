@@ -222,7 +222,8 @@ TEST(Tessellate, RefusesByName) {
   CHECK_FAILS(planish_surface_tessellate(surface.get(), &options, &mesh), invalid, -1, "keep_trims is 2");
   options = tessellate_options();
   options.reserved = 1;
-  CHECK_FAILS(planish_surface_tessellate(surface.get(), &options, &mesh), invalid, -1, "planish_tessellate_options");
+  CHECK_FAILS(planish_surface_tessellate(surface.get(), &options, &mesh), PLANISH_STATUS_VERSION, -1,
+              "planish_tessellate_options");
   options = tessellate_options();
   options.max_edge_length = 1e-3;
   options.max_point_count = 100;

@@ -3,6 +3,7 @@
 # the static library.
 #
 # Needs BUILD (the build tree), SOURCE, SCRATCH, LIBDIR, CC, CXX, GENERATOR, BUILD_TYPE; PKG_CONFIG may be empty.
+cmake_policy(VERSION 3.22)
 set(here "${CMAKE_CURRENT_LIST_DIR}")
 file(REMOVE_RECURSE "${SCRATCH}")
 file(COPY "${here}/CMakeLists.txt" "${here}/use.c" "${here}/use.cpp" DESTINATION "${SCRATCH}/project")

@@ -110,6 +110,7 @@ pub fn tessellate(
         }
     }
     let mut plane = Plane::new(surface, options)?;
+    plane.add_frame()?;
     plane.add_trims()?;
     plane.add_grid()?;
     while plane.refine()? {}
@@ -131,6 +132,8 @@ struct Plane<'a> {
     triangulation: ConstrainedDelaunayTriangulation<Point2<f64>>,
     points: HashMap<FixedVertexHandle, DVec3>,
     chord_error: f64,
+    /// Vertices beyond the domain that belong to no triangle of the surface.
+    frame: Vec<FixedVertexHandle>,
 }
 
 impl<'a> Plane<'a> {
@@ -146,6 +149,7 @@ impl<'a> Plane<'a> {
             triangulation: ConstrainedDelaunayTriangulation::new(),
             points: HashMap::new(),
             chord_error: 0.0,
+            frame: Vec::new(),
         })
     }
 
@@ -162,6 +166,24 @@ impl<'a> Plane<'a> {
             return Err(TessellateError::TooLarge { limit: self.options.max_points });
         }
         Ok(vertex)
+    }
+
+    /// Whether trims bound the surface.
+    fn has_trims(&self) -> bool {
+        self.options.keep_trims && !self.surface.region().trims.is_empty()
+    }
+
+    /// Puts trims inside a larger rectangle. A side on the hull of the triangulation could not be halved: a
+    /// middle that rounding has moved inwards would leave it there, with a sliver behind it, for ever.
+    fn add_frame(&mut self) -> Result<(), TessellateError> {
+        if self.has_trims() {
+            let domain = self.surface.domain();
+            for (u, v) in [(-1.0, -1.0), (2.0, -1.0), (2.0, 2.0), (-1.0, 2.0)] {
+                let corner = self.insert(domain.min + DVec2::new(u, v) * domain.size())?;
+                self.frame.push(corner);
+            }
+        }
+        Ok(())
     }
 
     fn add_trims(&mut self) -> Result<(), TessellateError> {
@@ -187,7 +209,7 @@ impl<'a> Plane<'a> {
     fn add_grid(&mut self) -> Result<(), TessellateError> {
         let domain = self.surface.domain();
         let trims = &self.surface.region().trims;
-        let keeps_trims = self.options.keep_trims && !trims.is_empty();
+        let keeps_trims = self.has_trims();
         for i in 0..START_LINES {
             for j in 0..START_LINES {
                 let share = DVec2::new(i as f64, j as f64) / (START_LINES - 1) as f64;
@@ -223,7 +245,8 @@ impl<'a> Plane<'a> {
                 [directed.face(), directed.rev().face()].iter().any(|face| {
                     face.as_inner().is_some_and(|face| {
                         let center = face.center();
-                        self.is_kept(DVec2::new(center.x, center.y) / self.stretch)
+                        !face.vertices().iter().any(|vertex| self.frame.contains(&vertex.fix()))
+                            && self.is_kept(DVec2::new(center.x, center.y) / self.stretch)
                     })
                 })
             })
@@ -238,14 +261,38 @@ impl<'a> Plane<'a> {
             let sag = distance_to_segment(eval(self.surface, uv), from, to);
             let longest = self.options.max_edge_length;
             if sag > self.chord_tolerance || (longest > 0.0 && from.distance(to) > longest) {
-                middles.push(uv);
+                middles.push(([a, b], uv));
             }
             self.chord_error = self.chord_error.max(sag);
         }
-        for &uv in &middles {
-            self.insert(uv)?;
+        let before = self.triangulation.num_vertices();
+        for &(ends, uv) in &middles {
+            self.halve(ends, uv)?;
         }
-        Ok(!middles.is_empty())
+        // middles that are all nodes already would come again in every further round
+        Ok(self.triangulation.num_vertices() > before)
+    }
+
+    /// Makes the middle of an edge a node.
+    ///
+    /// A side of a trim gives way to its two halves: rounding puts the middle beside the side, not on it, so
+    /// that the side would stay whole and be halved at the same place in every further round.
+    fn halve(&mut self, ends: [FixedVertexHandle; 2], uv: DVec2) -> Result<(), TessellateError> {
+        let [a, b] = ends;
+        let side = self.triangulation.get_edge_from_neighbors(a, b).filter(|edge| edge.is_constraint_edge());
+        let Some(side) = side.map(|edge| edge.as_undirected().fix()) else {
+            self.insert(uv)?;
+            return Ok(());
+        };
+        self.triangulation.remove_constraint_edge(side);
+        let middle = self.insert(uv)?;
+        for (from, to) in [(a, middle), (middle, b)] {
+            if !self.triangulation.can_add_constraint(from, to) {
+                return Err(TessellateError::CrossingTrims { u: uv.x, v: uv.y });
+            }
+            self.triangulation.add_constraint(from, to);
+        }
+        Ok(())
     }
 
     fn finish(mut self) -> Result<Tessellation, TessellateError> {
@@ -255,6 +302,9 @@ impl<'a> Plane<'a> {
         let faces: Vec<_> =
             self.triangulation.inner_faces().map(|face| face.vertices().map(|vertex| vertex.fix())).collect();
         for face in faces {
+            if face.iter().any(|vertex| self.frame.contains(vertex)) {
+                continue;
+            }
             let place = face.map(|vertex| self.uv(self.triangulation.vertex(vertex).position()));
             if !self.is_kept(place.iter().sum::<DVec2>() / 3.0) {
                 continue;
@@ -386,6 +436,18 @@ mod tests {
         assert!((area(&mesh) - exact).abs() < 1e-12, "{} is not {exact}", area(&mesh));
         let whole = TessellateOptions { keep_trims: false, ..options };
         assert!((area(&tessellate(&surface, &whole).unwrap().mesh) - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn long_slanted_sides_of_trims_are_halved() {
+        let mut surface = wave(1.0);
+        let slanted = [(0.0, 0.0), (1.0, 0.1), (0.7, 0.9), (0.3, 1.0)].map(|(u, v)| DVec2::new(u, v));
+        surface.region_mut().trims = Trims::new(vec![slanted.to_vec()], &surface.domain()).unwrap();
+        let options = TessellateOptions { chord_tolerance: 1e-4, ..TessellateOptions::default() };
+        let result = tessellate(&surface, &options).unwrap();
+        assert!(result.chord_error <= 1e-4);
+        assert_eq!(result.mesh.loops().len(), 1);
+        assert!(result.mesh.loops()[0].len() > 50, "{} nodes", result.mesh.loops()[0].len());
     }
 
     #[test]
