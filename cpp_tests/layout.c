@@ -160,6 +160,23 @@ FOLLOWS(planish_vtk_options, deviation_from, tessellate);
 FOLLOWS(planish_vtk_options, tessellate, thread_count);
 FOLLOWS(planish_vtk_options, thread_count, reserved);
 LAST(planish_vtk_options, reserved);
+FIRST(planish_step_options);
+FOLLOWS(planish_step_options, struct_size, product);
+FOLLOWS(planish_step_options, product, author);
+FOLLOWS(planish_step_options, author, organization);
+FOLLOWS(planish_step_options, organization, timestamp);
+FOLLOWS(planish_step_options, timestamp, out_report);
+FOLLOWS(planish_step_options, out_report, schema);
+FOLLOWS(planish_step_options, schema, unit);
+LAST(planish_step_options, unit);
+
+FIRST(planish_step_report);
+FOLLOWS(planish_step_report, struct_size, curve_deviation);
+FOLLOWS(planish_step_report, curve_deviation, uncertainty);
+FOLLOWS(planish_step_report, uncertainty, diagonal);
+FOLLOWS(planish_step_report, diagonal, loop_count);
+FOLLOWS(planish_step_report, loop_count, edge_count);
+LAST(planish_step_report, edge_count);
 
 int planish_layout_holds(void);
 int planish_layout_holds(void) { return 1; }

@@ -423,6 +423,38 @@ typedef enum planish_regularize {
 } planish_regularize;
 
 /**
+ * The application protocol of a STEP file.
+ */
+typedef enum planish_step_schema {
+    /**
+     * AP214, automotive design: read by every CAD system.
+     */
+    PLANISH_STEP_SCHEMA_AP214 = 0,
+    /**
+     * AP242, managed model-based 3D engineering.
+     */
+    PLANISH_STEP_SCHEMA_AP242 = 1,
+} planish_step_schema;
+
+/**
+ * What one model unit is.
+ */
+typedef enum planish_unit {
+    /**
+     * A millimetre.
+     */
+    PLANISH_UNIT_MILLIMETRE = 0,
+    /**
+     * A metre.
+     */
+    PLANISH_UNIT_METRE = 1,
+    /**
+     * An inch, 25.4 mm.
+     */
+    PLANISH_UNIT_INCH = 2,
+} planish_unit;
+
+/**
  * A B-spline curve: a map from an interval of parameters u to R^dim. Made by planish_curve_fit(), destroyed by
  * planish_curve_free().
  *
@@ -1060,6 +1092,77 @@ typedef struct planish_vtk_options {
      */
     uint32_t reserved;
 } planish_vtk_options;
+
+/**
+ * What was written to a STEP file.
+ */
+typedef struct planish_step_report {
+    /**
+     * Set this to sizeof(planish_step_report) before the call.
+     */
+    size_t struct_size;
+    /**
+     * Largest distance between an edge's curve in space and the image of its p-curve, measured on the curves
+     * written, in model units.
+     */
+    double curve_deviation;
+    /**
+     * The uncertainty that the file states, in model units: 1e-7 of the diagonal, or more if the curves need it.
+     */
+    double uncertainty;
+    /**
+     * Diagonal of the box around the part of the surface inside the trims.
+     */
+    double diagonal;
+    /**
+     * Bounds of the face, the outer one included.
+     */
+    size_t loop_count;
+    /**
+     * Edges of all bounds.
+     */
+    size_t edge_count;
+} planish_step_report;
+
+/**
+ * What a STEP file says beside the shape. Fill with planish_step_options_init(), then change what you need.
+ * Texts are UTF-8, end with a NUL and are borrowed.
+ */
+typedef struct planish_step_options {
+    /**
+     * Set by planish_step_options_init().
+     */
+    size_t struct_size;
+    /**
+     * Name of the product; NULL (default) for "surface".
+     */
+    const char *product;
+    /**
+     * Who made it; NULL (default) for nobody.
+     */
+    const char *author;
+    /**
+     * For whom; NULL (default) for nobody.
+     */
+    const char *organization;
+    /**
+     * When, such as "2026-01-31T12:00:00"; NULL (default) for 1970-01-01T00:00:00, so that equal input gives
+     * equal bytes.
+     */
+    const char *timestamp;
+    /**
+     * Receives what was written, or NULL (default). Set its struct_size before. Filled on success only.
+     */
+    struct planish_step_report *out_report;
+    /**
+     * A planish_step_schema; PLANISH_STEP_SCHEMA_AP214 (default).
+     */
+    uint32_t schema;
+    /**
+     * A planish_unit, what one model unit is; PLANISH_UNIT_MILLIMETRE (default).
+     */
+    uint32_t unit;
+} planish_step_options;
 
 #ifdef __cplusplus
 extern "C" {
@@ -2054,6 +2157,39 @@ PLANISH_API
 PLANISH_NODISCARD
 enum planish_status planish_surface_load_file(const char *path,
                                               struct planish_surface **out_surface);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options: not NULL.
+ * size:    sizeof(planish_step_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_step_options_init(struct planish_step_options *options,
+                                              size_t size);
+
+/**
+ * Writes a tensor surface in space as a STEP file with one face, bounded by the surface's trims or, if it has
+ * none, by its domain. P-curves are the trims themselves, of degree 1; curves in space are cubic and follow
+ * them over the same parameters within the uncertainty that the file states. The file appears whole or not at
+ * all; equal input gives equal bytes.
+ *
+ * surface: not NULL, a tensor surface of dimension 3.
+ * path:    UTF-8, ends with a NUL; an existing file is replaced.
+ * options: NULL for the defaults.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension, an
+ * option, a text that is not UTF-8), PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOPOLOGY (trims that cross or
+ * touch, the index is one of them; trims around several pieces; a knot inside the domain that occurs more often
+ * than the degree), PLANISH_STATUS_DEGENERATE (a trim without area, the index; a face without size) or
+ * PLANISH_STATUS_FILE.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_write_step(const struct planish_surface *surface,
+                                               const char *path,
+                                               const struct planish_step_options *options);
 
 /**
  * Fits a cubic curve to values at parameters, by the method of planish_tensor_fit() in one parameter.

@@ -8,6 +8,7 @@ use crate::control::Cancelled;
 use crate::curve::CurveError;
 use crate::export::ExportError;
 use crate::export::native::LoadError;
+use crate::export::step::StepError;
 use crate::fit::tessellation::FitError;
 use crate::knots::KnotError;
 use crate::mesh::{CutError, MeshError, ReadError};
@@ -93,6 +94,9 @@ pub enum Error {
     /// A file cannot be written.
     #[error(transparent)]
     Export(#[from] ExportError),
+    /// A surface cannot be written as a face.
+    #[error(transparent)]
+    Step(#[from] StepError),
     /// A saved surface cannot be loaded.
     #[error(transparent)]
     Load(#[from] LoadError),
@@ -132,6 +136,7 @@ impl Error {
             Self::Project(error) => (error.kind(), error.index()),
             Self::Tessellate(error) => (error.kind(), None),
             Self::Export(error) => (error.kind(), None),
+            Self::Step(error) => (error.kind(), error.index()),
             Self::Load(error) => (error.kind(), error.index()),
             Self::Trim(error) => (error.kind(), error.index()),
             Self::Cut(error) => (error.kind(), error.index()),

@@ -4,6 +4,7 @@ mod error;
 pub mod native;
 pub mod obj;
 pub mod picture;
+pub mod step;
 pub mod vtk;
 
 pub use error::ExportError;

@@ -23,6 +23,7 @@ mod progress;
 mod query;
 mod report;
 mod status;
+mod step;
 mod surface;
 mod tensor;
 #[cfg(test)]
@@ -36,5 +37,6 @@ pub use progress::*;
 pub use query::*;
 pub use report::*;
 pub use status::*;
+pub use step::*;
 pub use surface::*;
 pub use tensor::*;

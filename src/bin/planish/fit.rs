@@ -5,6 +5,7 @@ use crate::{Failure, Outcome};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use planish::Control;
+use planish::export::step::{StepOptions, Unit};
 use planish::fit::report::{FitReport, Remarks, StopReason, Tolerance, ToleranceScale};
 use planish::fit::tessellation::{Ends, Method, Regularize, TensorFit, TensorOptions, fit_mesh};
 use planish::mesh::{Mesh, MeshOptions, MeshRepairs, read};
@@ -24,10 +25,16 @@ pub struct FitArguments {
     /// Take the tolerance in model units.
     #[arg(long)]
     absolute: bool,
-    /// Write a file: .vtu (the mesh on the surface with its deviation), .obj (a tessellation),
-    /// .planish (the surface itself); may be given several times.
+    /// Write a file: .step or .stp (the trimmed surface), .vtu (the mesh on the surface with its
+    /// deviation), .obj (a tessellation), .planish (the surface itself); may be given several times.
     #[arg(long, value_name = "FILE")]
     out: Vec<PathBuf>,
+    /// What one model unit is, for STEP files.
+    #[arg(long, value_enum, default_value_t = UnitName::Mm)]
+    unit: UnitName,
+    /// Name of the product in STEP files; that of the mesh file if it is left out.
+    #[arg(long, value_name = "NAME")]
+    product: Option<String>,
     /// Write a picture of the surface coloured by deviation.
     #[arg(long, value_name = "PNG")]
     picture: Option<PathBuf>,
@@ -77,6 +84,13 @@ enum BorderName {
     Arc,
 }
 
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum UnitName {
+    Mm,
+    M,
+    Inch,
+}
+
 pub fn run(arguments: &FitArguments) -> Result<Outcome, Failure> {
     output::check_names(&arguments.out)?;
     let mesh_options =
@@ -86,8 +100,18 @@ pub fn run(arguments: &FitArguments) -> Result<Outcome, Failure> {
         mesh.clear_parameters();
     }
     let fit = fit_with_bar(&mesh, &options(arguments), arguments.threads)?;
+    let stem = arguments.mesh.file_stem().unwrap_or_default().to_string_lossy();
+    let step = StepOptions {
+        unit: match arguments.unit {
+            UnitName::Mm => Unit::Millimetre,
+            UnitName::M => Unit::Metre,
+            UnitName::Inch => Unit::Inch,
+        },
+        product: arguments.product.as_deref().unwrap_or(&stem),
+        ..StepOptions::default()
+    };
     for path in &arguments.out {
-        output::write_fit(&mesh, &fit, path)?;
+        output::write_fit(&mesh, &fit, path, &step)?;
     }
     if let Some(path) = &arguments.picture {
         output::write_picture(&mesh, &fit, path)?;

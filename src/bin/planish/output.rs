@@ -2,6 +2,7 @@
 
 use crate::Failure;
 use planish::export::picture::{Picture, View};
+use planish::export::step::{self, StepOptions};
 use planish::export::{native, obj, vtk};
 use planish::fit::tessellation::TensorFit;
 use planish::mesh::{Mesh, MeshRepairs};
@@ -44,7 +45,7 @@ pub fn repairs(repairs: &MeshRepairs) -> String {
     parts.join(", ")
 }
 
-const KNOWN: [&str; 3] = ["vtu", "obj", "planish"];
+const KNOWN: [&str; 5] = ["step", "stp", "vtu", "obj", "planish"];
 
 /// Refuses names whose format is not known before any work is done.
 pub fn check_names(paths: &[impl AsRef<Path>]) -> Result<(), Failure> {
@@ -62,9 +63,12 @@ fn extension(path: &Path) -> String {
     path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
 }
 
-/// Writes a fit in the format of the name.
-pub fn write_fit(mesh: &Mesh, fit: &TensorFit, path: &Path) -> Result<(), Failure> {
+/// Writes a fit in the format of the name; `step` says what STEP files say beside the shape.
+pub fn write_fit(mesh: &Mesh, fit: &TensorFit, path: &Path, step: &StepOptions) -> Result<(), Failure> {
     match extension(path).as_str() {
+        "step" | "stp" => {
+            step::write(&fit.surface, step, path)?;
+        }
         "vtu" => {
             let data = vtk::PointData { name: "deviation", dim: 1, values: &fit.errors };
             vtk::write_mesh(&vtk::on_surface(&fit.surface, mesh, &fit.parameters)?, &[data], path)?;

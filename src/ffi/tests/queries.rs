@@ -246,3 +246,47 @@ fn vtk_files_are_written_or_refused() {
         refused(status, planish_status::File, -1, &["folder"]);
     }
 }
+
+#[test]
+fn step_files_are_written_or_refused() {
+    let saddle = SurfaceHandle::saddle();
+    let path = file("surface.step");
+    let product = c("Fläche");
+    let mut report: planish_step_report = record();
+    // SAFETY: all pointers are NULL or live.
+    unsafe {
+        ok(planish_surface_write_step(saddle.0, path.as_ptr(), null()));
+        let options = planish_step_options {
+            product: product.as_ptr(),
+            unit: planish_unit::Inch as u32,
+            out_report: &raw mut report,
+            ..record()
+        };
+        ok(planish_surface_write_step(saddle.0, path.as_ptr(), &raw const options));
+        assert_eq!((report.loop_count, report.edge_count), (1, 4));
+        assert!(report.curve_deviation <= report.uncertainty, "{report:?}");
+        let written = std::fs::read_to_string(path.to_str().unwrap()).unwrap();
+        assert!(written.contains("'INCH'") && written.contains("Fl\\X2\\00E4\\X0\\che"));
+        std::fs::remove_file(path.to_str().unwrap()).unwrap();
+        null_refused(planish_surface_write_step(null(), path.as_ptr(), null()), "surface");
+        null_refused(planish_surface_write_step(saddle.0, null(), null()), "path");
+        null_refused(planish_step_options_init(null_mut(), 56), "options");
+        let bad = [
+            (planish_step_options { schema: 2, ..record() }, "schema is 2"),
+            (planish_step_options { unit: 3, ..record() }, "unit is 3"),
+            (planish_step_options { author: c"\xff".as_ptr(), ..record() }, "author is not UTF-8"),
+        ];
+        for (options, words) in bad {
+            let status = planish_surface_write_step(saddle.0, path.as_ptr(), &raw const options);
+            let index = if words.starts_with("author") { 0 } else { -1 };
+            refused(status, planish_status::InvalidArgument, index, &[words]);
+        }
+        let other = SurfaceHandle::other_family();
+        let status = planish_surface_write_step(other.0, path.as_ptr(), null());
+        refused(status, planish_status::WrongKind, -1, &["family"]);
+        let nowhere = c("/no/such/folder/part.step");
+        let status = planish_surface_write_step(saddle.0, nowhere.as_ptr(), null());
+        refused(status, planish_status::File, -1, &["folder"]);
+    }
+    assert!(!std::path::Path::new(path.to_str().unwrap()).exists());
+}

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 /// The files of `src/ffi` in the order of the header.
-const SOURCES: [&str; 10] = [
+const SOURCES: [&str; 11] = [
     "status.rs",
     "progress.rs",
     "mesh.rs",
@@ -16,6 +16,7 @@ const SOURCES: [&str; 10] = [
     "tensor.rs",
     "query.rs",
     "export.rs",
+    "step.rs",
     "curve.rs",
 ];
 

@@ -1,0 +1,289 @@
+// STEP files as OpenCASCADE reads them: valid, one face, its bounds, area, holes, and curves that agree.
+#include "check.hpp"
+#include "handles.hpp"
+#include "shapes.hpp"
+
+#include <BRepAdaptor_Surface.hxx>
+#include <BRepCheck_Analyzer.hxx>
+#include <BRepGProp.hxx>
+#include <BRep_Tool.hxx>
+#include <GProp_GProps.hxx>
+#include <Geom2d_Curve.hxx>
+#include <Geom_Curve.hxx>
+#include <Geom_Surface.hxx>
+#include <IntCurvesFace_Intersector.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <STEPControl_Reader.hxx>
+#include <ShapeAnalysis_Surface.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Shape.hxx>
+#include <gp_Lin.hxx>
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace {
+
+constexpr double millimetres_per_metre = 1000.0;
+
+struct written {
+  std::string path;
+  planish_step_report report;
+};
+
+written write(const Surface &surface, const char *name, std::uint32_t unit) {
+  written file{std::string("occt_") + name + ".step", fresh<planish_step_report>()};
+  planish_step_options options;
+  CHECK_EQUAL(planish_step_options_init(&options, sizeof options), PLANISH_STATUS_OK);
+  options.product = name;
+  options.unit = unit;
+  options.out_report = &file.report;
+  const planish_status status = planish_surface_write_step(surface.get(), file.path.c_str(), &options);
+  if (status != PLANISH_STATUS_OK) std::printf("%s\n", check::last_sentence().c_str());
+  CHECK_EQUAL(status, PLANISH_STATUS_OK);
+  CHECK(file.report.curve_deviation <= file.report.uncertainty);
+  return file;
+}
+
+TopoDS_Shape read(const std::string &path) {
+  Message::DefaultMessenger()->ChangePrinters().Clear(); // the reader tells statistics
+  STEPControl_Reader reader;
+  CHECK(reader.ReadFile(path.c_str()) == IFSelect_RetDone);
+  CHECK_EQUAL(reader.TransferRoots(), 1);
+  return reader.OneShape();
+}
+
+int count(const TopoDS_Shape &shape, TopAbs_ShapeEnum kind) {
+  int found = 0;
+  for (TopExp_Explorer it(shape, kind); it.More(); it.Next()) ++found;
+  return found;
+}
+
+double area(const TopoDS_Shape &shape) {
+  GProp_GProps properties;
+  BRepGProp::SurfaceProperties(shape, properties, 1e-6);
+  return properties.Mass();
+}
+
+double tessellated_area(const Surface &surface, double diagonal) {
+  planish_tessellate_options options;
+  CHECK_EQUAL(planish_tessellate_options_init(&options, sizeof options), PLANISH_STATUS_OK);
+  options.chord_tolerance = 1e-5 * diagonal;
+  planish_mesh *out = nullptr;
+  CHECK_EQUAL(planish_surface_tessellate(surface.get(), &options, &out), PLANISH_STATUS_OK);
+  const Mesh mesh(out);
+  std::vector<double> points(3 * planish_mesh_point_count(mesh.get()));
+  std::vector<std::uint32_t> triangles(3 * planish_mesh_triangle_count(mesh.get()));
+  CHECK_EQUAL(planish_mesh_copy_points(mesh.get(), points.data(), points.size() / 3), PLANISH_STATUS_OK);
+  CHECK_EQUAL(planish_mesh_copy_triangles(mesh.get(), triangles.data(), triangles.size() / 3), PLANISH_STATUS_OK);
+  double sum = 0;
+  for (std::size_t t = 0; t < triangles.size(); t += 3) {
+    const auto corner = [&](std::size_t k) {
+      const double *p = &points[3 * triangles[t + k]];
+      return gp_Vec(p[0], p[1], p[2]);
+    };
+    sum += 0.5 * (corner(1) - corner(0)).Crossed(corner(2) - corner(0)).Magnitude();
+  }
+  return sum;
+}
+
+// Largest distance between the curve of an edge and the image of its p-curve, at 100 parameters of each edge, and
+// whether both are over the same parameters.
+double curve_deviation(const TopoDS_Face &face) {
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+  double worst = 0;
+  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) {
+    const TopoDS_Edge edge = TopoDS::Edge(it.Current());
+    if (BRep_Tool::Degenerated(edge)) continue;
+    double from, to, from_2d, to_2d;
+    const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, from, to);
+    const Handle(Geom2d_Curve) pcurve = BRep_Tool::CurveOnSurface(edge, face, from_2d, to_2d);
+    CHECK(!curve.IsNull() && !pcurve.IsNull());
+    if (curve.IsNull() || pcurve.IsNull()) continue;
+    CHECK_EQUAL(from, from_2d);
+    CHECK_EQUAL(to, to_2d);
+    for (int k = 0; k < 100; ++k) {
+      const double t = from + (to - from) * k / 99.0;
+      const gp_Pnt2d uv = pcurve->Value(t);
+      worst = std::fmax(worst, curve->Value(t).Distance(surface->Value(uv.X(), uv.Y())));
+    }
+  }
+  return worst;
+}
+
+// How often the line along z through (x, y) meets the face.
+int hits(const TopoDS_Face &face, double x, double y) {
+  IntCurvesFace_Intersector intersector(face, 1e-9);
+  intersector.Perform(gp_Lin(gp_Pnt(x, y, -1e6), gp_Dir(0, 0, 1)), 0, 2e6);
+  CHECK(intersector.IsDone());
+  return intersector.NbPnt();
+}
+
+// Everything that holds for any file; the face, for more.
+TopoDS_Face check_file(const Surface &surface, const char *name, std::uint32_t unit, int wires) {
+  const written file = write(surface, name, unit);
+  const double scale = unit == PLANISH_UNIT_METRE ? millimetres_per_metre : unit == PLANISH_UNIT_INCH ? 25.4 : 1.0;
+  const TopoDS_Shape shape = read(file.path);
+  CHECK(!shape.IsNull());
+  if (shape.IsNull()) return {};
+  CHECK(BRepCheck_Analyzer(shape).IsValid());
+  CHECK_EQUAL(count(shape, TopAbs_FACE), 1);
+  CHECK_EQUAL(count(shape, TopAbs_WIRE), wires);
+  CHECK_EQUAL(static_cast<std::size_t>(wires), file.report.loop_count);
+  TopExp_Explorer faces(shape, TopAbs_FACE);
+  if (!faces.More()) return {};
+  const TopoDS_Face face = TopoDS::Face(faces.Current());
+  const double own = tessellated_area(surface, file.report.diagonal) * scale * scale;
+  const double found = area(face);
+  CHECK_NEAR(found / own, 1.0, 1e-3);
+  const double deviation = curve_deviation(face);
+  CHECK(deviation <= file.report.uncertainty * scale);
+  // the reader's tolerances grow with what it finds wrong
+  double tolerance = 0;
+  int edges = 0;
+  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) {
+    tolerance = std::fmax(tolerance, BRep_Tool::Tolerance(TopoDS::Edge(it.Current())));
+    ++edges;
+  }
+  std::printf("%-10s %d wires, %3d of %3zu edges, area %.6g (own %.6g), deviation %.2e, measured by us %.2e, "
+              "uncertainty %.2e, largest edge tolerance %.2e\n",
+              name, count(shape, TopAbs_WIRE), edges, file.report.edge_count, found, own, deviation,
+              file.report.curve_deviation * scale, file.report.uncertainty * scale, tolerance);
+  return face;
+}
+
+Surface fitted(const shapes::arrays &arrays) {
+  planish_mesh *out_mesh = nullptr;
+  const planish_mesh_options options = mesh_options();
+  CHECK_EQUAL(planish_mesh_new(arrays.points.data(), arrays.point_count(), arrays.triangles.data(),
+                               arrays.triangle_count(), &options, &out_mesh),
+              PLANISH_STATUS_OK);
+  const Mesh mesh(out_mesh);
+  CHECK_EQUAL(planish_mesh_set_parameters(mesh.get(), arrays.uv.data(), arrays.point_count()), PLANISH_STATUS_OK);
+  planish_surface *out = nullptr;
+  CHECK(planish_tensor_fit(mesh.get(), nullptr, &out, nullptr) >= 0);
+  return Surface(out);
+}
+
+std::vector<double> circle(double u, double v, double radius, int count) {
+  std::vector<double> uv;
+  for (int k = 0; k < count; ++k) {
+    const double angle = 2 * M_PI * k / count;
+    uv.insert(uv.end(), {u + radius * std::cos(angle), v + radius * std::sin(angle)});
+  }
+  return uv;
+}
+
+void set_trims(const Surface &surface, const std::vector<std::vector<double>> &loops) {
+  std::vector<double> uv;
+  std::vector<std::size_t> counts;
+  for (const std::vector<double> &loop : loops) {
+    uv.insert(uv.end(), loop.begin(), loop.end());
+    counts.push_back(loop.size() / 2);
+  }
+  CHECK_EQUAL(planish_surface_set_trims(surface.get(), uv.data(), counts.data(), counts.size()), PLANISH_STATUS_OK);
+}
+
+// The part of a torus between four angles, exact, of radii 3 and 1. Every arc is less than half a turn.
+Surface torus(double ring_from, double ring_to, double tube_from, double tube_to) {
+  const double knots[6] = {0, 0, 0, 1, 1, 1};
+  struct arc {
+    double x[3], y[3], w[3];
+    arc(double from, double to) {
+      const double half = (to - from) / 2, middle = (from + to) / 2, c = std::cos(half);
+      const double angles[3] = {from, middle, to};
+      for (int k = 0; k < 3; ++k) {
+        const double r = k == 1 ? 1 / c : 1;
+        x[k] = r * std::cos(angles[k]), y[k] = r * std::sin(angles[k]), w[k] = k == 1 ? c : 1;
+      }
+    }
+  };
+  const arc ring(ring_from, ring_to), tube(tube_from, tube_to);
+  std::vector<double> points, weights;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const double radius = 3 + tube.x[j];
+      points.insert(points.end(), {radius * ring.x[i], radius * ring.y[i], tube.y[j]});
+      weights.push_back(ring.w[i] * tube.w[j]);
+    }
+  }
+  planish_surface *out = nullptr;
+  CHECK_EQUAL(planish_tensor_new(3, 2, 2, knots, 6, knots, 6, points.data(), weights.data(), &out), PLANISH_STATUS_OK);
+  return Surface(out);
+}
+
+} // namespace
+
+TEST(OcctStep, FittedPanelWithHoles) {
+  const Surface panel = fitted(shapes::graph(41, 41, 0.25, 7, true));
+  // a hole of the data in the middle, and two drawn ones
+  std::vector<std::vector<double>> loops;
+  for (std::size_t k = 0; k < planish_surface_trim_count(panel.get()); ++k) {
+    loops.emplace_back(2 * planish_surface_trim_point_count(panel.get(), k));
+    CHECK_EQUAL(planish_surface_copy_trim(panel.get(), k, loops.back().data(), loops.back().size() / 2),
+                PLANISH_STATUS_OK);
+  }
+  CHECK_EQUAL(loops.size(), std::size_t{2});
+  loops.push_back(circle(0.2, 0.2, 0.08, 60));
+  loops.push_back(circle(0.8, 0.75, 0.05, 5));
+  set_trims(panel, loops);
+  for (const std::uint32_t unit : {PLANISH_UNIT_MILLIMETRE, PLANISH_UNIT_METRE, PLANISH_UNIT_INCH}) {
+    const double scale = unit == PLANISH_UNIT_METRE ? millimetres_per_metre : unit == PLANISH_UNIT_INCH ? 25.4 : 1.0;
+    const char *names[] = {"panel_mm", "panel_m", "panel_inch"};
+    const TopoDS_Face face = check_file(panel, names[unit], unit, 4);
+    for (const auto &[x, y] : {std::pair(0.5, 0.5), std::pair(0.2, 0.2), std::pair(0.8, 0.75)}) {
+      CHECK_EQUAL(hits(face, scale * x, scale * y), 0);
+    }
+    for (const auto &[x, y] : {std::pair(0.5, 0.2), std::pair(0.2, 0.31), std::pair(0.8, 0.65)}) {
+      CHECK_EQUAL(hits(face, scale * x, scale * y), 1);
+    }
+    CHECK_EQUAL(hits(face, scale * 1.05, scale * 0.5), 0);
+  }
+}
+
+TEST(OcctStep, RationalTorusPiece) {
+  const Surface piece = torus(0.1, 1.4, -0.6, 1.2);
+  const TopoDS_Face face = check_file(piece, "torus", PLANISH_UNIT_MILLIMETRE, 1);
+  CHECK_NEAR(area(face), 1.3 * (3 * 1.8 + std::sin(1.2) - std::sin(-0.6)), 1e-5);
+  set_trims(piece, {{0.1, 0.1, 0.1, 0.9, 0.9, 0.9, 0.9, 0.1}, circle(0.5, 0.5, 0.2, 90), circle(0.8, 0.8, 0.05, 4)});
+  check_file(piece, "torus_trim", PLANISH_UNIT_MILLIMETRE, 3);
+}
+
+TEST(OcctStep, UntrimmedPatchWithOpenKnots) {
+  // a uniform knot vector: other programs want it clamped
+  const double knots[10] = {-3, -2, -1, 0, 1, 2, 3, 4, 5, 6};
+  std::vector<double> points;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) points.insert(points.end(), {10.0 * i, 10.0 * j, 8 * std::sin(i) * std::cos(0.5 * j)});
+  }
+  planish_surface *out = nullptr;
+  CHECK_EQUAL(planish_tensor_new(3, 3, 3, knots, 10, knots, 10, points.data(), nullptr, &out), PLANISH_STATUS_OK);
+  const Surface patch(out);
+  const TopoDS_Face face = check_file(patch, "patch", PLANISH_UNIT_MILLIMETRE, 1);
+  CHECK_EQUAL(hits(face, 25, 25), 1);
+  CHECK_EQUAL(count(face, TopAbs_EDGE), 4);
+}
+
+TEST(OcctStep, PoleOfASphere) {
+  const double knots[6] = {0, 0, 0, 1, 1, 1}, w = std::sqrt(0.5);
+  const double xs[3] = {1, 1, 0}, ys[3] = {0, 1, 1}, ws[3] = {1, w, 1};
+  std::vector<double> points, weights;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      points.insert(points.end(), {xs[j] * xs[i], xs[j] * ys[i], ys[j]});
+      weights.push_back(ws[i] * ws[j]);
+    }
+  }
+  planish_surface *out = nullptr;
+  CHECK_EQUAL(planish_tensor_new(3, 2, 2, knots, 6, knots, 6, points.data(), weights.data(), &out), PLANISH_STATUS_OK);
+  const TopoDS_Face face = check_file(Surface(out), "pole", PLANISH_UNIT_MILLIMETRE, 1);
+  CHECK_NEAR(area(face), M_PI / 2, 1e-6);
+}
+
+int main() { return check::run(); }

@@ -1,0 +1,232 @@
+//! STEP files: a tensor surface in space as one trimmed face.
+//!
+//! ISO 10303-21 (clear text), 10303-42 (geometry and topology), application protocols 214 and 242. The face lies
+//! on a `B_SPLINE_SURFACE_WITH_KNOTS` (rational where the surface has weights) and is bounded by the surface's
+//! trims, or by the border of its domain. Trims are polylines in (u,v) and are written exactly: each edge has a
+//! p-curve of degree 1 through their points and a cubic in space over the same parameters, the p-curve's image
+//! within the file's uncertainty, with a kink wherever the polyline has one. Smoothing the polylines would make
+//! curves that are easier to edit, but no longer the bounds that every other call of the library keeps to.
+//!
+//! Equal input gives equal bytes.
+
+mod clamp;
+mod edges;
+mod image;
+mod loops;
+mod part21;
+mod write;
+
+use super::error::{ExportError, write_file};
+use crate::curve::CurveError;
+use crate::geometry::{Bounds, Domain};
+use crate::knots::KnotError;
+use crate::surface::Surface;
+use crate::surface::tensor::{Axis, TensorSurface};
+use clamp::Net;
+use edges::Boundary;
+use glam::DVec2;
+use std::path::Path;
+
+/// The application protocol of a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Schema {
+    /// Automotive design; read by every CAD system.
+    #[default]
+    Ap214,
+    /// Managed model-based 3D engineering.
+    Ap242,
+}
+
+/// What one model unit is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Unit {
+    /// A millimetre.
+    #[default]
+    Millimetre,
+    /// A metre.
+    Metre,
+    /// An inch, 25.4 mm.
+    Inch,
+}
+
+/// What a file says beside the shape.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepOptions<'a> {
+    /// The application protocol.
+    pub schema: Schema,
+    /// What one model unit is.
+    pub unit: Unit,
+    /// Name of the product.
+    pub product: &'a str,
+    /// Who made it.
+    pub author: &'a str,
+    /// For whom.
+    pub organization: &'a str,
+    /// When, as `2026-01-31T12:00:00`; always the same by default, so that equal input gives equal bytes.
+    pub timestamp: &'a str,
+}
+
+impl Default for StepOptions<'_> {
+    fn default() -> Self {
+        Self {
+            schema: Schema::default(),
+            unit: Unit::default(),
+            product: "surface",
+            author: "",
+            organization: "",
+            timestamp: "1970-01-01T00:00:00",
+        }
+    }
+}
+
+/// What was written.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepReport {
+    /// Bounds of the face, the outer one included.
+    pub loop_count: usize,
+    /// Edges of all bounds.
+    pub edge_count: usize,
+    /// Largest distance between a curve in space and the image of its p-curve, measured on the curves written.
+    pub curve_deviation: f64,
+    /// The file's uncertainty, in model units: 1e-7 of the diagonal, or more if the curves need it.
+    pub uncertainty: f64,
+    /// Diagonal of the box around the part of the surface inside the trims.
+    pub diagonal: f64,
+}
+
+/// A surface cannot be written as a face.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum StepError {
+    /// The file, or the dimension.
+    #[error(transparent)]
+    Export(#[from] ExportError),
+    /// The format knows no surface with a gap.
+    #[error("knot {index} along {axis:?} occurs more than {degree} times inside the domain")]
+    Torn {
+        /// The direction.
+        axis: Axis,
+        /// The first of the equal knots.
+        index: usize,
+        /// The degree: so many are allowed.
+        degree: usize,
+    },
+    /// Bounds of a face must not meet.
+    #[error("trim {index} crosses or touches itself or another near ({u}, {v})")]
+    Crossing {
+        /// The loop.
+        index: usize,
+        /// Where.
+        u: f64,
+        /// Where.
+        v: f64,
+    },
+    /// A loop has fewer than three different points.
+    #[error("trim {index} encloses no area")]
+    Empty {
+        /// The loop.
+        index: usize,
+    },
+    /// A face is in one piece.
+    #[error("the trims bound {count} separate pieces, a face has one")]
+    Pieces {
+        /// Loops that bound a piece from outside.
+        count: usize,
+    },
+    /// A loop is a point in space.
+    #[error("bound {index} is a single point in space")]
+    Collapsed {
+        /// The loop, the outer one first.
+        index: usize,
+    },
+    /// Numbers overflow.
+    #[error("the surface is too large or too small for its size to be computed: its diagonal is {diagonal}")]
+    Size {
+        /// Diagonal of its box.
+        diagonal: f64,
+    },
+    /// The knots of a curve on the surface are none: parameters too close for double precision.
+    #[error("a curve on the surface has no knots: {0}")]
+    Knots(#[from] KnotError),
+    /// A curve on the surface is none: numbers overflow.
+    #[error("a curve on the surface cannot be computed: {0}")]
+    Curve(#[from] CurveError),
+}
+
+impl StepError {
+    /// The class of the error.
+    pub fn kind(&self) -> crate::ErrorKind {
+        use crate::ErrorKind;
+        match self {
+            Self::Export(error) => error.kind(),
+            Self::Crossing { .. } | Self::Pieces { .. } | Self::Torn { .. } => ErrorKind::Topology,
+            _ => ErrorKind::Degenerate,
+        }
+    }
+
+    /// The offending trim or knot.
+    pub fn index(&self) -> Option<usize> {
+        match *self {
+            Self::Torn { index, .. } | Self::Crossing { index, .. } | Self::Empty { index } => Some(index),
+            _ => None,
+        }
+    }
+}
+
+/// How near the curves of edges are to the surface, as a share of the diagonal; the least uncertainty too.
+const CURVE_TOLERANCE: f64 = 1e-7;
+/// The measured deviation may miss the largest between samples: the uncertainty is this much above it.
+const UNCERTAINTY_MARGIN: f64 = 2.0;
+
+/// Writes a surface in space, which appears whole or not at all.
+pub fn write(surface: &TensorSurface, options: &StepOptions, path: &Path) -> Result<StepReport, StepError> {
+    let (text, report) = to_text(surface, options)?;
+    write_file(path, text.as_bytes())?;
+    Ok(report)
+}
+
+/// The content of a file.
+pub fn to_text(surface: &TensorSurface, options: &StepOptions) -> Result<(String, StepReport), StepError> {
+    if surface.dim() != 3 {
+        return Err(ExportError::Dimension { dim: surface.dim() }.into());
+    }
+    let net = Net::new(surface)?;
+    let loops = loops::bounds(surface)?;
+    let diagonal = diagonal(surface, &loops);
+    let tolerance = CURVE_TOLERANCE * diagonal;
+    if !(diagonal.is_finite() && tolerance.is_normal()) {
+        return Err(StepError::Size { diagonal });
+    }
+    let boundary = Boundary::new(surface, &loops, tolerance)?;
+    let curve_deviation = boundary.deviation();
+    let report = StepReport {
+        loop_count: boundary.loops.len(),
+        edge_count: boundary.edges().count(),
+        curve_deviation,
+        uncertainty: tolerance.max(UNCERTAINTY_MARGIN * curve_deviation),
+        diagonal,
+    };
+    Ok((write::file(&net, &boundary, &report, options), report))
+}
+
+/// Diagonal of the box of samples inside the trims and on them.
+fn diagonal(surface: &TensorSurface, loops: &[Vec<DVec2>]) -> f64 {
+    const SAMPLES: usize = 33;
+    let box_of_loops = Domain::around(loops.iter().flatten().copied());
+    let trims = &surface.region().trims;
+    let mut places: Vec<DVec2> = loops.concat();
+    for i in 0..SAMPLES {
+        for j in 0..SAMPLES {
+            let share = DVec2::new(i as f64, j as f64) / (SAMPLES - 1) as f64;
+            let uv = surface.domain().clamp(box_of_loops.min + share * box_of_loops.size());
+            if trims.contains(uv) {
+                places.push(uv);
+            }
+        }
+    }
+    let mut rows = vec![0.0; 3 * places.len()];
+    surface.eval_rows(&places, 0, &mut rows);
+    Bounds::of_rows(&rows, 3).diagonal()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,191 @@
+//! STEP files.
+
+use super::arguments::{ArgumentError, ReportOut, choice, deref, init_options, options, text};
+use super::guard::guard;
+use super::planish_status;
+use super::surface::planish_surface;
+use crate::export::step::{Schema, StepOptions, StepReport, Unit, write};
+use std::ffi::c_char;
+use std::path::Path;
+
+/// The application protocol of a STEP file.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum planish_step_schema {
+    /// AP214, automotive design: read by every CAD system.
+    Ap214 = 0,
+    /// AP242, managed model-based 3D engineering.
+    Ap242 = 1,
+}
+
+/// What one model unit is.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum planish_unit {
+    /// A millimetre.
+    Millimetre = 0,
+    /// A metre.
+    Metre = 1,
+    /// An inch, 25.4 mm.
+    Inch = 2,
+}
+
+/// What was written to a STEP file.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct planish_step_report {
+    /// Set this to sizeof(planish_step_report) before the call.
+    pub struct_size: usize,
+    /// Largest distance between an edge's curve in space and the image of its p-curve, measured on the curves
+    /// written, in model units.
+    pub curve_deviation: f64,
+    /// The uncertainty that the file states, in model units: 1e-7 of the diagonal, or more if the curves need it.
+    pub uncertainty: f64,
+    /// Diagonal of the box around the part of the surface inside the trims.
+    pub diagonal: f64,
+    /// Bounds of the face, the outer one included.
+    pub loop_count: usize,
+    /// Edges of all bounds.
+    pub edge_count: usize,
+}
+
+record!(planish_step_report, 48, {
+    struct_size: 0, curve_deviation: 8, uncertainty: 16, diagonal: 24, loop_count: 32, edge_count: 40,
+});
+
+impl Default for planish_step_report {
+    fn default() -> Self {
+        Self {
+            struct_size: size_of::<Self>(),
+            curve_deviation: 0.0,
+            uncertainty: 0.0,
+            diagonal: 0.0,
+            loop_count: 0,
+            edge_count: 0,
+        }
+    }
+}
+
+impl From<StepReport> for planish_step_report {
+    fn from(report: StepReport) -> Self {
+        Self {
+            struct_size: size_of::<Self>(),
+            curve_deviation: report.curve_deviation,
+            uncertainty: report.uncertainty,
+            diagonal: report.diagonal,
+            loop_count: report.loop_count,
+            edge_count: report.edge_count,
+        }
+    }
+}
+
+/// What a STEP file says beside the shape. Fill with planish_step_options_init(), then change what you need.
+/// Texts are UTF-8, end with a NUL and are borrowed.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct planish_step_options {
+    /// Set by planish_step_options_init().
+    pub struct_size: usize,
+    /// Name of the product; NULL (default) for "surface".
+    pub product: *const c_char,
+    /// Who made it; NULL (default) for nobody.
+    pub author: *const c_char,
+    /// For whom; NULL (default) for nobody.
+    pub organization: *const c_char,
+    /// When, such as "2026-01-31T12:00:00"; NULL (default) for 1970-01-01T00:00:00, so that equal input gives
+    /// equal bytes.
+    pub timestamp: *const c_char,
+    /// Receives what was written, or NULL (default). Set its struct_size before. Filled on success only.
+    pub out_report: *mut planish_step_report,
+    /// A planish_step_schema; PLANISH_STEP_SCHEMA_AP214 (default).
+    pub schema: u32,
+    /// A planish_unit, what one model unit is; PLANISH_UNIT_MILLIMETRE (default).
+    pub unit: u32,
+}
+
+record!(planish_step_options, 56, {
+    struct_size: 0, product: 8, author: 16, organization: 24, timestamp: 32, out_report: 40, schema: 48, unit: 52,
+});
+
+impl Default for planish_step_options {
+    fn default() -> Self {
+        Self {
+            struct_size: size_of::<Self>(),
+            product: std::ptr::null(),
+            author: std::ptr::null(),
+            organization: std::ptr::null(),
+            timestamp: std::ptr::null(),
+            out_report: std::ptr::null_mut(),
+            schema: planish_step_schema::Ap214 as u32,
+            unit: planish_unit::Millimetre as u32,
+        }
+    }
+}
+
+impl planish_step_options {
+    /// # Safety
+    /// The texts are NULL or end with a NUL, and nobody changes them for `'a`.
+    unsafe fn core<'a>(&self) -> Result<StepOptions<'a>, ArgumentError> {
+        let defaults = StepOptions::default();
+        // SAFETY: the caller's promise.
+        let or = |at: *const c_char, name, default| match at.is_null() {
+            true => Ok(default),
+            false => unsafe { text(at, name) },
+        };
+        Ok(StepOptions {
+            schema: choice(self.schema, &[Schema::Ap214, Schema::Ap242], "schema")?,
+            unit: choice(self.unit, &[Unit::Millimetre, Unit::Metre, Unit::Inch], "unit")?,
+            product: or(self.product, "product", defaults.product)?,
+            author: or(self.author, "author", defaults.author)?,
+            organization: or(self.organization, "organization", defaults.organization)?,
+            timestamp: or(self.timestamp, "timestamp", defaults.timestamp)?,
+        })
+    }
+}
+
+/// Fills options with the defaults.
+///
+/// options: not NULL.
+/// size:    sizeof(planish_step_options).
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_step_options_init(
+    options: *mut planish_step_options,
+    size: usize,
+) -> planish_status {
+    // SAFETY: the caller's promise.
+    guard(|| unsafe { init_options(options, size) })
+}
+
+/// Writes a tensor surface in space as a STEP file with one face, bounded by the surface's trims or, if it has
+/// none, by its domain. P-curves are the trims themselves, of degree 1; curves in space are cubic and follow
+/// them over the same parameters within the uncertainty that the file states. The file appears whole or not at
+/// all; equal input gives equal bytes.
+///
+/// surface: not NULL, a tensor surface of dimension 3.
+/// path:    UTF-8, ends with a NUL; an existing file is replaced.
+/// options: NULL for the defaults.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension, an
+/// option, a text that is not UTF-8), PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOPOLOGY (trims that cross or
+/// touch, the index is one of them; trims around several pieces; a knot inside the domain that occurs more often
+/// than the degree), PLANISH_STATUS_DEGENERATE (a trim without area, the index; a face without size) or
+/// PLANISH_STATUS_FILE.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_surface_write_step(
+    surface: *const planish_surface,
+    path: *const c_char,
+    options: *const planish_step_options,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let tensor = deref(surface, "surface")?.tensor()?;
+        let path = text(path, "path")?;
+        let given = self::options(options)?;
+        let core = given.core()?;
+        let report = ReportOut::new(given.out_report)?;
+        report.store(write(tensor, &core, Path::new(path))?.into());
+        Ok(())
+    })
+}
