@@ -127,9 +127,9 @@ impl planish_step_options {
     /// The texts are NULL or end with a NUL, and nobody changes them for `'a`.
     unsafe fn core<'a>(&self) -> Result<StepOptions<'a>, ArgumentError> {
         let defaults = StepOptions::default();
-        // SAFETY: the caller's promise.
         let or = |at: *const c_char, name, default| match at.is_null() {
             true => Ok(default),
+            // SAFETY: the caller's promise.
             false => unsafe { text(at, name) },
         };
         Ok(StepOptions {

@@ -21,7 +21,7 @@ pub(super) fn bounds(surface: &dyn Surface) -> Result<Vec<Loop>, StepError> {
     let loops = without_repeats(trims)?;
     check_apart(&loops)?;
     let depths = depths(&loops);
-    let outer: Vec<usize> = (0..loops.len()).filter(|&k| depths[k] % 2 == 0).collect();
+    let outer: Vec<usize> = (0..loops.len()).filter(|&k| depths[k].is_multiple_of(2)).collect();
     let [outer] = outer[..] else { return Err(StepError::Pieces { count: outer.len() }) };
     let order = std::iter::once(outer).chain((0..loops.len()).filter(|&k| k != outer));
     Ok(order.map(|k| directed(loops[k].clone(), k == outer)).collect())

@@ -227,7 +227,7 @@ fn what_is_no_face_is_refused() {
     };
     assert_eq!(refusal(&surface(2, 1.0)), ExportError::Dimension { dim: 2 }.into());
     assert!(matches!(refusal(&surface(3, 0.0)), StepError::Size { .. }));
-    assert!(matches!(refusal(&surface(3, 1e300)), StepError::Size { .. } | StepError::Curve(_)));
+    assert!(matches!(refusal(&surface(3, 4e307)), StepError::Size { .. }));
     let torn = KnotVector::new(vec![0., 0., 0.5, 0.5, 1., 1.], 1).unwrap();
     let points = (0..24).map(f64::from).collect();
     let torn = TensorSurface::new(3, torn, line.clone(), points, None).unwrap();
