@@ -903,7 +903,7 @@ typedef struct planish_fit_report {
      */
     size_t coefficient_count;
     /**
-     * Cells without data inside the trims' box.
+     * Cells without data inside the trims.
      */
     size_t empty_cell_count;
     /**
