@@ -5,6 +5,7 @@
 #include <planish.hpp>
 
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <stdexcept>
 #include <string>
@@ -187,6 +188,42 @@ TEST(WrapperSurface, EvaluatesAndTakesParts) {
   CHECK(wrong.status() == PLANISH_STATUS_INVALID_ARGUMENT);
   const auto degree = thrown_by([&] { planish::tensor_new(1, 0, 1, knots, knots, std::vector<double>(6)); });
   CHECK(degree.status() == PLANISH_STATUS_INVALID_ARGUMENT);
+}
+
+TEST(WrapperSurface, ProjectsMeasuresAndTravels) {
+  const planish::mesh mesh = make(shapes::graph(20, 20, 0.2, 8));
+  const planish::surface surface = planish::tensor_fit(mesh).surface;
+  const planish::deviated deviation = surface.deviation(mesh);
+  CHECK_EQUAL(deviation.distances.size(), mesh.point_count());
+  CHECK_EQUAL(deviation.distances[deviation.report.worst_index], deviation.report.max_distance);
+
+  const std::vector<point3> points = mesh.points();
+  const planish::projected near = surface.project(points);
+  CHECK(near.status == PLANISH_STATUS_OK);
+  CHECK_EQUAL(near.uv.size(), points.size());
+  CHECK_NEAR(near.distances[7], deviation.distances[7], 1e-12);
+  auto options = planish::defaults<planish_project_options>();
+  options.max_distance = 0.5;
+  const planish::projected far = surface.project(std::vector<double>{0.5, 0.5, 9}, options);
+  CHECK(far.status == PLANISH_STATUS_POINTS_OUTSIDE);
+  CHECK(std::isnan(far.uv[0][0]));
+  CHECK(thrown_by([&] { surface.project(std::vector<double>(4)); }).status() == PLANISH_STATUS_INVALID_ARGUMENT);
+
+  const planish::mesh tessellation = surface.tessellate();
+  CHECK(tessellation.has_parameters());
+  CHECK_EQUAL(tessellation.loop_count(), 1u);
+
+  const std::vector<std::uint8_t> bytes = surface.save();
+  CHECK(planish::surface::load(bytes).save() == bytes);
+  surface.save_file("test_wrapper.planish");
+  CHECK(planish::surface::load_file("test_wrapper.planish").save() == bytes);
+  surface.write_vtk("test_wrapper.vtu");
+  CHECK_EQUAL(surface.write_step("test_wrapper.step").loop_count, 1u);
+  for (const char *path : {"test_wrapper.planish", "test_wrapper.vtu", "test_wrapper.step"}) {
+    CHECK(std::remove(path) == 0);
+  }
+  const std::vector<std::uint8_t> cut(bytes.begin(), bytes.end() - 1);
+  CHECK(thrown_by([&] { planish::surface::load(cut); }).status() == PLANISH_STATUS_FORMAT);
 }
 
 TEST(WrapperFit, RemarksAreReturnedAndNotThrown) {

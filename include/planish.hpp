@@ -138,6 +138,9 @@ inline planish_status init(planish_deviation_options &options) {
 inline planish_status init(planish_tessellate_options &options) {
   return planish_tessellate_options_init(&options, sizeof options);
 }
+inline planish_status init(planish_step_options &options) {
+  return planish_step_options_init(&options, sizeof options);
+}
 inline planish_status init(planish_vtk_options &options) {
   return planish_vtk_options_init(&options, sizeof options);
 }
@@ -640,6 +643,15 @@ class surface {
   void write_vtk(const std::string &path,
                  const planish_vtk_options &options = defaults<planish_vtk_options>()) const {
     detail::checked(planish_surface_write_vtk(get(), path.c_str(), &options));
+  }
+
+  /// Writes a STEP file of one trimmed face; `path` is UTF-8.
+  planish_step_report write_step(const std::string &path,
+                                 planish_step_options options = defaults<planish_step_options>()) const {
+    auto report = detail::sized<planish_step_report>();
+    if (!options.out_report) options.out_report = &report;
+    detail::checked(planish_surface_write_step(get(), path.c_str(), &options));
+    return options.out_report == &report ? report : *options.out_report;
   }
 
   /// Everything the surface is, as bytes that surface::load() takes.
