@@ -6,10 +6,10 @@ use super::mesh::planish_mesh;
 use super::planish_status;
 use super::progress::thread_count;
 use super::query::planish_tessellate_options;
-use super::surface::{Family, planish_surface, query_surface};
+use super::surface::{planish_surface, query_surface};
 use crate::control::Pool;
 use crate::export::{native, vtk};
-use std::ffi::c_char;
+use std::ffi::{c_char, c_void};
 use std::path::Path;
 
 /// What a VTK file shows. Fill with planish_vtk_options_init(), then change what you need.
@@ -51,7 +51,6 @@ impl Default for planish_vtk_options {
 /// options: not NULL.
 /// size:    sizeof(planish_vtk_options).
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
-#[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_vtk_options_init(
     options: *mut planish_vtk_options,
@@ -102,7 +101,7 @@ pub unsafe extern "C" fn planish_surface_write_vtk(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_surface_save_size(surface: *const planish_surface) -> usize {
     // SAFETY: the caller's promise.
-    unsafe { query_surface(surface, |surface| Ok(native::save_size(surface.tensor()?))) }
+    unsafe { query_surface(surface, |surface| Ok(native::save_size(surface.family()?.as_saved()))) }
 }
 
 /// Writes everything a surface is into a buffer, to the bit. The layout is documented in docs/format.md; it is
@@ -116,18 +115,18 @@ pub unsafe extern "C" fn planish_surface_save_size(surface: *const planish_surfa
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_surface_save(
     surface: *const planish_surface,
-    buffer: *mut u8,
+    buffer: *mut c_void,
     size: usize,
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let tensor = deref(surface, "surface")?.tensor()?;
-        let needed = native::save_size(tensor);
+        let saved = deref(surface, "surface")?.family()?.as_saved();
+        let needed = native::save_size(saved);
         if size < needed {
             return Err(ArgumentError::TooSmall { name: "buffer", given: size, needed }.into());
         }
-        let buffer = slice_mut(buffer, needed, "buffer")?;
-        buffer.copy_from_slice(&native::save(tensor));
+        let buffer = slice_mut(buffer.cast::<u8>(), needed, "buffer")?;
+        buffer.copy_from_slice(&native::save(saved));
         Ok(())
     })
 }
@@ -142,16 +141,16 @@ pub unsafe extern "C" fn planish_surface_save(
 #[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_surface_load(
-    buffer: *const u8,
+    buffer: *const c_void,
     size: usize,
     out_surface: *mut *mut planish_surface,
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let bytes = slice(buffer, size, "buffer")?;
+        let bytes = slice(buffer.cast::<u8>(), size, "buffer")?;
         let out_surface = out(out_surface, "out_surface")?;
         let surface = native::load(bytes)?;
-        out_surface.write(planish_surface::into_raw(Family::Tensor(surface)));
+        out_surface.write(planish_surface::into_raw(surface));
         Ok(())
     })
 }
@@ -170,8 +169,8 @@ pub unsafe extern "C" fn planish_surface_save_file(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let tensor = deref(surface, "surface")?.tensor()?;
-        Ok(native::save_file(tensor, Path::new(text(path, "path")?))?)
+        let saved = deref(surface, "surface")?.family()?.as_saved();
+        Ok(native::save_file(saved, Path::new(text(path, "path")?))?)
     })
 }
 
@@ -192,7 +191,7 @@ pub unsafe extern "C" fn planish_surface_load_file(
         let path = text(path, "path")?;
         let out_surface = out(out_surface, "out_surface")?;
         let surface = native::load_file(Path::new(path))?;
-        out_surface.write(planish_surface::into_raw(Family::Tensor(surface)));
+        out_surface.write(planish_surface::into_raw(surface));
         Ok(())
     })
 }

@@ -74,7 +74,6 @@ fn check_reserved(record: &'static str, given: u32) -> Result<(), ArgumentError>
 /// options: not NULL.
 /// size:    sizeof(planish_tessellate_options).
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
-#[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_tessellate_options_init(
     options: *mut planish_tessellate_options,
@@ -149,7 +148,6 @@ impl Default for planish_project_options {
 /// options: not NULL.
 /// size:    sizeof(planish_project_options).
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
-#[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_project_options_init(
     options: *mut planish_project_options,
@@ -307,7 +305,6 @@ impl From<&DeviationReport> for planish_deviation_report {
 /// options: not NULL.
 /// size:    sizeof(planish_deviation_options).
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
-#[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_deviation_options_init(
     options: *mut planish_deviation_options,
@@ -324,7 +321,7 @@ pub unsafe extern "C" fn planish_deviation_options_init(
 /// options:       NULL for the defaults.
 /// out_distances: receives planish_mesh_point_count() distances; NULL for none.
 /// count:         doubles that out_distances has room for.
-/// report:        NULL for none.
+/// out_report:    receives the sizes of the distances; NULL for none.
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, or the
 /// dimension), PLANISH_STATUS_BUFFER_TOO_SMALL, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOPOLOGY or
 /// PLANISH_STATUS_TOO_LARGE (measuring back only), or PLANISH_STATUS_VERSION.
@@ -336,14 +333,14 @@ pub unsafe extern "C" fn planish_surface_deviation(
     options: *const planish_deviation_options,
     out_distances: *mut f64,
     count: usize,
-    report: *mut planish_deviation_report,
+    out_report: *mut planish_deviation_report,
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
         let surface = deref(surface, "surface")?.any();
         let mesh = &deref(mesh, "mesh")?.0;
         let given = self::options(options)?;
-        let report = ReportOut::new(report)?;
+        let report = ReportOut::new(out_report)?;
         let needed = mesh.points().len();
         if !out_distances.is_null() && count < needed {
             return Err(ArgumentError::TooSmall { name: "out_distances", given: count, needed }.into());

@@ -8,7 +8,7 @@ use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;
 use super::progress::with_control;
 use super::report::{FitOutputs, planish_fit_report};
-use super::surface::{Family, planish_surface, query_surface};
+use super::surface::{planish_surface, query_surface};
 use super::{planish_parameterize_options, planish_progress, planish_status};
 use crate::Control;
 use crate::fit::report::{Tolerance, ToleranceScale};
@@ -407,7 +407,7 @@ pub unsafe extern "C" fn planish_tensor_new(
         let control_points = copy(control_points, len, "control_points")?;
         let weights = if weights.is_null() { None } else { Some(copy(weights, count, "weights")?) };
         let tensor = TensorSurface::new(dim, knots_u, knots_v, control_points, weights)?;
-        out_surface.write(planish_surface::into_raw(Family::Tensor(tensor)));
+        out_surface.write(planish_surface::into_raw(tensor));
         Ok(())
     })
 }

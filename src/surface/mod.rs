@@ -4,12 +4,14 @@
 //! threads with rules for parameters outside; [`Region`] holds what a surface knows of the data it was
 //! made from: their box in (u,v), and their boundary loops, the trims.
 
+mod any;
 mod differential;
 pub mod evaluate;
 mod region;
 pub mod tensor;
 
 pub use crate::geometry::Domain;
+pub use any::AnySurface;
 pub use differential::{Curvatures, curvatures, normal};
 pub use region::{Region, TrimError, Trims};
 
