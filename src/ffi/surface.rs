@@ -82,6 +82,15 @@ impl planish_surface {
         }
     }
 
+    pub(super) fn tensor_mut(&mut self) -> Result<&mut TensorSurface, ArgumentError> {
+        self.tensor()?;
+        match &mut self.0 {
+            Family::Any(AnySurface::Tensor(tensor)) => Ok(tensor),
+            #[cfg(test)]
+            Family::Other(_) => unreachable!("refused above"),
+        }
+    }
+
     #[cfg_attr(not(test), expect(dead_code, reason = "tensors are the only family so far"))]
     fn wrong_kind(&self, needed: Kind) -> ArgumentError {
         ArgumentError::WrongKind { found: self.any().kind(), needed }

@@ -2,6 +2,7 @@
 
 mod curves;
 mod fits;
+mod forms;
 mod meshes;
 mod queries;
 mod records;

@@ -238,9 +238,9 @@ fn vtk_files_are_written_or_refused() {
         std::fs::remove_file(path.to_str().unwrap()).unwrap();
         null_refused(planish_surface_write_vtk(null(), path.as_ptr(), null()), "surface");
         null_refused(planish_surface_write_vtk(scene.surface, null(), null()), "path");
-        let options = planish_vtk_options { reserved: 1, ..record() };
+        let options = planish_vtk_options { content: 9, ..record() };
         let status = planish_surface_write_vtk(scene.surface, path.as_ptr(), &raw const options);
-        refused(status, planish_status::Version, -1, &["planish_vtk_options"]);
+        refused(status, planish_status::InvalidArgument, -1, &["content"]);
         let nowhere = c("/no/such/folder/part.vtu");
         let status = planish_surface_write_vtk(scene.surface, nowhere.as_ptr(), null());
         refused(status, planish_status::File, -1, &["folder"]);
