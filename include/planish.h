@@ -313,6 +313,25 @@ typedef enum planish_outside {
 } planish_outside;
 
 /**
+ * What a VTK file holds of a surface.
+ */
+typedef enum planish_vtk_content {
+    /**
+     * Triangles of the part inside the trims, or of deviation_from.
+     */
+    PLANISH_VTK_CONTENT_TRIANGLES = 0,
+    /**
+     * Its Bezier patches as cells of type VTK_BEZIER_QUADRILATERAL (VTK 9): the surface itself. Trims are not
+     * shown; cell data "parameters" has least and largest u, least and largest v of each patch.
+     */
+    PLANISH_VTK_CONTENT_PATCHES = 1,
+    /**
+     * Its control points, joined by polylines as neighbours in the control net.
+     */
+    PLANISH_VTK_CONTENT_CONTROL_NET = 2,
+} planish_vtk_content;
+
+/**
  * Flags of a point: bits of the elements of out_flags.
  */
 typedef enum planish_flag {
@@ -723,6 +742,71 @@ typedef struct planish_eval_options {
 } planish_eval_options;
 
 /**
+ * A Bezier patch: the polynomial or rational piece of a surface over a rectangle of parameters. Set struct_size
+ * to sizeof(planish_patch) before the call; filled as far as that goes, on success only.
+ */
+typedef struct planish_patch {
+    /**
+     * sizeof(planish_patch) as the caller sees it.
+     */
+    size_t struct_size;
+    /**
+     * Least u of the rectangle.
+     */
+    double u_min;
+    /**
+     * Largest u of the rectangle.
+     */
+    double u_max;
+    /**
+     * Least v of the rectangle.
+     */
+    double v_min;
+    /**
+     * Largest v of the rectangle.
+     */
+    double v_max;
+    /**
+     * Number of ordinates: (degree_u + 1) * (degree_v + 1).
+     */
+    size_t ordinate_count;
+    /**
+     * Numbers of an ordinate: dim, or dim + 1 if the patch is rational.
+     */
+    size_t ordinate_width;
+    /**
+     * Degree along u.
+     */
+    uint32_t degree_u;
+    /**
+     * Degree along v.
+     */
+    uint32_t degree_v;
+    /**
+     * 1 if the last number of each ordinate is a weight, and the others are multiplied by it; else 0.
+     */
+    uint32_t is_rational;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} planish_patch;
+
+/**
+ * How a surface is converted. Fill with planish_convert_options_init(), then change what you need.
+ */
+typedef struct planish_convert_options {
+    /**
+     * Set by planish_convert_options_init().
+     */
+    size_t struct_size;
+    /**
+     * Most control points of the result; with more the call fails. Default 4000000.
+     */
+    size_t max_coefficients;
+} planish_convert_options;
+
+/**
  * Options of tensor fits. Fill with planish_tensor_options_init(), then change what you need.
  *
  * A datum is a node of the mesh, or a point.
@@ -925,6 +1009,25 @@ typedef struct planish_fit_report {
 } planish_fit_report;
 
 /**
+ * How good a tessellation is. Set struct_size to sizeof(planish_tessellate_report) before the call; filled as far
+ * as that goes.
+ */
+typedef struct planish_tessellate_report {
+    /**
+     * sizeof(planish_tessellate_report) as the caller sees it.
+     */
+    size_t struct_size;
+    /**
+     * Smallest angle of a triangle in space, in radians.
+     */
+    double smallest_angle;
+    /**
+     * Largest distance measured between the middle of an edge and the surface, in model units.
+     */
+    double chord_error;
+} planish_tessellate_report;
+
+/**
  * How fine a tessellation is. Fill with planish_tessellate_options_init(), then change what you need.
  */
 typedef struct planish_tessellate_options {
@@ -953,6 +1056,11 @@ typedef struct planish_tessellate_options {
      * 0.
      */
     uint32_t reserved;
+    /**
+     * Receives how good the mesh is, or NULL (default). Set its struct_size before. Filled on success only; not
+     * looked at where the options are part of others.
+     */
+    struct planish_tessellate_report *out_report;
 } planish_tessellate_options;
 
 /**
@@ -1088,9 +1196,9 @@ typedef struct planish_vtk_options {
      */
     uint32_t thread_count;
     /**
-     * 0.
+     * A planish_vtk_content. Default PLANISH_VTK_CONTENT_TRIANGLES.
      */
-    uint32_t reserved;
+    uint32_t content;
 } planish_vtk_options;
 
 /**
@@ -1782,6 +1890,69 @@ enum planish_status planish_surface_clone(const struct planish_surface *surface,
 PLANISH_API void planish_surface_free(struct planish_surface *surface);
 
 /**
+ * Number of Bezier patches of a surface: they cover the domain without overlap and are the surface exactly. 0
+ * for NULL and for a family that is not polynomial on rectangles.
+ */
+PLANISH_API size_t planish_surface_patch_count(const struct planish_surface *surface);
+
+/**
+ * The number of the patch over a parameter pair; beyond the domain the one whose polynomial is continued there.
+ * 0 for NULL and for a family without patches.
+ */
+PLANISH_API
+size_t planish_surface_patch_at(const struct planish_surface *surface,
+                                double u,
+                                double v);
+
+/**
+ * Copies a Bezier patch.
+ *
+ * surface:       not NULL.
+ * index:         below planish_surface_patch_count().
+ * out_patch:     receives rectangle, degrees and sizes; NULL for none.
+ * out_ordinates: receives the patch's ordinate_count rows of ordinate_width numbers, v running fastest; NULL for
+ *                none: ask for the sizes first.
+ * count:         rows that out_ordinates has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INDEX, PLANISH_STATUS_WRONG_KIND (the
+ * family has no patches), PLANISH_STATUS_INVALID_ARGUMENT (struct_size) or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_copy_patch(const struct planish_surface *surface,
+                                               size_t index,
+                                               struct planish_patch *out_patch,
+                                               double *out_ordinates,
+                                               size_t count);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options: not NULL.
+ * size:    sizeof(planish_convert_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ */
+PLANISH_API
+enum planish_status planish_convert_options_init(struct planish_convert_options *options,
+                                                 size_t size);
+
+/**
+ * Makes a tensor surface that is the same surface exactly, with the same trims. A surface with local refinement
+ * may need far more control points as a tensor surface.
+ *
+ * surface:     not NULL.
+ * options:     NULL for the defaults.
+ * out_surface: receives a new surface; destroy with planish_surface_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option),
+ * PLANISH_STATUS_WRONG_KIND (the family is not polynomial on rectangles), PLANISH_STATUS_TOO_LARGE (more than
+ * max_coefficients control points) or PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_to_tensor(const struct planish_surface *surface,
+                                              const struct planish_convert_options *options,
+                                              struct planish_surface **out_surface);
+
+/**
  * Fills options with the defaults.
  *
  * options:     struct_size writable bytes.
@@ -1970,6 +2141,75 @@ enum planish_status planish_tensor_copy_weights(const struct planish_surface *su
                                                 size_t count);
 
 /**
+ * Inserts knots into a tensor surface, which stays the same surface.
+ *
+ * surface: not NULL; changed.
+ * axis:    a planish_axis.
+ * knots:   count parameters in the domain, in any order. Inside the domain no knot may occur more than degree
+ *          times afterwards; at its ends degree + 1 times, which clamps.
+ * count:   may be 0.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND,
+ * PLANISH_STATUS_INVALID_ARGUMENT (the axis, or a knot would occur too often), PLANISH_STATUS_NOT_FINITE (the
+ * index is that of knots) or PLANISH_STATUS_OUTSIDE.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tensor_insert_knots(struct planish_surface *surface,
+                                                uint32_t axis,
+                                                const double *knots,
+                                                size_t count);
+
+/**
+ * Raises the degree of a tensor surface along one axis, which stays the same surface.
+ *
+ * surface: not NULL; changed.
+ * axis:    a planish_axis.
+ * degree:  from the present degree to 9.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
+ * PLANISH_STATUS_INVALID_ARGUMENT (the axis, the degree).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tensor_elevate_degree(struct planish_surface *surface,
+                                                  uint32_t axis,
+                                                  uint32_t degree);
+
+/**
+ * Turns a tensor surface round along one axis: the same points over the same domain in the other direction, trims
+ * included. Normals turn round.
+ *
+ * surface: not NULL; changed.
+ * axis:    a planish_axis.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND,
+ * PLANISH_STATUS_INVALID_ARGUMENT (the axis) or PLANISH_STATUS_DEGENERATE (the domain is so short that it has no
+ * length after rounding).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tensor_reverse(struct planish_surface *surface,
+                                           uint32_t axis);
+
+/**
+ * Makes the two parts of a tensor surface below and above a parameter. Each keeps its side of the trims: a loop
+ * that crosses the cut is closed along it, and a part beyond all loops gets one loop without area.
+ *
+ * surface:   not NULL.
+ * axis:      a planish_axis: the parameter that is cut.
+ * at:        inside the domain, not at its ends.
+ * out_lower: receives a new surface; destroy with planish_surface_free().
+ * out_upper: receives a new surface; destroy with planish_surface_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND,
+ * PLANISH_STATUS_INVALID_ARGUMENT (the axis) or PLANISH_STATUS_OUTSIDE (at, also if it is NaN).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tensor_split(const struct planish_surface *surface,
+                                         uint32_t axis,
+                                         double at,
+                                         struct planish_surface **out_lower,
+                                         struct planish_surface **out_upper);
+
+/**
  * Fills options with the defaults.
  *
  * options: not NULL.
@@ -2075,14 +2315,15 @@ enum planish_status planish_surface_deviation(const struct planish_surface *surf
 PLANISH_API enum planish_status planish_vtk_options_init(struct planish_vtk_options *options, size_t size);
 
 /**
- * Writes a surface in space as a VTK file of triangles (.vtu), its (u,v) as point data "uv". The file appears
- * whole or not at all.
+ * Writes a surface in space as a VTK file (.vtu): triangles with their (u,v) as point data "uv", the patches, or
+ * the control net. The file appears whole or not at all.
  *
  * surface: not NULL, of dimension 3.
  * path:    UTF-8, ends with a NUL; an existing file is replaced.
  * options: NULL for the defaults.
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension, an
- * option, a path that is not UTF-8), PLANISH_STATUS_FILE, or what planish_surface_tessellate() or
+ * option, a path that is not UTF-8), PLANISH_STATUS_WRONG_KIND (a family without patches or control net, where these
+ * are asked for), PLANISH_STATUS_FILE, or what planish_surface_tessellate() or
  * planish_surface_deviation() return.
  */
 PLANISH_API
