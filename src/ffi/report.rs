@@ -3,7 +3,7 @@
 use super::arguments::{ArgumentError, ReportOut, out, slice_mut_or_none};
 use super::curve::planish_curve;
 use super::planish_status;
-use super::surface::{Family, planish_surface};
+use super::surface::planish_surface;
 use crate::fit::report::{FitReport, Remarks, StopReason};
 use crate::fit::tessellation::{CurveFit, TensorFit};
 use glam::DVec2;
@@ -228,7 +228,7 @@ impl<T> FitOutputs<'_, T> {
 
 impl FitOutputs<'_, planish_surface> {
     pub fn store_surface(self, fit: TensorFit) -> planish_status {
-        let handle = planish_surface::into_raw(Family::Tensor(fit.surface));
+        let handle = planish_surface::into_raw(fit.surface);
         self.store(&fit.parameters, &fit.errors, &fit.report, handle)
     }
 }

@@ -4,6 +4,8 @@
 //! threads with rules for parameters outside; [`Region`] holds what a surface knows of the data it was
 //! made from: their box in (u,v), and their boundary loops, the trims.
 
+mod any;
+mod cut;
 mod differential;
 pub mod evaluate;
 mod homogeneous;
@@ -13,11 +15,12 @@ mod rows_of_four;
 pub mod tensor;
 
 pub use crate::geometry::Domain;
+pub use any::{AnySurface, ConvertError};
 pub use differential::{Curvatures, curvatures, normal};
 pub use region::{Region, TrimError, Trims};
 
 use crate::bezier::BezierPatch;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 /// The family of a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -70,10 +73,26 @@ pub trait Surface: Send + Sync {
         None
     }
 
+    /// The control points of a surface in space with the lines that join them; None for other dimensions.
+    fn control_net(&self) -> Option<ControlNet> {
+        None
+    }
+
     /// Values at all pairs of `u` and `v`, `v` running fastest.
     fn eval_grid(&self, u: &[f64], v: &[f64], out: &mut [f64]) {
         eval_grid_by_rows(self, u, v, out);
     }
+}
+
+/// The control points of a surface in space, joined as neighbours.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ControlNet {
+    /// The control points, not multiplied by weights.
+    pub points: Vec<DVec3>,
+    /// Their weights; None for a polynomial surface.
+    pub weights: Option<Vec<f64>>,
+    /// Polylines of control points.
+    pub lines: Vec<Vec<u32>>,
 }
 
 /// The common view of tensor surfaces, T-splines and PHT-splines: Bezier patches over rectangles that cover

@@ -6,13 +6,14 @@ use std::path::Path;
 use std::process::ExitCode;
 
 /// The files of `src/ffi` in the order of the header.
-const SOURCES: [&str; 11] = [
+const SOURCES: [&str; 12] = [
     "status.rs",
     "progress.rs",
     "mesh.rs",
     "parameterize.rs",
     "report.rs",
     "surface.rs",
+    "patch.rs",
     "tensor.rs",
     "query.rs",
     "export.rs",
