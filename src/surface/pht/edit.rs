@@ -7,7 +7,7 @@
 
 use super::evaluate::View;
 use super::jet::{ROWS, between, inside};
-use super::mesh::{Cell, EDGES, MAX_LEVEL, NodeId, Role, TMesh, Vertex};
+use super::mesh::{Cell, EDGES, NodeId, Role, TMesh, Vertex};
 use super::topology::line_between;
 use super::{PhtError, PhtSurface};
 use crate::surface::tensor::Axis;
@@ -17,12 +17,9 @@ impl PhtSurface {
     /// Splits leaves one after the other; later ones may be quarters of earlier ones. Changes nothing if one
     /// of them cannot be split.
     pub fn split(&mut self, cells: &[Cell]) -> Result<(), PhtError> {
-        let mut mesh = self.mesh.clone();
+        self.mesh.clone().split_all(cells)?;
         for (index, &cell) in cells.iter().enumerate() {
-            mesh.split(splittable(&mesh, index, cell)?);
-        }
-        for (index, &cell) in cells.iter().enumerate() {
-            self.split_node(splittable(&self.mesh, index, cell)?);
+            self.split_node(self.mesh.splittable(index, cell)?);
         }
         Ok(())
     }
@@ -126,16 +123,6 @@ impl PhtSurface {
         }
         self.view = OnceLock::new();
     }
-}
-
-/// The leaf at an address.
-pub(super) fn splittable(mesh: &TMesh, index: usize, cell: Cell) -> Result<NodeId, PhtError> {
-    let leaf = mesh.find(cell).filter(|&node| mesh.is_leaf(node));
-    let leaf = leaf.ok_or(PhtError::NotLeaf { index, cell })?;
-    if cell.level >= MAX_LEVEL {
-        return Err(PhtError::LevelLimit { index, level: cell.level, limit: MAX_LEVEL });
-    }
-    Ok(leaf)
 }
 
 fn mergeable(mesh: &TMesh, index: usize, cell: Cell) -> Result<NodeId, PhtError> {

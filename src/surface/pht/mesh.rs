@@ -274,6 +274,41 @@ impl TMesh {
         })
     }
 
+    /// The cells that are split, each before its quarters.
+    pub fn splits(&self) -> impl Iterator<Item = Cell> + '_ {
+        let [count_u, count_v] = self.grid_size();
+        let mut stack: Vec<NodeId> = (0..count_u * count_v).rev().map(NodeId).collect();
+        std::iter::from_fn(move || {
+            loop {
+                let node = stack.pop()?;
+                if let Some(children) = self.children(node) {
+                    stack.extend(children.into_iter().rev());
+                    return Some(self.cell(node));
+                }
+            }
+        })
+    }
+
+    /// Splits leaves one after the other; later ones may be quarters of earlier ones. An error leaves those
+    /// before it split.
+    pub fn split_all(&mut self, cells: &[Cell]) -> Result<(), PhtError> {
+        for (index, &cell) in cells.iter().enumerate() {
+            let leaf = self.splittable(index, cell)?;
+            self.split(leaf);
+        }
+        Ok(())
+    }
+
+    /// The leaf at an address, the `index`-th of a list, if it can be split.
+    pub fn splittable(&self, index: usize, cell: Cell) -> Result<NodeId, PhtError> {
+        let leaf = self.find(cell).filter(|&node| self.is_leaf(node));
+        let leaf = leaf.ok_or(PhtError::NotLeaf { index, cell })?;
+        if cell.level >= MAX_LEVEL {
+            return Err(PhtError::LevelLimit { index, level: cell.level, limit: MAX_LEVEL });
+        }
+        Ok(leaf)
+    }
+
     /// The address of a node.
     pub fn cell(&self, node: NodeId) -> Cell {
         self.nodes[node.index()].cell

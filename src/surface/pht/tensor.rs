@@ -4,14 +4,14 @@
 //! its vertices, with double knots inside: the control points are the ordinates 0 and 1 of the first interval,
 //! then 2 and 1 around each line, then 2 and 3 of the last, which the jets at the crossings of the lines give.
 
+use super::PhtSurface;
 use super::evaluate::View;
 use super::jet::{self, inside};
 use super::mesh::{NodeId, TMesh, Vertex};
 use super::topology::line_between;
-use super::{PhtError, PhtSurface};
 use crate::knots::KnotVector;
-use crate::surface::Surface;
-use crate::surface::tensor::{Axis, TensorSurface};
+use crate::surface::tensor::{Axis, TensorError, TensorSurface};
+use crate::surface::{ConvertError, Surface};
 
 /// A rectangle of whole leaves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,12 +42,12 @@ impl Block {
 impl PhtSurface {
     /// The same surface as one tensor surface over the common refinement of all cells, if it has at most
     /// `max_coefficients` control points.
-    pub fn to_tensor(&self, max_coefficients: usize) -> Result<TensorSurface, PhtError> {
+    pub fn to_tensor(&self, max_coefficients: usize) -> Result<TensorSurface, ConvertError> {
         let (min, max) = (Vertex { i: 0, j: 0 }, self.mesh.last_vertex());
         let lines = self.lines(&Block { min, max, levels: [0, 0] }, 0..self.mesh.leaf_count());
-        let count = (2 * lines[0].len()).saturating_mul(2 * lines[1].len());
-        if count > max_coefficients {
-            return Err(PhtError::TooLarge { what: "control points", count, limit: max_coefficients });
+        let needed = (2 * lines[0].len()).saturating_mul(2 * lines[1].len());
+        if needed > max_coefficients {
+            return Err(ConvertError::TooLarge { needed, limit: max_coefficients });
         }
         let mut tensor = self.tensor_over(&lines)?;
         *tensor.region_mut() = self.region.clone();
@@ -57,11 +57,11 @@ impl PhtSurface {
     /// The same surface in tensor patches that meet with equal parameters, each over cells whose levels differ
     /// by at most `sigma`: the largest quadtree nodes that allow it, joined where whole sides meet. Trims stay
     /// with the whole.
-    pub fn to_tensor_patches(&self, sigma: u32) -> Result<Vec<TensorSurface>, PhtError> {
+    pub fn to_tensor_patches(&self, sigma: u32) -> Result<Vec<TensorSurface>, ConvertError> {
         let blocks = blocks(&self.mesh, sigma);
         let leaves = self.leaves_by_block(&blocks);
         let patches = blocks.iter().zip(leaves);
-        patches.map(|(block, leaves)| self.tensor_over(&self.lines(block, leaves))).collect()
+        patches.map(|(block, leaves)| Ok(self.tensor_over(&self.lines(block, leaves))?)).collect()
     }
 
     fn leaves_by_block(&self, blocks: &[Block]) -> Vec<Vec<usize>> {
@@ -95,7 +95,7 @@ impl PhtSurface {
     }
 
     /// The tensor surface over the rectangle that these lines cut.
-    fn tensor_over(&self, lines: &[Vec<u32>; 2]) -> Result<TensorSurface, PhtError> {
+    fn tensor_over(&self, lines: &[Vec<u32>; 2]) -> Result<TensorSurface, TensorError> {
         let (view, width) = (self.view(), self.width());
         let breaks = [(Axis::U, &lines[0]), (Axis::V, &lines[1])]
             .map(|(axis, lines)| lines.iter().map(|&at| self.mesh.parameter(axis, at)).collect::<Vec<f64>>());
@@ -116,9 +116,7 @@ impl PhtSurface {
         }
         let [knots_u, knots_v] = breaks.map(|breaks| double_knots(&breaks));
         let (points, weights) = split_weights(&net, self.dim, self.is_rational);
-        // ordinates of parts of positive ones are positive, and breaks increase
-        TensorSurface::new(self.dim, knots_u?, knots_v?, points, weights)
-            .map_err(|_| PhtError::NotFinite { index: 0 })
+        TensorSurface::new(self.dim, knots_u, knots_v, points, weights)
     }
 
     /// The jet at a place of a rectangle, from the leaf to the right and above, or below at the ends.
@@ -152,11 +150,11 @@ fn offsets(breaks: &[f64]) -> Vec<[f64; 2]> {
 }
 
 /// Cubic knots with both ends fourfold and all others double.
-fn double_knots(breaks: &[f64]) -> Result<KnotVector, PhtError> {
+fn double_knots(breaks: &[f64]) -> KnotVector {
     let doubled: Vec<f64> = breaks[1..breaks.len() - 1].iter().flat_map(|&t| [t, t]).collect();
     let (first, last) = (breaks[0], breaks[breaks.len() - 1]);
     let knots = [[first; 4].as_slice(), &doubled, &[last; 4]].concat();
-    KnotVector::new(knots, 3).map_err(|_| PhtError::KnotCount { axis: Axis::U, count: breaks.len() })
+    KnotVector::new(knots, 3).expect("parameters of vertices increase")
 }
 
 /// From rows of a net to points and, where the rows are homogeneous, weights.

@@ -3,8 +3,8 @@ use super::*;
 use crate::knots::KnotVector;
 use crate::linalg::SymbolicCholesky;
 use crate::samples::Random;
-use crate::surface::derivative_rows;
 use crate::surface::tensor::{Axis, TensorSurface};
+use crate::surface::{ConvertError, derivative_rows};
 use sprs::{CsMat, TriMat};
 
 fn cell(level: u32, i: u32, j: u32) -> Cell {
@@ -489,7 +489,7 @@ fn tensor_surfaces_of_the_parts_and_of_the_whole_are_exact() {
         // convex combinations of values of size 1, twice
         assert!(difference(&surface, &whole, 2000) <= 64.0 * f64::EPSILON * 4.0);
         let count = whole.coefficient_count();
-        assert!(matches!(surface.to_tensor(count - 1), Err(PhtError::TooLarge { .. })));
+        assert!(matches!(surface.to_tensor(count - 1), Err(ConvertError::TooLarge { .. })));
         let mut counts = Vec::new();
         for sigma in 0..7 {
             let patches = surface.to_tensor_patches(sigma).unwrap();
