@@ -17,6 +17,7 @@ use crate::query::deviation::DeviationError;
 use crate::query::project::ProjectError;
 use crate::query::tessellate::TessellateError;
 use crate::surface::evaluate::EvalError;
+use crate::surface::pht::PhtError;
 use crate::surface::tensor::TensorError;
 use crate::surface::{ConvertError, TrimError};
 
@@ -79,6 +80,9 @@ pub enum Error {
     /// A tensor surface is not one.
     #[error(transparent)]
     Tensor(#[from] TensorError),
+    /// A PHT-spline is not one, or cannot be changed as asked.
+    #[error(transparent)]
+    Pht(#[from] PhtError),
     /// Points cannot be evaluated.
     #[error(transparent)]
     Eval(#[from] EvalError),
@@ -134,6 +138,7 @@ impl Error {
             Self::Knots(error) => (error.kind(), error.index()),
             Self::Curve(error) => (error.kind(), error.index()),
             Self::Tensor(error) => (error.kind(), error.index()),
+            Self::Pht(error) => (error.kind(), error.index()),
             Self::Eval(error) => (error.kind(), error.index()),
             Self::Deviation(error) => (error.kind(), error.index()),
             Self::Project(error) => (error.kind(), error.index()),

@@ -18,6 +18,11 @@ pub fn shape_functions(s: f64) -> [f64; 4] {
     [1.0 - 3.0 * s2 + 2.0 * s3, 3.0 * s2 - 2.0 * s3, s - 2.0 * s2 + s3, s3 - s2]
 }
 
+/// The derivatives of [`shape_functions`].
+pub fn shape_slopes(s: f64) -> [f64; 4] {
+    [6.0 * s * (s - 1.0), 6.0 * s * (1.0 - s), (1.0 - s) * (1.0 - 3.0 * s), s * (3.0 * s - 2.0)]
+}
+
 /// The slopes of the natural C2 cubic spline through `values` on uniform knots.
 pub fn natural_slopes(values: &[f64]) -> Vec<f64> {
     let last = values.len() - 1;

@@ -14,6 +14,7 @@ use crate::surface::evaluate::{
     FLAG_IN_BUFFER, FLAG_NO_NORMAL, FLAG_OUTSIDE_DOMAIN, FLAG_OUTSIDE_TRIMS, Output, OutsideRule, Points,
     Quantity, evaluate,
 };
+use crate::surface::pht::PhtSurface;
 use crate::surface::tensor::TensorSurface;
 use crate::surface::{AnySurface, Domain, Kind, MAX_DERIVATIVE, Surface, Trims};
 use glam::DVec2;
@@ -33,7 +34,7 @@ const _: () = {
 #[derive(Clone)]
 pub(super) enum Family {
     Any(AnySurface),
-    /// Stands for every other family while tensors are the only one.
+    /// Stands for every family that is not known here.
     #[cfg(test)]
     Other(super::tests::OtherFamily),
 }
@@ -77,8 +78,7 @@ impl planish_surface {
     pub(super) fn tensor(&self) -> Result<&TensorSurface, ArgumentError> {
         match &self.0 {
             Family::Any(AnySurface::Tensor(tensor)) => Ok(tensor),
-            #[cfg(test)]
-            Family::Other(_) => Err(self.wrong_kind(Kind::Tensor)),
+            _ => Err(self.wrong_kind(Kind::Tensor)),
         }
     }
 
@@ -86,12 +86,25 @@ impl planish_surface {
         self.tensor()?;
         match &mut self.0 {
             Family::Any(AnySurface::Tensor(tensor)) => Ok(tensor),
-            #[cfg(test)]
-            Family::Other(_) => unreachable!("refused above"),
+            _ => unreachable!("refused above"),
         }
     }
 
-    #[cfg_attr(not(test), expect(dead_code, reason = "tensors are the only family so far"))]
+    pub(super) fn pht(&self) -> Result<&PhtSurface, ArgumentError> {
+        match &self.0 {
+            Family::Any(AnySurface::Pht(pht)) => Ok(pht),
+            _ => Err(self.wrong_kind(Kind::Pht)),
+        }
+    }
+
+    pub(super) fn pht_mut(&mut self) -> Result<&mut PhtSurface, ArgumentError> {
+        self.pht()?;
+        match &mut self.0 {
+            Family::Any(AnySurface::Pht(pht)) => Ok(pht),
+            _ => unreachable!("refused above"),
+        }
+    }
+
     fn wrong_kind(&self, needed: Kind) -> ArgumentError {
         ArgumentError::WrongKind { found: self.any().kind(), needed }
     }

@@ -1,5 +1,6 @@
 //! Fitting: one measure of error for all methods, and a folder for each.
 
 pub mod errors;
+pub mod pht;
 pub mod report;
 pub mod tessellation;

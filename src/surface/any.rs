@@ -1,7 +1,8 @@
 //! A surface of any family.
 
 use super::Surface;
-use super::tensor::TensorSurface;
+use super::pht::PhtSurface;
+use super::tensor::{TensorError, TensorSurface};
 
 /// A surface cannot be converted.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -14,6 +15,9 @@ pub enum ConvertError {
         /// The limit.
         limit: usize,
     },
+    /// A number of the result would overflow.
+    #[error("the tensor surface would not be one: {0}")]
+    Tensor(#[from] TensorError),
 }
 
 impl ConvertError {
@@ -21,6 +25,7 @@ impl ConvertError {
     pub fn kind(&self) -> crate::ErrorKind {
         match self {
             Self::TooLarge { .. } => crate::ErrorKind::TooLarge,
+            Self::Tensor(error) => error.kind(),
         }
     }
 }
@@ -30,6 +35,8 @@ impl ConvertError {
 pub enum AnySurface {
     /// Tensor product B-spline.
     Tensor(TensorSurface),
+    /// Bicubic spline over a hierarchical T-mesh.
+    Pht(PhtSurface),
 }
 
 impl AnySurface {
@@ -37,6 +44,7 @@ impl AnySurface {
     pub fn as_surface(&self) -> &dyn Surface {
         match self {
             Self::Tensor(surface) => surface,
+            Self::Pht(surface) => surface,
         }
     }
 
@@ -49,6 +57,7 @@ impl AnySurface {
                 }
                 _ => Ok(surface.clone()),
             },
+            Self::Pht(surface) => surface.to_tensor(max_coefficients),
         }
     }
 
@@ -56,6 +65,7 @@ impl AnySurface {
     pub fn as_surface_mut(&mut self) -> &mut dyn Surface {
         match self {
             Self::Tensor(surface) => surface,
+            Self::Pht(surface) => surface,
         }
     }
 }
@@ -63,5 +73,11 @@ impl AnySurface {
 impl From<TensorSurface> for AnySurface {
     fn from(surface: TensorSurface) -> Self {
         Self::Tensor(surface)
+    }
+}
+
+impl From<PhtSurface> for AnySurface {
+    fn from(surface: PhtSurface) -> Self {
+        Self::Pht(surface)
     }
 }

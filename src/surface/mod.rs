@@ -8,7 +8,10 @@ mod any;
 mod cut;
 mod differential;
 pub mod evaluate;
+mod homogeneous;
+pub mod pht;
 mod region;
+mod rows_of_four;
 pub mod tensor;
 
 pub use crate::geometry::Domain;

@@ -79,7 +79,7 @@ fn part_middles(n: usize) -> impl Iterator<Item = [f64; 3]> {
 /// The place of a smooth shape over a flat facet: halfway from the facet to the tangent planes of its corners,
 /// which is exact for quadratic shapes (T. Boubekeur and M. Alexa, "Phong tessellation", ACM Trans. Graph.
 /// 27 (2008), with the factor 1/2).
-fn bulge(corners: [DVec3; 3], normals: [DVec3; 3], shares: [f64; 3]) -> DVec3 {
+pub fn bulge(corners: [DVec3; 3], normals: [DVec3; 3], shares: [f64; 3]) -> DVec3 {
     let flat: DVec3 = corners.iter().zip(shares).map(|(&p, share)| share * p).sum();
     let lift: DVec3 = (0..3).map(|k| shares[k] * (corners[k] - flat).dot(normals[k]) * normals[k]).sum();
     flat + 0.5 * lift
