@@ -8,6 +8,6 @@ mod general;
 pub mod lu;
 mod ordering;
 
-pub use cholesky::{Cholesky, NotPositiveDefinite, SymbolicCholesky};
+pub use cholesky::{Cholesky, NotPositiveDefinite, SolveMemory, SymbolicCholesky};
 pub use general::{Entries, Singular};
 pub use lu::{LuError, NumericLu, SymbolicLu};
