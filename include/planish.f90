@@ -685,49 +685,49 @@ module planish
       type(c_ptr), value :: mesh
     end subroutine
 
-    integer(c_size_t) function c_mesh_point_count(mesh) bind(c, name="planish_mesh_point_count")
+    pure integer(c_size_t) function c_mesh_point_count(mesh) bind(c, name="planish_mesh_point_count")
       import
       implicit none
       type(c_ptr), value :: mesh
     end function
 
-    integer(c_size_t) function c_mesh_triangle_count(mesh) bind(c, name="planish_mesh_triangle_count")
+    pure integer(c_size_t) function c_mesh_triangle_count(mesh) bind(c, name="planish_mesh_triangle_count")
       import
       implicit none
       type(c_ptr), value :: mesh
     end function
 
-    integer(c_size_t) function c_mesh_edge_count(mesh) bind(c, name="planish_mesh_edge_count")
+    pure integer(c_size_t) function c_mesh_edge_count(mesh) bind(c, name="planish_mesh_edge_count")
       import
       implicit none
       type(c_ptr), value :: mesh
     end function
 
-    integer(c_size_t) function c_mesh_component_count(mesh) bind(c, name="planish_mesh_component_count")
+    pure integer(c_size_t) function c_mesh_component_count(mesh) bind(c, name="planish_mesh_component_count")
       import
       implicit none
       type(c_ptr), value :: mesh
     end function
 
-    integer(c_size_t) function c_mesh_genus(mesh) bind(c, name="planish_mesh_genus")
+    pure integer(c_size_t) function c_mesh_genus(mesh) bind(c, name="planish_mesh_genus")
       import
       implicit none
       type(c_ptr), value :: mesh
     end function
 
-    integer(c_int64_t) function c_mesh_euler_characteristic(mesh) bind(c, name="planish_mesh_euler_characteristic")
+    pure integer(c_int64_t) function c_mesh_euler_characteristic(mesh) bind(c, name="planish_mesh_euler_characteristic")
       import
       implicit none
       type(c_ptr), value :: mesh
     end function
 
-    integer(c_size_t) function c_mesh_loop_count(mesh) bind(c, name="planish_mesh_loop_count")
+    pure integer(c_size_t) function c_mesh_loop_count(mesh) bind(c, name="planish_mesh_loop_count")
       import
       implicit none
       type(c_ptr), value :: mesh
     end function
 
-    integer(c_size_t) function c_mesh_loop_point_count(mesh, loop) bind(c, name="planish_mesh_loop_point_count")
+    pure integer(c_size_t) function c_mesh_loop_point_count(mesh, loop) bind(c, name="planish_mesh_loop_point_count")
       import
       implicit none
       type(c_ptr), value :: mesh
@@ -760,7 +760,7 @@ module planish
       integer(c_size_t), value :: count
     end function
 
-    integer(c_size_t) function c_mesh_field_count(mesh) bind(c, name="planish_mesh_field_count")
+    pure integer(c_size_t) function c_mesh_field_count(mesh) bind(c, name="planish_mesh_field_count")
       import
       implicit none
       type(c_ptr), value :: mesh
@@ -793,7 +793,7 @@ module planish
       integer(c_size_t), value :: count
     end function
 
-    integer(c_int32_t) function c_mesh_has_parameters(mesh) bind(c, name="planish_mesh_has_parameters")
+    pure integer(c_int32_t) function c_mesh_has_parameters(mesh) bind(c, name="planish_mesh_has_parameters")
       import
       implicit none
       type(c_ptr), value :: mesh
@@ -881,19 +881,19 @@ module planish
       integer(c_size_t), value :: struct_size
     end function
 
-    integer(c_int32_t) function c_surface_kind(surface) bind(c, name="planish_surface_kind")
+    pure integer(c_int32_t) function c_surface_kind(surface) bind(c, name="planish_surface_kind")
       import
       implicit none
       type(c_ptr), value :: surface
     end function
 
-    integer(c_size_t) function c_surface_dim(surface) bind(c, name="planish_surface_dim")
+    pure integer(c_size_t) function c_surface_dim(surface) bind(c, name="planish_surface_dim")
       import
       implicit none
       type(c_ptr), value :: surface
     end function
 
-    integer(c_size_t) function c_surface_coefficient_count( &
+    pure integer(c_size_t) function c_surface_coefficient_count( &
         surface) bind(c, name="planish_surface_coefficient_count")
       import
       implicit none
@@ -972,13 +972,13 @@ module planish
       real(c_double), intent(inout) :: out(*)
     end function
 
-    integer(c_size_t) function c_surface_trim_count(surface) bind(c, name="planish_surface_trim_count")
+    pure integer(c_size_t) function c_surface_trim_count(surface) bind(c, name="planish_surface_trim_count")
       import
       implicit none
       type(c_ptr), value :: surface
     end function
 
-    integer(c_size_t) function c_surface_trim_point_count( &
+    pure integer(c_size_t) function c_surface_trim_point_count( &
         surface, trim) bind(c, name="planish_surface_trim_point_count")
       import
       implicit none
@@ -1076,21 +1076,21 @@ module planish
       type(c_ptr), intent(inout) :: out_surface
     end function
 
-    integer(c_int32_t) function c_tensor_degree(surface, axis) bind(c, name="planish_tensor_degree")
+    pure integer(c_int32_t) function c_tensor_degree(surface, axis) bind(c, name="planish_tensor_degree")
       import
       implicit none
       type(c_ptr), value :: surface
       integer(c_int32_t), value :: axis
     end function
 
-    integer(c_size_t) function c_tensor_knot_count(surface, axis) bind(c, name="planish_tensor_knot_count")
+    pure integer(c_size_t) function c_tensor_knot_count(surface, axis) bind(c, name="planish_tensor_knot_count")
       import
       implicit none
       type(c_ptr), value :: surface
       integer(c_int32_t), value :: axis
     end function
 
-    integer(c_size_t) function c_tensor_control_point_count( &
+    pure integer(c_size_t) function c_tensor_control_point_count( &
         surface, axis) bind(c, name="planish_tensor_control_point_count")
       import
       implicit none
@@ -1117,7 +1117,7 @@ module planish
       integer(c_size_t), value :: count
     end function
 
-    integer(c_int32_t) function c_tensor_has_weights(surface) bind(c, name="planish_tensor_has_weights")
+    pure integer(c_int32_t) function c_tensor_has_weights(surface) bind(c, name="planish_tensor_has_weights")
       import
       implicit none
       type(c_ptr), value :: surface
@@ -1203,7 +1203,7 @@ module planish
       type(planish_vtk_options), intent(in), optional :: options
     end function
 
-    integer(c_size_t) function c_surface_save_size(surface) bind(c, name="planish_surface_save_size")
+    pure integer(c_size_t) function c_surface_save_size(surface) bind(c, name="planish_surface_save_size")
       import
       implicit none
       type(c_ptr), value :: surface
@@ -1267,25 +1267,25 @@ module planish
       type(planish_fit_report), intent(inout), optional :: out_report
     end function
 
-    integer(c_size_t) function c_curve_dim(curve) bind(c, name="planish_curve_dim")
+    pure integer(c_size_t) function c_curve_dim(curve) bind(c, name="planish_curve_dim")
       import
       implicit none
       type(c_ptr), value :: curve
     end function
 
-    integer(c_int32_t) function c_curve_degree(curve) bind(c, name="planish_curve_degree")
+    pure integer(c_int32_t) function c_curve_degree(curve) bind(c, name="planish_curve_degree")
       import
       implicit none
       type(c_ptr), value :: curve
     end function
 
-    integer(c_size_t) function c_curve_knot_count(curve) bind(c, name="planish_curve_knot_count")
+    pure integer(c_size_t) function c_curve_knot_count(curve) bind(c, name="planish_curve_knot_count")
       import
       implicit none
       type(c_ptr), value :: curve
     end function
 
-    integer(c_size_t) function c_curve_control_point_count(curve) bind(c, name="planish_curve_control_point_count")
+    pure integer(c_size_t) function c_curve_control_point_count(curve) bind(c, name="planish_curve_control_point_count")
       import
       implicit none
       type(c_ptr), value :: curve
@@ -1630,7 +1630,7 @@ contains
   end subroutine
 
   !> The handle, for C; it stays this mesh's.
-  type(c_ptr) function mesh_get(self) result(handle)
+  pure type(c_ptr) function mesh_get(self) result(handle)
     class(planish_mesh_t), intent(in) :: self
     handle = c_null_ptr
     if (allocated(self%owner)) handle = self%owner%handle
@@ -1647,49 +1647,49 @@ contains
   end subroutine
 
   !> Number of nodes.
-  integer(c_size_t) function mesh_point_count(self) result(count)
+  pure integer(c_size_t) function mesh_point_count(self) result(count)
     class(planish_mesh_t), intent(in) :: self
     count = c_mesh_point_count(self%get())
   end function
 
   !> Number of triangles.
-  integer(c_size_t) function mesh_triangle_count(self) result(count)
+  pure integer(c_size_t) function mesh_triangle_count(self) result(count)
     class(planish_mesh_t), intent(in) :: self
     count = c_mesh_triangle_count(self%get())
   end function
 
   !> Number of edges.
-  integer(c_size_t) function mesh_edge_count(self) result(count)
+  pure integer(c_size_t) function mesh_edge_count(self) result(count)
     class(planish_mesh_t), intent(in) :: self
     count = c_mesh_edge_count(self%get())
   end function
 
   !> Number of parts that hang together by edges.
-  integer(c_size_t) function mesh_component_count(self) result(count)
+  pure integer(c_size_t) function mesh_component_count(self) result(count)
     class(planish_mesh_t), intent(in) :: self
     count = c_mesh_component_count(self%get())
   end function
 
   !> Number of handles, those that cups have.
-  integer(c_size_t) function mesh_genus(self) result(genus)
+  pure integer(c_size_t) function mesh_genus(self) result(genus)
     class(planish_mesh_t), intent(in) :: self
     genus = c_mesh_genus(self%get())
   end function
 
   !> Nodes that have triangles, minus edges, plus triangles.
-  integer(c_int64_t) function mesh_euler_characteristic(self) result(characteristic)
+  pure integer(c_int64_t) function mesh_euler_characteristic(self) result(characteristic)
     class(planish_mesh_t), intent(in) :: self
     characteristic = c_mesh_euler_characteristic(self%get())
   end function
 
   !> Number of boundary loops.
-  integer(c_size_t) function mesh_loop_count(self) result(count)
+  pure integer(c_size_t) function mesh_loop_count(self) result(count)
     class(planish_mesh_t), intent(in) :: self
     count = c_mesh_loop_count(self%get())
   end function
 
   !> Number of nodes of a boundary loop; 0 if it does not exist. Loop 1 is the longest.
-  integer(c_size_t) function mesh_loop_point_count(self, loop) result(count)
+  pure integer(c_size_t) function mesh_loop_point_count(self, loop) result(count)
     class(planish_mesh_t), intent(in) :: self
     integer, intent(in) :: loop
     count = 0
@@ -1738,7 +1738,7 @@ contains
   end subroutine
 
   !> Number of fields on the nodes.
-  integer(c_size_t) function mesh_field_count(self) result(count)
+  pure integer(c_size_t) function mesh_field_count(self) result(count)
     class(planish_mesh_t), intent(in) :: self
     count = c_mesh_field_count(self%get())
   end function
@@ -1779,7 +1779,7 @@ contains
   end subroutine
 
   !> Whether the nodes have parameters.
-  logical function mesh_has_parameters(self) result(has)
+  pure logical function mesh_has_parameters(self) result(has)
     class(planish_mesh_t), intent(in) :: self
     has = c_mesh_has_parameters(self%get()) /= 0
   end function
@@ -1939,7 +1939,7 @@ contains
   end subroutine
 
   !> The handle, for C; it stays this surface's.
-  type(c_ptr) function surface_get(self) result(handle)
+  pure type(c_ptr) function surface_get(self) result(handle)
     class(planish_surface_t), intent(in) :: self
     handle = c_null_ptr
     if (allocated(self%owner)) handle = self%owner%handle
@@ -1956,19 +1956,19 @@ contains
   end subroutine
 
   !> The family: a PLANISH_KIND.
-  integer(c_int32_t) function surface_kind(self) result(kind)
+  pure integer(c_int32_t) function surface_kind(self) result(kind)
     class(planish_surface_t), intent(in) :: self
     kind = c_surface_kind(self%get())
   end function
 
   !> Numbers of a value: 1 for a scalar field, 3 for a shape.
-  integer(c_size_t) function surface_dim(self) result(dim)
+  pure integer(c_size_t) function surface_dim(self) result(dim)
     class(planish_surface_t), intent(in) :: self
     dim = c_surface_dim(self%get())
   end function
 
   !> Number of control points.
-  integer(c_size_t) function surface_coefficient_count(self) result(count)
+  pure integer(c_size_t) function surface_coefficient_count(self) result(count)
     class(planish_surface_t), intent(in) :: self
     count = c_surface_coefficient_count(self%get())
   end function
@@ -2119,13 +2119,13 @@ contains
   end function
 
   !> Number of trims.
-  integer(c_size_t) function surface_trim_count(self) result(count)
+  pure integer(c_size_t) function surface_trim_count(self) result(count)
     class(planish_surface_t), intent(in) :: self
     count = c_surface_trim_count(self%get())
   end function
 
   !> Number of points of a trim; 0 if it does not exist. Trim 1 is the outer one.
-  integer(c_size_t) function surface_trim_point_count(self, trim) result(count)
+  pure integer(c_size_t) function surface_trim_point_count(self, trim) result(count)
     class(planish_surface_t), intent(in) :: self
     integer, intent(in) :: trim
     count = 0
@@ -2366,21 +2366,21 @@ contains
   end subroutine
 
   !> Degree along an axis, a PLANISH_AXIS.
-  integer(c_int32_t) function planish_tensor_degree(surface, axis) result(degree)
+  pure integer(c_int32_t) function planish_tensor_degree(surface, axis) result(degree)
     class(planish_surface_t), intent(in) :: surface
     integer(c_int32_t), intent(in) :: axis
     degree = c_tensor_degree(surface%get(), axis)
   end function
 
   !> Number of knots along an axis, a PLANISH_AXIS.
-  integer(c_size_t) function planish_tensor_knot_count(surface, axis) result(count)
+  pure integer(c_size_t) function planish_tensor_knot_count(surface, axis) result(count)
     class(planish_surface_t), intent(in) :: surface
     integer(c_int32_t), intent(in) :: axis
     count = c_tensor_knot_count(surface%get(), axis)
   end function
 
   !> Number of control points along an axis, a PLANISH_AXIS.
-  integer(c_size_t) function planish_tensor_control_point_count(surface, axis) result(count)
+  pure integer(c_size_t) function planish_tensor_control_point_count(surface, axis) result(count)
     class(planish_surface_t), intent(in) :: surface
     integer(c_int32_t), intent(in) :: axis
     count = c_tensor_control_point_count(surface%get(), axis)
@@ -2410,7 +2410,7 @@ contains
   end subroutine
 
   !> Whether the surface has weights.
-  logical function planish_tensor_has_weights(surface) result(has)
+  pure logical function planish_tensor_has_weights(surface) result(has)
     class(planish_surface_t), intent(in) :: surface
     has = c_tensor_has_weights(surface%get()) /= 0
   end function
@@ -2534,7 +2534,7 @@ contains
   end subroutine
 
   !> Bytes that save() makes.
-  integer(c_size_t) function surface_save_size(self) result(size)
+  pure integer(c_size_t) function surface_save_size(self) result(size)
     class(planish_surface_t), intent(in) :: self
     size = c_surface_save_size(self%get())
   end function
@@ -2637,7 +2637,7 @@ contains
   end subroutine
 
   !> The handle, for C; it stays this curve's.
-  type(c_ptr) function curve_get(self) result(handle)
+  pure type(c_ptr) function curve_get(self) result(handle)
     class(planish_curve_t), intent(in) :: self
     handle = c_null_ptr
     if (allocated(self%owner)) handle = self%owner%handle
@@ -2698,25 +2698,25 @@ contains
   end subroutine
 
   !> Numbers of a value.
-  integer(c_size_t) function curve_dim(self) result(dim)
+  pure integer(c_size_t) function curve_dim(self) result(dim)
     class(planish_curve_t), intent(in) :: self
     dim = c_curve_dim(self%get())
   end function
 
   !> Degree of the polynomial pieces.
-  integer(c_int32_t) function curve_degree(self) result(degree)
+  pure integer(c_int32_t) function curve_degree(self) result(degree)
     class(planish_curve_t), intent(in) :: self
     degree = c_curve_degree(self%get())
   end function
 
   !> Number of knots, each as often as it occurs.
-  integer(c_size_t) function curve_knot_count(self) result(count)
+  pure integer(c_size_t) function curve_knot_count(self) result(count)
     class(planish_curve_t), intent(in) :: self
     count = c_curve_knot_count(self%get())
   end function
 
   !> Number of control points.
-  integer(c_size_t) function curve_control_point_count(self) result(count)
+  pure integer(c_size_t) function curve_control_point_count(self) result(count)
     class(planish_curve_t), intent(in) :: self
     count = c_curve_control_point_count(self%get())
   end function
