@@ -72,7 +72,7 @@ contains
   function flat_sheet() result(mesh)
     type(planish_mesh_t) :: mesh
     call mesh%new(points, triangles)
-    call mesh%set_parameters(reshape(points(:2, :), [2, size(points, 2)]))
+    call mesh%set_parameters(points(:2, :))
   end function
 
   function fitted_sheet() result(surface)
@@ -186,7 +186,7 @@ contains
     real(real64) :: uv(2, side**2), weights(side**2), values(2, 1)
     uv = points(:2, :)
     weights = 2
-    call planish_tensor_fit_points(uv, points(2:3, :) * 1, surface, report=report, weights=weights)
+    call planish_tensor_fit_points(uv, points(2:3, :), surface, report=report, weights=weights)
     call check(surface%dim() == 2 .and. report%max_error <= report%tolerance, "values of two numbers")
     call surface%eval(reshape([0.5_real64, 0.25_real64], [2, 1]), values)
     call check(abs(values(1, 1) - 0.25_real64) <= report%tolerance, "v comes back")
@@ -269,7 +269,7 @@ contains
     wide(:3, :) = points
     wide_values = -1
     call surface%eval(wide, wide_values)
-    call surface%eval(reshape(points(:2, :), [2, side**2]), tight)
+    call surface%eval(points(:2, :), tight)
     call check(all(wide_values(:3, :) == tight) .and. all(wide_values(4, :) == -1), "the first extent is the stride")
     wide_triangles = 0
     wide_triangles(:3, :) = triangles
@@ -337,7 +337,7 @@ contains
     surface = fitted_sheet()
     mesh = flat_sheet()
     lifted = points
-    call surface%project(lifted, uv, distances, guesses=points(:2, :) * 1)
+    call surface%project(lifted, uv, distances, guesses=points(:2, :))
     ! a distance is the root of a sum of squares that is minimized until it no longer falls
     call check(maxval(distances) <= sqrt(epsilon(1.0_real64)), "nodes lie on the surface")
     call surface%project(lifted, distances=distances)
