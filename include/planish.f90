@@ -17,7 +17,7 @@
 !> Arrays are Fortran's way round: a row of C is a column, so points are (3,n) and parameters (2,n). Whole arrays go
 !> in without copies; of a section such as points(1:2,:) the compiler makes one. Where C has a stride, it is the first
 !> extent: uv(5,n) holds n points, u and v first. Sizes come from the arrays; strides and pointers of the options
-!> from the arguments. Options are default integers; sizes that come back are integer(c_size_t).
+!> from the arguments. Counts that come back are integer(c_size_t).
 !>
 !> Indices count from 1: nodes, triangles, loops, trims, worst_index, corners, planish_error_index(). Only the
 !> sentences of planish_error_message() count as C does, from 0.
