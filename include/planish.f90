@@ -615,7 +615,8 @@ module planish
   public :: planish_tensor_has_weights, planish_tensor_copy_weights
 
   ! ---------------------------------------------------------------------------------------------------------
-  ! The functions of planish.h, in its order. NULL is an absent argument.
+  ! The functions of planish.h, in its order. NULL is an absent argument. A new one wants its interface here, its
+  ! records above, and below a procedure in the section of its C type; cpp_tests/fortran/bindings.py tells what lacks.
   ! ---------------------------------------------------------------------------------------------------------
 
   interface
@@ -1422,6 +1423,16 @@ contains
         name // " is " // decimal(found) // ", not " // decimal(needed), stat, errmsg)
   end function
 
+  !> Refuses columns that are not as long as a value. Of something that is no surface or curve the library says so.
+  logical function refuse_dim(found, dim, name, stat, errmsg)
+    integer(c_size_t), intent(in) :: found, dim
+    character(*), intent(in) :: name
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    refuse_dim = .false.
+    if (dim > 0) refuse_dim = refuse_extent(found, dim, "the first extent of " // name, stat, errmsg)
+  end function
+
   !> Tells stat and errmsg, or stops the program where nobody asks for the status.
   subroutine fail(status, sentence, stat, errmsg)
     integer(c_int), intent(in) :: status
@@ -2035,7 +2046,7 @@ contains
     integer(c_size_t) :: extents(3)
     extents = shape(out, c_size_t)
     if (present(options)) call_options = options
-    if (refuse_extent(extents(1), self%dim(), "the first extent of out", stat, errmsg)) return
+    if (refuse_dim(extents(1), self%dim(), "out", stat, errmsg)) return
     if (refuse_points(call_options, shape(uv, c_size_t), [extents(1) * extents(2), extents(3)], flags, stat, errmsg)) &
         return
     call conclude(c_surface_eval_derivatives(self%get(), uv, size(uv, 2, c_size_t), int(max_derivative, c_int32_t), &
@@ -2055,7 +2066,7 @@ contains
     integer(c_size_t) :: extents(3)
     extents = shape(values, c_size_t)
     if (present(options)) call_options = options
-    if (refuse_extent(extents(1), self%dim(), "the first extent of values", stat, errmsg)) return
+    if (refuse_dim(extents(1), self%dim(), "values", stat, errmsg)) return
     if (refuse_extent(extents(2), size(v, kind=c_size_t), "the second extent of values", stat, errmsg)) return
     if (refuse_extent(extents(3), size(u, kind=c_size_t), "the third extent of values", stat, errmsg)) return
     call_options%uv_stride = 0
@@ -2406,7 +2417,7 @@ contains
     integer(c_size_t) :: extents(3)
     extents = shape(control_points, c_size_t)
     if (refuse_grid(surface, extents(2:3), "control_points", stat, errmsg)) return
-    if (refuse_extent(extents(1), surface%dim(), "the first extent of control_points", stat, errmsg)) return
+    if (refuse_dim(extents(1), surface%dim(), "control_points", stat, errmsg)) return
     call conclude(c_tensor_copy_control_points(surface%get(), control_points, extents(2) * extents(3)), stat, errmsg)
   end subroutine
 
@@ -2477,7 +2488,7 @@ contains
     integer(c_size_t) :: count
     count = size(points, 2, c_size_t)
     if (present(options)) call_options = options
-    if (refuse_extent(size(points, 1, c_size_t), self%dim(), "the first extent of points", stat, errmsg)) return
+    if (refuse_dim(size(points, 1, c_size_t), self%dim(), "points", stat, errmsg)) return
     if (present(uv)) then
       if (refuse_extent(size(uv, 1, c_size_t), 2_c_size_t, "the first extent of uv", stat, errmsg)) return
       if (refuse_short(size(uv, 2, c_size_t), count, "uv", stat, errmsg)) return
@@ -2737,8 +2748,7 @@ contains
     real(c_double), intent(inout), contiguous :: control_points(:, :)
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    if (refuse_extent(size(control_points, 1, c_size_t), self%dim(), "the first extent of control_points", &
-        stat, errmsg)) return
+    if (refuse_dim(size(control_points, 1, c_size_t), self%dim(), "control_points", stat, errmsg)) return
     call conclude(c_curve_copy_control_points(self%get(), control_points, size(control_points, 2, c_size_t)), &
         stat, errmsg)
   end subroutine
@@ -2798,7 +2808,7 @@ contains
     count = size(u, kind=c_size_t)
     extents = shape(out, c_size_t)
     if (present(options)) call_options = options
-    if (refuse_extent(extents(1), self%dim(), "the first extent of out", stat, errmsg)) return
+    if (refuse_dim(extents(1), self%dim(), "out", stat, errmsg)) return
     if (refuse_points(call_options, [1_c_size_t, count], [extents(1) * extents(2), extents(3)], flags, stat, errmsg)) &
         return
     call conclude(c_curve_eval(self%get(), u, count, int(max_derivative, c_int32_t), call_options, out), stat, errmsg)

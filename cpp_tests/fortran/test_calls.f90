@@ -407,7 +407,7 @@ contains
     type(planish_surface_t) :: surface
     integer :: stat
     integer(int32) :: nodes(3)
-    real(real64) :: broken(3, side**2), uv(3, side**2)
+    real(real64) :: broken(3, side**2), uv(3, side**2), uv_grid(1, 0, 0)
     character(100) :: errmsg
     character(12) :: short
     errmsg = "as it was"
@@ -423,6 +423,8 @@ contains
     call check(short == "cannot read ", "a short errmsg is cut off")
     call planish_tensor_fit(nothing, surface, stat=stat, errmsg=errmsg)
     call check_fails(stat, errmsg, PLANISH_STATUS_NULL_POINTER, "mesh")
+    call surface%eval_grid(uv(1, :0), uv(1, :0), uv_grid, stat=stat, errmsg=errmsg)
+    call check_fails(stat, errmsg, PLANISH_STATUS_NULL_POINTER, "surface")
     call mesh%copy_loop(0, nodes, stat, errmsg)
     call check_fails(stat, errmsg, PLANISH_STATUS_INDEX, "count from 1")
     call mesh%copy_loop(2, nodes, stat, errmsg)
