@@ -2251,6 +2251,7 @@ contains
     character(*), intent(inout), optional :: errmsg
     real(c_double), pointer, contiguous :: rows(:, :)
     rows(1:1, 1:size(values)) => values
+    ! not by the generic name, which gfortran 12 would take for the C function of the same name
     call tensor_fit_points_rows( &
         uv, rows, surface, options, report, weights, parameters, errors, progress, stat, errmsg)
   end subroutine

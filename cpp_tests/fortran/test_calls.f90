@@ -39,6 +39,7 @@ program test_calls
 
   call make_sheet(side, points, triangles)
   call versions_and_names()
+  call options_go_back_to_defaults()
   call meshes_count_from_1()
   call meshes_are_repaired()
   call meshes_are_cut()
@@ -88,6 +89,40 @@ contains
     version = planish_version()
     call check(index(version, "0.1.") == 1, "the version is 0.1.x")
     call check(planish_status_name(PLANISH_STATUS_SINGULAR) == "PLANISH_STATUS_SINGULAR", "names of statuses")
+  end subroutine
+
+  subroutine options_go_back_to_defaults()
+    type(planish_mesh_options) :: mesh
+    type(planish_parameterize_options) :: map
+    type(planish_eval_options) :: eval
+    type(planish_tensor_options) :: tensor
+    type(planish_tessellate_options) :: tessellate
+    type(planish_project_options) :: project
+    type(planish_deviation_options) :: deviation
+    type(planish_vtk_options) :: vtk
+    type(planish_step_options) :: step
+    mesh%orient = 7
+    map%unroll = 7
+    eval%outside = 7
+    tensor%max_grid = 7
+    tessellate%keep_trims = 7
+    project%keep_trims = 7
+    deviation%use_parameters = 7
+    vtk%thread_count = 7
+    step%schema = 7
+    call planish_options_init(mesh)
+    call planish_options_init(map)
+    call planish_options_init(eval)
+    call planish_options_init(tensor)
+    call planish_options_init(tessellate)
+    call planish_options_init(project)
+    call planish_options_init(deviation)
+    call planish_options_init(vtk)
+    call planish_options_init(step)
+    call check(all([mesh%orient, eval%outside, vtk%thread_count, step%schema] == 0), "defaults that are 0")
+    call check(all([map%unroll, tessellate%keep_trims, project%keep_trims, deviation%use_parameters] == 1), &
+        "defaults that are 1")
+    call check(tensor%max_grid == 257, "max_grid")
   end subroutine
 
   subroutine meshes_count_from_1()
@@ -231,6 +266,7 @@ contains
     call check(surface%kind() == PLANISH_KIND_TENSOR .and. surface%coefficient_count() == 6, "kind and coefficients")
     call check(planish_tensor_degree(surface, PLANISH_AXIS_V) == 2, "degree")
     call check(planish_tensor_knot_count(surface, PLANISH_AXIS_V) == 6, "knot_count")
+    call check(planish_tensor_control_point_count(surface, PLANISH_AXIS_V) == 3, "control_point_count")
     call planish_tensor_copy_knots(surface, PLANISH_AXIS_V, knots_back)
     call check(all(knots_back == knots_v), "copy_knots")
     call planish_tensor_copy_control_points(surface, back)
@@ -332,8 +368,11 @@ contains
   subroutine points_are_projected()
     type(planish_surface_t) :: surface
     type(planish_mesh_t) :: mesh
+    type(planish_project_options) :: near
+    type(planish_deviation_options) :: both_ways
     type(planish_deviation_report) :: report
     real(real64) :: lifted(3, side**2), uv(2, side**2), distances(side**2)
+    integer :: stat
     surface = fitted_sheet()
     mesh = flat_sheet()
     lifted = points
@@ -341,7 +380,13 @@ contains
     ! a distance is the root of a sum of squares that is minimized until it no longer falls
     call check(maxval(distances) <= sqrt(epsilon(1.0_real64)), "nodes lie on the surface")
     call surface%project(lifted, distances=distances)
-    call surface%deviation(mesh, distances, report=report)
+    lifted(3, 1) = 1
+    near%max_distance = 0.5_real64
+    call surface%project(lifted, uv, options=near, stat=stat)
+    call check(stat == PLANISH_STATUS_POINTS_OUTSIDE .and. all(ieee_is_nan(uv(:, 1))), "a point farther than asked")
+    both_ways%measure_back = 1
+    call surface%deviation(mesh, distances, both_ways, report)
+    call check(report%back_count > 0, "measured back")
     call check(maxval(distances) == report%max_distance, "deviation")
     call check(distances(report%worst_index) == report%max_distance, "its worst_index counts from 1")
     call surface%tessellate(mesh)
@@ -351,6 +396,8 @@ contains
   subroutine files_are_written()
     type(planish_surface_t) :: surface, again
     type(planish_step_report) :: report
+    type(planish_step_options) :: in_inches
+    type(planish_vtk_options) :: serial
     type(planish_tessellate_options) :: fine
     integer(int8), allocatable :: bytes(:), bytes_again(:)
     character(200) :: line
@@ -365,8 +412,10 @@ contains
     call check(all(bytes == bytes_again), "saved and loaded to the bit")
     fine%chord_tolerance = 1e-2_real64
     call surface%write_vtk("sheet.vtu", deviation_from=flat_sheet())
-    call surface%write_vtk("sheet.vtu", tessellate=fine)
-    call surface%write_step("sheet.step", product="a sheet", author="nobody", report=report)
+    serial%thread_count = 1
+    call surface%write_vtk("sheet.vtu", serial, tessellate=fine)
+    in_inches%unit = PLANISH_UNIT_INCH
+    call surface%write_step("sheet.step", in_inches, product="a sheet", author="nobody", report=report)
     call check(report%loop_count == 1, "the report of a STEP file")
     open (newunit=unit, file="sheet.step", action="read")
     do
@@ -407,7 +456,7 @@ contains
     type(planish_surface_t) :: surface
     integer :: stat
     integer(int32) :: nodes(3)
-    real(real64) :: broken(3, side**2), uv(3, side**2), uv_grid(1, 0, 0)
+    real(real64) :: broken(3, side**2), uv(3, side**2), uv_grid(1, 0, 0), out(3, 6, side**2)
     character(100) :: errmsg
     character(12) :: short
     errmsg = "as it was"
@@ -425,6 +474,10 @@ contains
     call check_fails(stat, errmsg, PLANISH_STATUS_NULL_POINTER, "mesh")
     call surface%eval_grid(uv(1, :0), uv(1, :0), uv_grid, stat=stat, errmsg=errmsg)
     call check_fails(stat, errmsg, PLANISH_STATUS_NULL_POINTER, "surface")
+    surface = fitted_sheet()
+    call surface%eval_derivatives(uv, -1, out, stat=stat, errmsg=errmsg)
+    call check_fails(stat, errmsg, PLANISH_STATUS_INVALID_ARGUMENT, "derivative")
+    call surface%free()
     call mesh%copy_loop(0, nodes, stat, errmsg)
     call check_fails(stat, errmsg, PLANISH_STATUS_INDEX, "count from 1")
     call mesh%copy_loop(2, nodes, stat, errmsg)
