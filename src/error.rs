@@ -19,6 +19,7 @@ use crate::query::tessellate::TessellateError;
 use crate::surface::TrimError;
 use crate::surface::evaluate::EvalError;
 use crate::surface::tensor::TensorError;
+use crate::surface::tspline::TSplineError;
 
 /// The class of an error: what a program can act upon without reading the sentence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -79,6 +80,9 @@ pub enum Error {
     /// A tensor surface is not one.
     #[error(transparent)]
     Tensor(#[from] TensorError),
+    /// A T-spline is not one, or cannot be changed as asked.
+    #[error(transparent)]
+    TSpline(#[from] TSplineError),
     /// Points cannot be evaluated.
     #[error(transparent)]
     Eval(#[from] EvalError),
@@ -131,6 +135,7 @@ impl Error {
             Self::Knots(error) => (error.kind(), error.index()),
             Self::Curve(error) => (error.kind(), error.index()),
             Self::Tensor(error) => (error.kind(), error.index()),
+            Self::TSpline(error) => (error.kind(), error.index()),
             Self::Eval(error) => (error.kind(), error.index()),
             Self::Deviation(error) => (error.kind(), error.index()),
             Self::Project(error) => (error.kind(), error.index()),

@@ -4,10 +4,12 @@
 //! threads with rules for parameters outside; [`Region`] holds what a surface knows of the data it was
 //! made from: their box in (u,v), and their boundary loops, the trims.
 
+mod cubic;
 mod differential;
 pub mod evaluate;
 mod region;
 pub mod tensor;
+pub mod tspline;
 
 pub use crate::geometry::Domain;
 pub use differential::{Curvatures, curvatures, normal};
@@ -36,6 +38,9 @@ pub const MAX_DERIVATIVE: usize = 2;
 pub const fn derivative_rows(max_derivative: usize) -> usize {
     (max_derivative + 1) * (max_derivative + 2) / 2
 }
+
+/// Orders (in u, in v) of those rows.
+const ORDERS: [(usize, usize); 6] = [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)];
 
 /// What a surface of any family can do.
 pub trait Surface: Send + Sync {
