@@ -9,6 +9,7 @@ use crate::curve::CurveError;
 use crate::export::ExportError;
 use crate::export::native::LoadError;
 use crate::export::step::StepError;
+use crate::fit::skin::SkinError;
 use crate::fit::tessellation::FitError;
 use crate::knots::KnotError;
 use crate::mesh::{CutError, MeshError, ReadError};
@@ -71,6 +72,9 @@ pub enum Error {
     /// A fit is not possible.
     #[error(transparent)]
     Fit(#[from] FitError),
+    /// Rows cannot be skinned.
+    #[error(transparent)]
+    Skin(#[from] SkinError),
     /// Knots are not a knot vector.
     #[error(transparent)]
     Knots(#[from] KnotError),
@@ -132,6 +136,7 @@ impl Error {
             Self::Read(error) => (error.kind(), error.index()),
             Self::Parameterize(error) => (error.kind(), error.index()),
             Self::Fit(error) => (error.kind(), error.index()),
+            Self::Skin(error) => (error.kind(), error.index()),
             Self::Knots(error) => (error.kind(), error.index()),
             Self::Curve(error) => (error.kind(), error.index()),
             Self::Tensor(error) => (error.kind(), error.index()),
