@@ -1977,7 +1977,6 @@ enum planish_status planish_tensor_copy_weights(const struct planish_surface *su
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
  */
 PLANISH_API
-PLANISH_NODISCARD
 enum planish_status planish_tessellate_options_init(struct planish_tessellate_options *options,
                                                     size_t size);
 
@@ -2006,7 +2005,6 @@ enum planish_status planish_surface_tessellate(const struct planish_surface *sur
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
  */
 PLANISH_API
-PLANISH_NODISCARD
 enum planish_status planish_project_options_init(struct planish_project_options *options,
                                                  size_t size);
 
@@ -2042,7 +2040,6 @@ enum planish_status planish_surface_project(const struct planish_surface *surfac
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
  */
 PLANISH_API
-PLANISH_NODISCARD
 enum planish_status planish_deviation_options_init(struct planish_deviation_options *options,
                                                    size_t size);
 
@@ -2054,7 +2051,7 @@ enum planish_status planish_deviation_options_init(struct planish_deviation_opti
  * options:       NULL for the defaults.
  * out_distances: receives planish_mesh_point_count() distances; NULL for none.
  * count:         doubles that out_distances has room for.
- * report:        NULL for none.
+ * out_report:    receives the sizes of the distances; NULL for none.
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, or the
  * dimension), PLANISH_STATUS_BUFFER_TOO_SMALL, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOPOLOGY or
  * PLANISH_STATUS_TOO_LARGE (measuring back only), or PLANISH_STATUS_VERSION.
@@ -2066,7 +2063,7 @@ enum planish_status planish_surface_deviation(const struct planish_surface *surf
                                               const struct planish_deviation_options *options,
                                               double *out_distances,
                                               size_t count,
-                                              struct planish_deviation_report *report);
+                                              struct planish_deviation_report *out_report);
 
 /**
  * Fills options with the defaults.
@@ -2075,10 +2072,7 @@ enum planish_status planish_surface_deviation(const struct planish_surface *surf
  * size:    sizeof(planish_vtk_options).
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
  */
-PLANISH_API
-PLANISH_NODISCARD
-enum planish_status planish_vtk_options_init(struct planish_vtk_options *options,
-                                             size_t size);
+PLANISH_API enum planish_status planish_vtk_options_init(struct planish_vtk_options *options, size_t size);
 
 /**
  * Writes a surface in space as a VTK file of triangles (.vtu), its (u,v) as point data "uv". The file appears
@@ -2114,7 +2108,7 @@ PLANISH_API size_t planish_surface_save_size(const struct planish_surface *surfa
 PLANISH_API
 PLANISH_NODISCARD
 enum planish_status planish_surface_save(const struct planish_surface *surface,
-                                         uint8_t *buffer,
+                                         void *buffer,
                                          size_t size);
 
 /**
@@ -2128,7 +2122,7 @@ enum planish_status planish_surface_save(const struct planish_surface *surface,
  */
 PLANISH_API
 PLANISH_NODISCARD
-enum planish_status planish_surface_load(const uint8_t *buffer,
+enum planish_status planish_surface_load(const void *buffer,
                                          size_t size,
                                          struct planish_surface **out_surface);
 
@@ -2165,10 +2159,7 @@ enum planish_status planish_surface_load_file(const char *path,
  * size:    sizeof(planish_step_options).
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
  */
-PLANISH_API
-PLANISH_NODISCARD
-enum planish_status planish_step_options_init(struct planish_step_options *options,
-                                              size_t size);
+PLANISH_API enum planish_status planish_step_options_init(struct planish_step_options *options, size_t size);
 
 /**
  * Writes a tensor surface in space as a STEP file with one face, bounded by the surface's trims or, if it has

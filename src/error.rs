@@ -17,10 +17,10 @@ use crate::parameterize::ParameterizeError;
 use crate::query::deviation::DeviationError;
 use crate::query::project::ProjectError;
 use crate::query::tessellate::TessellateError;
-use crate::surface::TrimError;
 use crate::surface::evaluate::EvalError;
 use crate::surface::tensor::TensorError;
 use crate::surface::tspline::TSplineError;
+use crate::surface::{ConvertError, TrimError};
 
 /// The class of an error: what a program can act upon without reading the sentence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -111,6 +111,9 @@ pub enum Error {
     /// A trim is not one.
     #[error(transparent)]
     Trim(#[from] TrimError),
+    /// A surface cannot be converted.
+    #[error(transparent)]
+    Convert(#[from] ConvertError),
     /// A mesh cannot be cut as asked.
     #[error(transparent)]
     Cut(#[from] CutError),
@@ -149,6 +152,7 @@ impl Error {
             Self::Step(error) => (error.kind(), error.index()),
             Self::Load(error) => (error.kind(), error.index()),
             Self::Trim(error) => (error.kind(), error.index()),
+            Self::Convert(error) => (error.kind(), None),
             Self::Cut(error) => (error.kind(), error.index()),
             Self::Cancelled(_) => (ErrorKind::Cancelled, None),
         }

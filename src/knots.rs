@@ -41,6 +41,14 @@ pub enum KnotError {
         /// Degree given.
         degree: usize,
     },
+    /// A knot would occur so often that nothing holds the spline together there.
+    #[error("the knot {at} would occur more than {degree} times, which tears a spline of degree {degree}")]
+    Torn {
+        /// The knot.
+        at: f64,
+        /// Degree of the spline.
+        degree: usize,
+    },
     /// The domain, from knot `degree` to knot `count - degree - 1`, has no length.
     #[error("the knots span no interval: the domain begins and ends at {at}")]
     Empty {

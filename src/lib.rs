@@ -20,7 +20,8 @@
 //!
 //! * [`error`], [`control`]: what can go wrong; threads, progress and cancelling.
 //! * [`geometry`]: boxes, exact predicates.
-//! * [`knots`], [`basis`], [`bezier`], [`hermite`]: one-dimensional building blocks, and patches made of them.
+//! * [`knots`], [`basis`], [`refinement`], [`bezier`], [`hermite`]: one-dimensional building blocks, and patches
+//!   made of them.
 //! * [`linalg`]: banded and sparse systems.
 //! * [`mesh`]: triangle meshes, their topology and files.
 //! * [`parameterize`]: where a mesh gets its (u,v) from.
@@ -50,6 +51,7 @@ pub mod linalg;
 pub mod mesh;
 pub mod parameterize;
 pub mod query;
+pub mod refinement;
 pub mod samples;
 pub mod summary;
 pub mod surface;

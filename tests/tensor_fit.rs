@@ -334,3 +334,20 @@ fn an_airplane_with_holes_is_told_to_be_cut_into_charts() {
     assert!(report.remarks.has(Remarks::TOLERANCE_NOT_MET));
     assert!(report.remarks.has(Remarks::SEGMENTATION_ADVISED));
 }
+
+#[test]
+fn a_field_that_meets_its_tolerance_says_so() {
+    let mesh = samples::curved_notch(3).unwrap();
+    // waves of a dozen edges: between the nodes the field leaves its facets by more than the tolerance
+    let field: Vec<f64> =
+        mesh.parameters().unwrap().iter().map(|p| (0.9 * p.x).sin() * (0.7 * p.y).cos()).collect();
+    for tolerance in [1e-2, 1e-3, 1e-4] {
+        let tolerance = Tolerance { value: tolerance, scale: ToleranceScale::Relative };
+        let options = TensorOptions { tolerance, ..TensorOptions::default() };
+        let report = fit_field(&mesh, &field, 1, &options, &mut Control::new(1)).unwrap().report;
+        assert!(report.max_error <= report.tolerance, "{report:?}");
+        assert!(report.max_interior_error > report.tolerance || tolerance.value > 1e-3, "{report:?}");
+        assert_eq!(report.stop, StopReason::ToleranceMet, "{report:?}");
+        assert!(!report.remarks.has(Remarks::STAGNATED), "{report:?}");
+    }
+}

@@ -1,11 +1,6 @@
 //! The same curve over more knots, a near one over fewer.
 //!
-//! Insertion: L. Ramshaw 1989, R. Goldman, T. Lyche (Oslo algorithm, 1980): over the new knots `tau` the control
-//! points are the values of the blossom `f_k` of the old piece that holds `tau_i`,
-//! ```text
-//! d_i = f_k(tau_{i+1}, .., tau_{i+p}),    t_k <= tau_i < t_{k+1}
-//! ```
-//! Where all these knots are old ones the control point is copied, so nothing changes that need not.
+//! Insertion is a [`Refinement`].
 //!
 //! Removal of a knot t that then is left s times: W. Boehm's insertion (1980) read backwards,
 //! ```text
@@ -15,48 +10,22 @@
 //! of the control polygons over the old knots, which bounds that of the curves everywhere.
 
 use super::Curve;
-use crate::basis::raise;
-use crate::knots::{KnotError, KnotVector, MAX_DEGREE};
+use crate::knots::{KnotError, KnotVector};
+use crate::refinement::Refinement;
 
 /// Knots of several curves nearer than this share of the domain count as one.
 pub const KNOT_TOLERANCE: f64 = 1e-12;
 
 impl Curve {
-    /// The same curve with more knots inside its domain.
+    /// The same curve with more knots inside its domain, none of them more than `degree` times.
     pub fn insert_knots(&self, added: &[f64]) -> Result<Self, KnotError> {
         let (from, to) = self.knots.domain();
         if let Some(&at) = added.iter().find(|&&t| !(from < t && t < to)) {
             return Err(KnotError::Outside { at, from, to });
         }
-        let (t, degree, dim) = (self.knots.knots(), self.knots.degree(), self.dim);
-        let mut merged: Vec<(f64, bool)> = t.iter().map(|&t| (t, false)).collect();
-        merged.extend(added.iter().map(|&t| (t, true)));
-        merged.sort_by(|a, b| a.0.total_cmp(&b.0)); // stable: of equal knots the old ones come first
-        let knots = KnotVector::new(merged.iter().map(|knot| knot.0).collect(), degree)?;
-        let mut points = Vec::with_capacity(knots.basis_count() * dim);
-        let mut added_before = 0;
-        for i in 0..knots.basis_count() {
-            added_before += usize::from(merged[i].1);
-            let inner = &merged[i + 1..=i + degree];
-            if inner.iter().all(|knot| !knot.1) {
-                points.extend_from_slice(&self.control_points[(i - added_before) * dim..][..dim]);
-                continue;
-            }
-            let span = self.knots.span(merged[i].0);
-            let mut weights = [0.0; MAX_DEGREE + 1];
-            weights[0] = 1.0;
-            for (p, knot) in inner.iter().enumerate() {
-                raise(t, span, knot.0, p + 1, &mut weights);
-            }
-            let start = points.len();
-            points.resize(start + dim, 0.0);
-            for (weight, point) in
-                weights.iter().zip(self.control_points[(span - degree) * dim..].chunks(dim))
-            {
-                points[start..].iter_mut().zip(point).for_each(|(sum, x)| *sum += weight * x);
-            }
-        }
-        Ok(Self { dim, knots, control_points: points })
+        let refinement = Refinement::insert(&self.knots, added)?;
+        let control_points = refinement.apply(&self.control_points, self.dim);
+        Ok(Self { dim: self.dim, knots: refinement.knots().clone(), control_points })
     }
 
     /// A curve without the knot of this index, which must lie inside the domain where the curve is continuous, and a
@@ -303,7 +272,7 @@ mod tests {
         );
         assert_eq!(curve.remove_knot(3).unwrap_err(), KnotError::NotRemovable { index: 3 });
         assert_eq!(curve.remove_knot(99).unwrap_err(), KnotError::NotRemovable { index: 99 });
-        let full = curve.insert_knots(&[0.5; 4]).unwrap();
-        assert!(matches!(full.insert_knots(&[0.5]).unwrap_err(), KnotError::Multiplicity { .. }));
+        let full = curve.insert_knots(&[0.5; 3]).unwrap();
+        assert_eq!(full.insert_knots(&[0.5]).unwrap_err(), KnotError::Torn { at: 0.5, degree: 3 });
     }
 }

@@ -41,6 +41,10 @@ pub(super) enum ArgumentError {
     Reserved { record: &'static str, given: u32 },
     #[error("the surface is of the family {found:?}, this call needs {needed:?}")]
     WrongKind { found: Kind, needed: Kind },
+    #[error("the surface is of the family {found:?}, which has no patches")]
+    NoPatches { found: Kind },
+    #[error("the surface is of the family {found:?}, which has no control net")]
+    NoControlNet { found: Kind },
     #[error("no memory for {count} elements of {name}")]
     OutOfMemory { name: &'static str, count: usize },
 }
@@ -53,7 +57,9 @@ impl ArgumentError {
             Self::TooSmall { .. } => planish_status::BufferTooSmall,
             Self::NoSuch { .. } => planish_status::Index,
             Self::RecordVersion { .. } | Self::Reserved { .. } => planish_status::Version,
-            Self::WrongKind { .. } => planish_status::WrongKind,
+            Self::WrongKind { .. } | Self::NoPatches { .. } | Self::NoControlNet { .. } => {
+                planish_status::WrongKind
+            }
             Self::OutOfMemory { .. } => planish_status::OutOfMemory,
             _ => planish_status::InvalidArgument,
         }

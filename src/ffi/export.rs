@@ -1,16 +1,29 @@
 //! Files and buffers.
 
-use super::arguments::{ArgumentError, deref, init_options, options, out, slice, slice_mut, text};
+use super::arguments::{ArgumentError, choice, deref, init_options, options, out, slice, slice_mut, text};
 use super::guard::guard;
 use super::mesh::planish_mesh;
 use super::planish_status;
 use super::progress::thread_count;
 use super::query::planish_tessellate_options;
-use super::surface::{Family, planish_surface, query_surface};
+use super::surface::{planish_surface, query_surface};
 use crate::control::Pool;
-use crate::export::{native, vtk};
-use std::ffi::c_char;
+use crate::export::{ExportError, native, vtk};
+use std::ffi::{c_char, c_void};
 use std::path::Path;
+
+/// What a VTK file holds of a surface.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum planish_vtk_content {
+    /// Triangles of the part inside the trims, or of deviation_from.
+    Triangles = 0,
+    /// Its Bezier patches as cells of type VTK_BEZIER_QUADRILATERAL (VTK 9): the surface itself. Trims are not
+    /// shown; cell data "parameters" has least and largest u, least and largest v of each patch.
+    Patches = 1,
+    /// Its control points, joined by polylines as neighbours in the control net.
+    ControlNet = 2,
+}
 
 /// What a VTK file shows. Fill with planish_vtk_options_init(), then change what you need.
 #[repr(C)]
@@ -26,12 +39,12 @@ pub struct planish_vtk_options {
     pub tessellate: *const planish_tessellate_options,
     /// Threads to use, at most 1024; 0 (default) for all cores.
     pub thread_count: u32,
-    /// 0.
-    pub reserved: u32,
+    /// A planish_vtk_content. Default PLANISH_VTK_CONTENT_TRIANGLES.
+    pub content: u32,
 }
 
 record!(planish_vtk_options, 32, {
-    struct_size: 0, deviation_from: 8, tessellate: 16, thread_count: 24, reserved: 28,
+    struct_size: 0, deviation_from: 8, tessellate: 16, thread_count: 24, content: 28,
 });
 
 impl Default for planish_vtk_options {
@@ -41,7 +54,7 @@ impl Default for planish_vtk_options {
             deviation_from: std::ptr::null(),
             tessellate: std::ptr::null(),
             thread_count: 0,
-            reserved: 0,
+            content: planish_vtk_content::Triangles as u32,
         }
     }
 }
@@ -51,7 +64,6 @@ impl Default for planish_vtk_options {
 /// options: not NULL.
 /// size:    sizeof(planish_vtk_options).
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
-#[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_vtk_options_init(
     options: *mut planish_vtk_options,
@@ -61,14 +73,15 @@ pub unsafe extern "C" fn planish_vtk_options_init(
     guard(|| unsafe { init_options(options, size) })
 }
 
-/// Writes a surface in space as a VTK file of triangles (.vtu), its (u,v) as point data "uv". The file appears
-/// whole or not at all.
+/// Writes a surface in space as a VTK file (.vtu): triangles with their (u,v) as point data "uv", the patches, or
+/// the control net. The file appears whole or not at all.
 ///
 /// surface: not NULL, of dimension 3.
 /// path:    UTF-8, ends with a NUL; an existing file is replaced.
 /// options: NULL for the defaults.
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension, an
-/// option, a path that is not UTF-8), PLANISH_STATUS_FILE, or what planish_surface_tessellate() or
+/// option, a path that is not UTF-8), PLANISH_STATUS_WRONG_KIND (a family without patches or control net, where these
+/// are asked for), PLANISH_STATUS_FILE, or what planish_surface_tessellate() or
 /// planish_surface_deviation() return.
 #[must_use]
 #[unsafe(no_mangle)]
@@ -80,12 +93,23 @@ pub unsafe extern "C" fn planish_surface_write_vtk(
     // SAFETY: the caller's promises.
     guard(|| unsafe {
         let surface = deref(surface, "surface")?.any();
-        let path = text(path, "path")?;
+        let path = Path::new(text(path, "path")?);
         let given = self::options(options)?;
-        if given.reserved != 0 {
-            return Err(
-                ArgumentError::Reserved { record: "planish_vtk_options", given: given.reserved }.into()
-            );
+        let contents =
+            [planish_vtk_content::Triangles, planish_vtk_content::Patches, planish_vtk_content::ControlNet];
+        let no_patches = ArgumentError::NoPatches { found: surface.kind() };
+        match choice(given.content, &contents, "content")? {
+            planish_vtk_content::Triangles => {}
+            planish_vtk_content::Patches => {
+                return Ok(vtk::write_patches(surface.patches().ok_or(no_patches)?, path)?);
+            }
+            planish_vtk_content::ControlNet if surface.dim() != 3 => {
+                return Err(ExportError::Dimension { dim: surface.dim() }.into());
+            }
+            planish_vtk_content::ControlNet => {
+                let no_net = ArgumentError::NoControlNet { found: surface.kind() };
+                return Ok(vtk::write_control_net(&surface.control_net().ok_or(no_net)?, path)?);
+            }
         }
         let deviation_from = match given.deviation_from.is_null() {
             true => None,
@@ -94,7 +118,7 @@ pub unsafe extern "C" fn planish_surface_write_vtk(
         let tessellate = self::options(given.tessellate)?.core()?;
         let core = vtk::SurfaceOptions { tessellate, deviation_from };
         let pool = Pool::new(thread_count(given.thread_count)?);
-        Ok(vtk::write_surface(surface, &core, Path::new(path), &pool)?)
+        Ok(vtk::write_surface(surface, &core, path, &pool)?)
     })
 }
 
@@ -102,7 +126,7 @@ pub unsafe extern "C" fn planish_surface_write_vtk(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_surface_save_size(surface: *const planish_surface) -> usize {
     // SAFETY: the caller's promise.
-    unsafe { query_surface(surface, |surface| Ok(native::save_size(surface.tensor()?))) }
+    unsafe { query_surface(surface, |surface| Ok(native::save_size(surface.family()?.as_saved()))) }
 }
 
 /// Writes everything a surface is into a buffer, to the bit. The layout is documented in docs/format.md; it is
@@ -116,18 +140,18 @@ pub unsafe extern "C" fn planish_surface_save_size(surface: *const planish_surfa
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_surface_save(
     surface: *const planish_surface,
-    buffer: *mut u8,
+    buffer: *mut c_void,
     size: usize,
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let tensor = deref(surface, "surface")?.tensor()?;
-        let needed = native::save_size(tensor);
+        let saved = deref(surface, "surface")?.family()?.as_saved();
+        let needed = native::save_size(saved);
         if size < needed {
             return Err(ArgumentError::TooSmall { name: "buffer", given: size, needed }.into());
         }
-        let buffer = slice_mut(buffer, needed, "buffer")?;
-        buffer.copy_from_slice(&native::save(tensor));
+        let buffer = slice_mut(buffer.cast::<u8>(), needed, "buffer")?;
+        buffer.copy_from_slice(&native::save(saved));
         Ok(())
     })
 }
@@ -142,16 +166,16 @@ pub unsafe extern "C" fn planish_surface_save(
 #[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_surface_load(
-    buffer: *const u8,
+    buffer: *const c_void,
     size: usize,
     out_surface: *mut *mut planish_surface,
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let bytes = slice(buffer, size, "buffer")?;
+        let bytes = slice(buffer.cast::<u8>(), size, "buffer")?;
         let out_surface = out(out_surface, "out_surface")?;
         let surface = native::load(bytes)?;
-        out_surface.write(planish_surface::into_raw(Family::Tensor(surface)));
+        out_surface.write(planish_surface::into_raw(surface));
         Ok(())
     })
 }
@@ -170,8 +194,8 @@ pub unsafe extern "C" fn planish_surface_save_file(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let tensor = deref(surface, "surface")?.tensor()?;
-        Ok(native::save_file(tensor, Path::new(text(path, "path")?))?)
+        let saved = deref(surface, "surface")?.family()?.as_saved();
+        Ok(native::save_file(saved, Path::new(text(path, "path")?))?)
     })
 }
 
@@ -192,7 +216,7 @@ pub unsafe extern "C" fn planish_surface_load_file(
         let path = text(path, "path")?;
         let out_surface = out(out_surface, "out_surface")?;
         let surface = native::load_file(Path::new(path))?;
-        out_surface.write(planish_surface::into_raw(Family::Tensor(surface)));
+        out_surface.write(planish_surface::into_raw(surface));
         Ok(())
     })
 }

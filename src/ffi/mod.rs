@@ -19,6 +19,7 @@ mod export;
 mod guard;
 mod mesh;
 mod parameterize;
+mod patch;
 mod progress;
 mod query;
 mod report;
@@ -28,11 +29,13 @@ mod surface;
 mod tensor;
 #[cfg(test)]
 mod tests;
+mod tspline;
 
 pub use curve::*;
 pub use export::*;
 pub use mesh::*;
 pub use parameterize::*;
+pub use patch::*;
 pub use progress::*;
 pub use query::*;
 pub use report::*;
@@ -40,3 +43,4 @@ pub use status::*;
 pub use step::*;
 pub use surface::*;
 pub use tensor::*;
+pub use tspline::*;

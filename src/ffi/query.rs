@@ -13,7 +13,7 @@ use super::surface::planish_surface;
 use crate::control::Pool;
 use crate::query::deviation::{DeviationOptions, DeviationReport, deviation};
 use crate::query::project::{ProjectOptions, Projector};
-use crate::query::tessellate::{TessellateOptions, tessellate};
+use crate::query::tessellate::{TessellateOptions, Tessellation, tessellate};
 use glam::DVec2;
 
 /// How fine a tessellation is. Fill with planish_tessellate_options_init(), then change what you need.
@@ -33,11 +33,36 @@ pub struct planish_tessellate_options {
     pub keep_trims: u32,
     /// 0.
     pub reserved: u32,
+    /// Receives how good the mesh is, or NULL (default). Set its struct_size before. Filled on success only; not
+    /// looked at where the options are part of others.
+    pub out_report: *mut planish_tessellate_report,
 }
 
-record!(planish_tessellate_options, 40, {
+record!(planish_tessellate_options, 48, {
     struct_size: 0, chord_tolerance: 8, max_edge_length: 16, max_point_count: 24, keep_trims: 32, reserved: 36,
+    out_report: 40,
 });
+
+/// How good a tessellation is. Set struct_size to sizeof(planish_tessellate_report) before the call; filled as far
+/// as that goes.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct planish_tessellate_report {
+    /// sizeof(planish_tessellate_report) as the caller sees it.
+    pub struct_size: usize,
+    /// Smallest angle of a triangle in space, in radians.
+    pub smallest_angle: f64,
+    /// Largest distance measured between the middle of an edge and the surface, in model units.
+    pub chord_error: f64,
+}
+
+record!(planish_tessellate_report, 24, { struct_size: 0, smallest_angle: 8, chord_error: 16 });
+
+impl Default for planish_tessellate_report {
+    fn default() -> Self {
+        Self { struct_size: size_of::<Self>(), smallest_angle: 0.0, chord_error: 0.0 }
+    }
+}
 
 impl Default for planish_tessellate_options {
     fn default() -> Self {
@@ -49,6 +74,7 @@ impl Default for planish_tessellate_options {
             max_point_count: core.max_points,
             keep_trims: u32::from(core.keep_trims),
             reserved: 0,
+            out_report: std::ptr::null_mut(),
         }
     }
 }
@@ -74,7 +100,6 @@ fn check_reserved(record: &'static str, given: u32) -> Result<(), ArgumentError>
 /// options: not NULL.
 /// size:    sizeof(planish_tessellate_options).
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
-#[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_tessellate_options_init(
     options: *mut planish_tessellate_options,
@@ -104,8 +129,11 @@ pub unsafe extern "C" fn planish_surface_tessellate(
     guard(|| unsafe {
         let surface = deref(surface, "surface")?.any();
         let out_mesh = out(out_mesh, "out_mesh")?;
-        let result = tessellate(surface, &self::options(options)?.core()?)?;
-        out_mesh.write(planish_mesh::into_raw(result.mesh));
+        let given = self::options(options)?;
+        let report = ReportOut::new(given.out_report)?;
+        let Tessellation { mesh, smallest_angle, chord_error } = tessellate(surface, &given.core()?)?;
+        report.store(planish_tessellate_report { smallest_angle, chord_error, ..Default::default() });
+        out_mesh.write(planish_mesh::into_raw(mesh));
         Ok(())
     })
 }
@@ -149,7 +177,6 @@ impl Default for planish_project_options {
 /// options: not NULL.
 /// size:    sizeof(planish_project_options).
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
-#[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_project_options_init(
     options: *mut planish_project_options,
@@ -307,7 +334,6 @@ impl From<&DeviationReport> for planish_deviation_report {
 /// options: not NULL.
 /// size:    sizeof(planish_deviation_options).
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
-#[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_deviation_options_init(
     options: *mut planish_deviation_options,
@@ -324,7 +350,7 @@ pub unsafe extern "C" fn planish_deviation_options_init(
 /// options:       NULL for the defaults.
 /// out_distances: receives planish_mesh_point_count() distances; NULL for none.
 /// count:         doubles that out_distances has room for.
-/// report:        NULL for none.
+/// out_report:    receives the sizes of the distances; NULL for none.
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, or the
 /// dimension), PLANISH_STATUS_BUFFER_TOO_SMALL, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOPOLOGY or
 /// PLANISH_STATUS_TOO_LARGE (measuring back only), or PLANISH_STATUS_VERSION.
@@ -336,14 +362,14 @@ pub unsafe extern "C" fn planish_surface_deviation(
     options: *const planish_deviation_options,
     out_distances: *mut f64,
     count: usize,
-    report: *mut planish_deviation_report,
+    out_report: *mut planish_deviation_report,
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
         let surface = deref(surface, "surface")?.any();
         let mesh = &deref(mesh, "mesh")?.0;
         let given = self::options(options)?;
-        let report = ReportOut::new(report)?;
+        let report = ReportOut::new(out_report)?;
         let needed = mesh.points().len();
         if !out_distances.is_null() && count < needed {
             return Err(ArgumentError::TooSmall { name: "out_distances", given: count, needed }.into());

@@ -148,7 +148,6 @@ impl planish_step_options {
 /// options: not NULL.
 /// size:    sizeof(planish_step_options).
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
-#[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_step_options_init(
     options: *mut planish_step_options,

@@ -15,7 +15,8 @@ use crate::surface::evaluate::{
     Quantity, evaluate,
 };
 use crate::surface::tensor::TensorSurface;
-use crate::surface::{Domain, Kind, MAX_DERIVATIVE, Surface, Trims};
+use crate::surface::tspline::TSplineSurface;
+use crate::surface::{AnySurface, Domain, Kind, MAX_DERIVATIVE, Surface, Trims};
 use glam::DVec2;
 
 /// A surface: a map from a rectangle of parameters (u,v) to R^dim. Made by planish_tensor_fit() and others,
@@ -29,24 +30,29 @@ const _: () = {
     is_shared::<planish_surface>();
 };
 
-/// The families behind the handle.
+/// What a handle holds.
 #[derive(Clone)]
-#[cfg_attr(test, allow(clippy::large_enum_variant, reason = "handles hold it in a box"))]
 pub(super) enum Family {
-    Tensor(TensorSurface),
-    /// Stands for every other family while tensors are the only one.
+    Any(AnySurface),
+    /// Stands for every family that is not known here.
     #[cfg(test)]
     Other(super::tests::OtherFamily),
 }
 
 impl planish_surface {
-    pub(super) fn into_raw(family: Family) -> *mut Self {
-        Box::into_raw(Box::new(Self(family)))
+    pub(super) fn into_raw(surface: impl Into<AnySurface>) -> *mut Self {
+        Box::into_raw(Box::new(Self(Family::Any(surface.into()))))
+    }
+
+    /// A handle of no family that the library knows.
+    #[cfg(test)]
+    pub(super) fn other_into_raw(surface: super::tests::OtherFamily) -> *mut Self {
+        Box::into_raw(Box::new(Self(Family::Other(surface))))
     }
 
     pub(super) fn any(&self) -> &dyn Surface {
         match &self.0 {
-            Family::Tensor(tensor) => tensor,
+            Family::Any(surface) => surface.as_surface(),
             #[cfg(test)]
             Family::Other(other) => other,
         }
@@ -54,21 +60,51 @@ impl planish_surface {
 
     fn any_mut(&mut self) -> &mut dyn Surface {
         match &mut self.0 {
-            Family::Tensor(tensor) => tensor,
+            Family::Any(surface) => surface.as_surface_mut(),
             #[cfg(test)]
             Family::Other(other) => other,
         }
     }
 
-    pub(super) fn tensor(&self) -> Result<&TensorSurface, ArgumentError> {
+    /// The surface for calls that tell the families apart themselves.
+    pub(super) fn family(&self) -> Result<&AnySurface, ArgumentError> {
         match &self.0 {
-            Family::Tensor(tensor) => Ok(tensor),
+            Family::Any(surface) => Ok(surface),
             #[cfg(test)]
             Family::Other(_) => Err(self.wrong_kind(Kind::Tensor)),
         }
     }
 
-    #[cfg_attr(not(test), expect(dead_code, reason = "tensors are the only family so far"))]
+    pub(super) fn tensor(&self) -> Result<&TensorSurface, ArgumentError> {
+        match &self.0 {
+            Family::Any(AnySurface::Tensor(tensor)) => Ok(tensor),
+            _ => Err(self.wrong_kind(Kind::Tensor)),
+        }
+    }
+
+    pub(super) fn tensor_mut(&mut self) -> Result<&mut TensorSurface, ArgumentError> {
+        self.tensor()?;
+        match &mut self.0 {
+            Family::Any(AnySurface::Tensor(tensor)) => Ok(tensor),
+            _ => unreachable!("refused above"),
+        }
+    }
+
+    pub(super) fn tspline(&self) -> Result<&TSplineSurface, ArgumentError> {
+        match &self.0 {
+            Family::Any(AnySurface::TSpline(tspline)) => Ok(tspline),
+            _ => Err(self.wrong_kind(Kind::TSpline)),
+        }
+    }
+
+    pub(super) fn tspline_mut(&mut self) -> Result<&mut TSplineSurface, ArgumentError> {
+        self.tspline()?;
+        match &mut self.0 {
+            Family::Any(AnySurface::TSpline(tspline)) => Ok(tspline),
+            _ => unreachable!("refused above"),
+        }
+    }
+
     fn wrong_kind(&self, needed: Kind) -> ArgumentError {
         ArgumentError::WrongKind { found: self.any().kind(), needed }
     }
@@ -549,7 +585,7 @@ pub unsafe extern "C" fn planish_surface_clone(
     guard(|| unsafe {
         let surface = deref(surface, "surface")?;
         let out_surface = out(out_surface, "out_surface")?;
-        out_surface.write(planish_surface::into_raw(surface.0.clone()));
+        out_surface.write(Box::into_raw(Box::new(planish_surface(surface.0.clone()))));
         Ok(())
     })
 }

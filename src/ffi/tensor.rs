@@ -1,14 +1,14 @@
 //! Tensor product B-spline surfaces: fits, parts in and out.
 
 use super::arguments::{
-    ArgumentError, Record, array_len, choice, copy, copy_rows, deref, flag, init_options, options, out,
-    rows_mut, slice,
+    ArgumentError, Record, array_len, choice, copy, copy_rows, deref, deref_mut, flag, init_options, options,
+    out, rows_mut, slice,
 };
 use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;
 use super::progress::with_control;
 use super::report::{FitOutputs, planish_fit_report};
-use super::surface::{Family, planish_surface, query_surface};
+use super::surface::{planish_surface, query_surface};
 use super::{planish_parameterize_options, planish_progress, planish_status};
 use crate::Control;
 use crate::fit::report::{Tolerance, ToleranceScale};
@@ -407,7 +407,7 @@ pub unsafe extern "C" fn planish_tensor_new(
         let control_points = copy(control_points, len, "control_points")?;
         let weights = if weights.is_null() { None } else { Some(copy(weights, count, "weights")?) };
         let tensor = TensorSurface::new(dim, knots_u, knots_v, control_points, weights)?;
-        out_surface.write(planish_surface::into_raw(Family::Tensor(tensor)));
+        out_surface.write(planish_surface::into_raw(tensor));
         Ok(())
     })
 }
@@ -530,6 +530,103 @@ pub unsafe extern "C" fn planish_tensor_copy_weights(
             Some(weights) => out_weights.copy_from_slice(weights),
             None => out_weights.fill(1.0),
         }
+        Ok(())
+    })
+}
+
+/// Inserts knots into a tensor surface, which stays the same surface.
+///
+/// surface: not NULL; changed.
+/// axis:    a planish_axis.
+/// knots:   count parameters in the domain, in any order. Inside the domain no knot may occur more than degree
+///          times afterwards; at its ends degree + 1 times, which clamps.
+/// count:   may be 0.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND,
+/// PLANISH_STATUS_INVALID_ARGUMENT (the axis, or a knot would occur too often), PLANISH_STATUS_NOT_FINITE (the
+/// index is that of knots) or PLANISH_STATUS_OUTSIDE.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_tensor_insert_knots(
+    surface: *mut planish_surface,
+    axis: u32,
+    knots: *const f64,
+    count: usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let tensor = deref_mut(surface, "surface")?.tensor_mut()?;
+        *tensor = tensor.insert_knots(self::axis(axis)?, slice(knots, count, "knots")?)?;
+        Ok(())
+    })
+}
+
+/// Raises the degree of a tensor surface along one axis, which stays the same surface.
+///
+/// surface: not NULL; changed.
+/// axis:    a planish_axis.
+/// degree:  from the present degree to 9.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
+/// PLANISH_STATUS_INVALID_ARGUMENT (the axis, the degree).
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_tensor_elevate_degree(
+    surface: *mut planish_surface,
+    axis: u32,
+    degree: u32,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let tensor = deref_mut(surface, "surface")?.tensor_mut()?;
+        *tensor = tensor.elevate_degree(self::axis(axis)?, degree as usize)?;
+        Ok(())
+    })
+}
+
+/// Turns a tensor surface round along one axis: the same points over the same domain in the other direction, trims
+/// included. Normals turn round.
+///
+/// surface: not NULL; changed.
+/// axis:    a planish_axis.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND,
+/// PLANISH_STATUS_INVALID_ARGUMENT (the axis) or PLANISH_STATUS_DEGENERATE (the domain is so short that it has no
+/// length after rounding).
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_tensor_reverse(surface: *mut planish_surface, axis: u32) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let tensor = deref_mut(surface, "surface")?.tensor_mut()?;
+        *tensor = tensor.reverse(self::axis(axis)?)?;
+        Ok(())
+    })
+}
+
+/// Makes the two parts of a tensor surface below and above a parameter. Each keeps its side of the trims: a loop
+/// that crosses the cut is closed along it, and a part beyond all loops gets one loop without area.
+///
+/// surface:   not NULL.
+/// axis:      a planish_axis: the parameter that is cut.
+/// at:        inside the domain, not at its ends.
+/// out_lower: receives a new surface; destroy with planish_surface_free().
+/// out_upper: receives a new surface; destroy with planish_surface_free().
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND,
+/// PLANISH_STATUS_INVALID_ARGUMENT (the axis) or PLANISH_STATUS_OUTSIDE (at, also if it is NaN).
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_tensor_split(
+    surface: *const planish_surface,
+    axis: u32,
+    at: f64,
+    out_lower: *mut *mut planish_surface,
+    out_upper: *mut *mut planish_surface,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let tensor = deref(surface, "surface")?.tensor()?;
+        let (out_lower, out_upper) = (out(out_lower, "out_lower")?, out(out_upper, "out_upper")?);
+        let [lower, upper] = tensor.split(self::axis(axis)?, at)?;
+        out_lower.write(planish_surface::into_raw(lower));
+        out_upper.write(planish_surface::into_raw(upper));
         Ok(())
     })
 }

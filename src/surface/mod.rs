@@ -4,7 +4,9 @@
 //! threads with rules for parameters outside; [`Region`] holds what a surface knows of the data it was
 //! made from: their box in (u,v), and their boundary loops, the trims.
 
+mod any;
 mod cubic;
+mod cut;
 mod differential;
 pub mod evaluate;
 mod region;
@@ -12,11 +14,12 @@ pub mod tensor;
 pub mod tspline;
 
 pub use crate::geometry::Domain;
+pub use any::{AnySurface, ConvertError};
 pub use differential::{Curvatures, curvatures, normal};
 pub use region::{Region, TrimError, Trims};
 
 use crate::bezier::BezierPatch;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 /// The family of a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,10 +75,26 @@ pub trait Surface: Send + Sync {
         None
     }
 
+    /// The control points of a surface in space with the lines that join them; None for other dimensions.
+    fn control_net(&self) -> Option<ControlNet> {
+        None
+    }
+
     /// Values at all pairs of `u` and `v`, `v` running fastest.
     fn eval_grid(&self, u: &[f64], v: &[f64], out: &mut [f64]) {
         eval_grid_by_rows(self, u, v, out);
     }
+}
+
+/// The control points of a surface in space, joined as neighbours.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ControlNet {
+    /// The control points, not multiplied by weights.
+    pub points: Vec<DVec3>,
+    /// Their weights; None for a polynomial surface.
+    pub weights: Option<Vec<f64>>,
+    /// Polylines of control points.
+    pub lines: Vec<Vec<u32>>,
 }
 
 /// The common view of tensor surfaces, T-splines and PHT-splines: Bezier patches over rectangles that cover

@@ -1,5 +1,6 @@
 //! What a surface knows of its data in the parameter plane: a box and boundary loops.
 
+use super::cut::{HalfPlane, cut};
 use crate::geometry::Domain;
 use glam::DVec2;
 use std::sync::OnceLock;
@@ -160,6 +161,34 @@ pub struct Region {
     pub data_box: Option<Domain>,
     /// The boundary loops of the data.
     pub trims: Trims,
+}
+
+impl Region {
+    /// What is left of it over `part` of a surface's domain.
+    pub(super) fn restrict(&self, domain: &Domain, part: &Domain) -> Self {
+        let mut loops = self.trims.loops.clone();
+        let sides = [
+            (DVec2::X, part.min.x, domain.min.x < part.min.x),
+            (DVec2::NEG_X, -part.max.x, part.max.x < domain.max.x),
+            (DVec2::Y, part.min.y, domain.min.y < part.min.y),
+            (DVec2::NEG_Y, -part.max.y, part.max.y < domain.max.y),
+        ];
+        for (normal, offset, _) in sides.into_iter().filter(|&(_, _, is_inside)| is_inside) {
+            loops = cut(&loops, HalfPlane { normal, offset });
+        }
+        let data_box =
+            self.data_box.map(|data| Domain { min: part.clamp(data.min), max: part.clamp(data.max) });
+        Self { data_box, trims: Trims { loops, bands: OnceLock::new() } }
+    }
+
+    /// With other parameters for the same places.
+    pub(super) fn map(&self, change: impl Fn(DVec2) -> DVec2) -> Self {
+        let data_box =
+            self.data_box.map(|data| Domain::around([change(data.min), change(data.max)].into_iter()));
+        let mapped = |polyline: &Vec<DVec2>| polyline.iter().map(|&uv| change(uv)).collect();
+        let loops = self.trims.loops.iter().map(mapped).collect();
+        Self { data_box, trims: Trims { loops, bands: OnceLock::new() } }
+    }
 }
 
 #[cfg(test)]

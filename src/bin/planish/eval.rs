@@ -4,8 +4,8 @@ use crate::{Failure, Outcome};
 use clap::Args;
 use planish::Control;
 use planish::export::native;
+use planish::surface::Domain;
 use planish::surface::evaluate::{Output, OutsideRule, Points, Quantity, evaluate};
-use planish::surface::{Domain, Surface};
 use std::io::{Read, Write};
 use std::path::PathBuf;
 
@@ -29,6 +29,7 @@ pub struct EvalArguments {
 
 pub fn run(arguments: &EvalArguments) -> Result<Outcome, Failure> {
     let surface = native::load_file(&arguments.surface)?;
+    let surface = surface.as_surface();
     let uv = match (&arguments.uv, &arguments.grid) {
         (Some(path), _) => read_pairs(path)?,
         (None, Some(grid)) => grid_pairs(grid, &surface.domain())?,
@@ -42,7 +43,7 @@ pub fn run(arguments: &EvalArguments) -> Result<Outcome, Failure> {
     let control = Control::default();
     let points = Points::new(&uv, 2, count);
     let output = Output { rows: &mut values, stride: width, flags: &mut [] };
-    evaluate(&surface, quantity, points, rule, output, control.pool())?;
+    evaluate(surface, quantity, points, rule, output, control.pool())?;
     let mut out = std::io::BufWriter::new(std::io::stdout().lock());
     for (uv, row) in uv.chunks_exact(2).zip(values.chunks_exact(width)) {
         let numbers: Vec<String> = uv.iter().chain(row).map(f64::to_string).collect();

@@ -5,8 +5,9 @@ use crate::{Failure, Outcome};
 use clap::Args;
 use planish::export::native;
 use planish::mesh::{MeshOptions, read};
-use planish::surface::Surface;
+use planish::surface::AnySurface;
 use planish::surface::tensor::{Axis, TensorSurface};
+use planish::surface::tspline::TSplineSurface;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
@@ -68,20 +69,36 @@ fn mesh_table(arguments: &InfoArguments) -> Result<Table, Failure> {
     Ok(table)
 }
 
-fn surface_table(path: &Path, surface: &TensorSurface) -> Table {
+fn surface_table(path: &Path, surface: &AnySurface) -> Table {
     let mut table = Table::default();
-    let (knots_u, knots_v) = (surface.knots(Axis::U), surface.knots(Axis::V));
-    let domain = surface.domain();
     table.row("surface", path.display().to_string());
-    table.row("kind", "tensor".to_owned());
+    match surface {
+        AnySurface::Tensor(tensor) => tensor_rows(tensor, &mut table),
+        AnySurface::TSpline(tspline) => tspline_rows(tspline, &mut table),
+    }
+    let surface = surface.as_surface();
+    let domain = surface.domain();
     table.row("dimension", surface.dim().to_string());
-    table.row("degrees", format!("{} x {}", knots_u.degree(), knots_v.degree()));
-    table.row("control points", format!("{} x {}", knots_u.basis_count(), knots_v.basis_count()));
-    table.row("weights", if surface.weights().is_some() { "yes" } else { "no" }.to_owned());
     table.row(
         "domain",
         format!("u {} to {}, v {} to {}", domain.min.x, domain.max.x, domain.min.y, domain.max.y),
     );
     table.row("trims", surface.region().trims.loops().len().to_string());
     table
+}
+
+fn tensor_rows(surface: &TensorSurface, table: &mut Table) {
+    let (knots_u, knots_v) = (surface.knots(Axis::U), surface.knots(Axis::V));
+    table.row("kind", "tensor".to_owned());
+    table.row("degrees", format!("{} x {}", knots_u.degree(), knots_v.degree()));
+    table.row("control points", format!("{} x {}", knots_u.basis_count(), knots_v.basis_count()));
+    table.row("weights", if surface.weights().is_some() { "yes" } else { "no" }.to_owned());
+}
+
+fn tspline_rows(surface: &TSplineSurface, table: &mut Table) {
+    let counts = surface.curves().iter().map(|curve| curve.knots().basis_count());
+    let (least, most) = (counts.clone().min().unwrap_or(0), counts.max().unwrap_or(0));
+    table.row("kind", "T-spline".to_owned());
+    table.row("control curves", format!("{}, of {least} to {most} control points", surface.curves().len()));
+    table.row("control points", surface.coefficient_count().to_string());
 }

@@ -9,10 +9,10 @@
 //!
 //! Equal input gives equal bytes.
 
-mod clamp;
 mod edges;
 mod image;
 mod loops;
+mod net;
 mod part21;
 mod write;
 
@@ -21,10 +21,10 @@ use crate::curve::CurveError;
 use crate::geometry::{Bounds, Domain};
 use crate::knots::KnotError;
 use crate::surface::Surface;
-use crate::surface::tensor::{Axis, TensorSurface};
-use clamp::Net;
+use crate::surface::tensor::{Axis, TensorError, TensorSurface};
 use edges::Boundary;
 use glam::DVec2;
+use net::Net;
 use std::path::Path;
 
 /// The application protocol of a file.
@@ -147,6 +147,9 @@ pub enum StepError {
     /// The knots of a curve on the surface are none: parameters too close for double precision.
     #[error("a curve on the surface has no knots: {0}")]
     Knots(#[from] KnotError),
+    /// The part of the surface over its domain is none: numbers overflow.
+    #[error("the surface cannot be cut off at its domain: {0}")]
+    Tensor(#[from] TensorError),
     /// A curve on the surface is none: numbers overflow.
     #[error("a curve on the surface cannot be computed: {0}")]
     Curve(#[from] CurveError),

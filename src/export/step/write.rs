@@ -1,7 +1,7 @@
 //! The entities of a file: header, product, units, surface, edges, face.
 
-use super::clamp::Net;
 use super::edges::{Boundary, Edge};
+use super::net::Net;
 use super::part21::{Id, Part21, Real, Text, list};
 use super::{Schema, StepOptions, StepReport, Unit};
 use crate::curve::Curve;

@@ -2,6 +2,7 @@
 
 mod curves;
 mod fits;
+mod forms;
 mod meshes;
 mod queries;
 mod records;
@@ -136,7 +137,7 @@ impl Drop for SurfaceHandle {
 
 impl SurfaceHandle {
     fn other_family() -> Self {
-        Self(planish_surface::into_raw(surface::Family::Other(OtherFamily::default())))
+        Self(planish_surface::other_into_raw(OtherFamily::default()))
     }
 
     /// z = x y over the unit square, degree 1.

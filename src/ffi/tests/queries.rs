@@ -106,7 +106,7 @@ fn projections_refuse_by_name_and_index() {
         let options = &raw const options;
         let status = planish_surface_project(scene.surface, points.as_ptr(), 1, options, to_uv, to_distances);
         refused(status, planish_status::InvalidArgument, -1, &["-2"]);
-        let other = planish_surface::into_raw(super::super::surface::Family::Other(OtherFamily::default()));
+        let other = planish_surface::other_into_raw(OtherFamily::default());
         let status = planish_surface_project(other, points.as_ptr(), 1, null(), to_uv, to_distances);
         refused(status, planish_status::WrongKind, -1, &["Pht"]);
         planish_surface_free(other);
@@ -169,15 +169,15 @@ fn surfaces_come_back_from_buffers_and_files() {
     unsafe {
         let size = planish_surface_save_size(scene.surface);
         let mut bytes = vec![0_u8; size];
-        ok(planish_surface_save(scene.surface, bytes.as_mut_ptr(), size));
+        ok(planish_surface_save(scene.surface, bytes.as_mut_ptr().cast(), size));
         ok(planish_surface_save_file(scene.surface, path.as_ptr()));
         assert_eq!(std::fs::read(path.to_str().unwrap()).unwrap(), bytes);
         let (mut one, mut other) = (null_mut(), null_mut());
-        ok(planish_surface_load(bytes.as_ptr(), size, &raw mut one));
+        ok(planish_surface_load(bytes.as_ptr().cast(), size, &raw mut one));
         ok(planish_surface_load_file(path.as_ptr(), &raw mut other));
         for loaded in [one, other] {
             let mut again = vec![0_u8; size];
-            ok(planish_surface_save(loaded, again.as_mut_ptr(), size));
+            ok(planish_surface_save(loaded, again.as_mut_ptr().cast(), size));
             assert_eq!(again, bytes);
             planish_surface_free(loaded);
         }
@@ -193,20 +193,20 @@ fn damaged_or_missing_bytes_are_refused() {
     unsafe {
         let size = planish_surface_save_size(scene.surface);
         let mut bytes: Vec<u8> = vec![CANARY; size];
-        let status = planish_surface_save(scene.surface, bytes.as_mut_ptr(), size - 1);
+        let status = planish_surface_save(scene.surface, bytes.as_mut_ptr().cast(), size - 1);
         refused(status, planish_status::BufferTooSmall, -1, &["buffer", &size.to_string()]);
         assert!(bytes.iter().all(|&byte| byte == CANARY));
         null_refused(planish_surface_save(scene.surface, null_mut(), size), "buffer");
-        null_refused(planish_surface_save(null(), bytes.as_mut_ptr(), size), "surface");
-        ok(planish_surface_save(scene.surface, bytes.as_mut_ptr(), size));
+        null_refused(planish_surface_save(null(), bytes.as_mut_ptr().cast(), size), "surface");
+        ok(planish_surface_save(scene.surface, bytes.as_mut_ptr().cast(), size));
         bytes[100] ^= 1;
         let at_sum = size as i64 - 8;
-        let status = planish_surface_load(bytes.as_ptr(), size, &raw mut loaded);
+        let status = planish_surface_load(bytes.as_ptr().cast(), size, &raw mut loaded);
         refused(status, planish_status::Format, at_sum, &["checksum"]);
-        let status = planish_surface_load(bytes.as_ptr(), 0, &raw mut loaded);
+        let status = planish_surface_load(bytes.as_ptr().cast(), 0, &raw mut loaded);
         refused(status, planish_status::Format, 0, &["mark"]);
         null_refused(planish_surface_load(null(), 5, &raw mut loaded), "buffer");
-        null_refused(planish_surface_load(bytes.as_ptr(), size, null_mut()), "out_surface");
+        null_refused(planish_surface_load(bytes.as_ptr().cast(), size, null_mut()), "out_surface");
         let missing = file("no_such_file");
         let status = planish_surface_load_file(missing.as_ptr(), &raw mut loaded);
         refused(status, planish_status::File, -1, &["no_such_file"]);
@@ -238,9 +238,9 @@ fn vtk_files_are_written_or_refused() {
         std::fs::remove_file(path.to_str().unwrap()).unwrap();
         null_refused(planish_surface_write_vtk(null(), path.as_ptr(), null()), "surface");
         null_refused(planish_surface_write_vtk(scene.surface, null(), null()), "path");
-        let options = planish_vtk_options { reserved: 1, ..record() };
+        let options = planish_vtk_options { content: 9, ..record() };
         let status = planish_surface_write_vtk(scene.surface, path.as_ptr(), &raw const options);
-        refused(status, planish_status::Version, -1, &["planish_vtk_options"]);
+        refused(status, planish_status::InvalidArgument, -1, &["content"]);
         let nowhere = c("/no/such/folder/part.vtu");
         let status = planish_surface_write_vtk(scene.surface, nowhere.as_ptr(), null());
         refused(status, planish_status::File, -1, &["folder"]);

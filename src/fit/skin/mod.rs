@@ -169,6 +169,7 @@ fn skin_data(
         least_count: counts.clone().min().unwrap_or(0),
         largest_count: counts.clone().max().unwrap_or(0),
         tensor_count: surface.tensor_coefficient_count()?,
+        strip_count: surface.strip_coefficient_count()?,
         common_count,
         removed_knot_count: found.removed_knots,
         merged_point_count: data.merged_points,

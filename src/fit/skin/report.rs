@@ -11,6 +11,8 @@ pub struct SkinReport {
     pub largest_count: usize,
     /// Control points of the same surface as a tensor surface, over the knots of all curves.
     pub tensor_count: usize,
+    /// Control points of the same surface in strips, one for each span of v, over the knots of four curves each.
+    pub strip_count: usize,
     /// Control points of the skin over common knots; 0 unless asked for.
     pub common_count: usize,
     /// Knots that the removal pass took out.

@@ -16,9 +16,9 @@ use rayon::prelude::*;
 pub struct InteriorErrors {
     /// The largest error.
     pub max: f64,
-    /// The largest height of the shape above a facet.
+    /// The largest height of the shape above a facet; 0 for a field, which has no facets in space.
     pub sagitta: f64,
-    /// The largest error beyond the sagitta of its own facet.
+    /// The largest error beyond what its own facet explains.
     pub max_excess: f64,
 }
 
@@ -29,18 +29,19 @@ impl Problem<'_> {
             return InteriorErrors::default();
         };
         let (uv, values) = interior_samples(mesh, &self.uv, self.values, self.dim);
-        // a field has no facets in space: what lies between its nodes is unknown altogether
-        let (errors, sagittas) = if self.is_shape {
+        let (errors, allowances) = if self.is_shape {
             (heights_over(surface, &uv, &values, pool), triangle_sagittas(mesh))
         } else {
-            (data_errors(surface, &uv, &values, pool).each, vec![0.0; uv.len() / 4])
+            (data_errors(surface, &uv, &values, pool).each, triangle_spreads(mesh, self.values, self.dim))
         };
         let mut result = InteriorErrors::default();
-        for (errors, &sagitta) in errors.chunks_exact(4).zip(&sagittas) {
+        for (errors, &allowance) in errors.chunks_exact(4).zip(&allowances) {
             let max = errors.iter().copied().fold(0.0, f64::max);
             result.max = result.max.max(max);
-            result.sagitta = result.sagitta.max(sagitta);
-            result.max_excess = result.max_excess.max(max - sagitta);
+            result.max_excess = result.max_excess.max(max - allowance);
+        }
+        if self.is_shape {
+            result.sagitta = allowances.into_iter().fold(0.0, f64::max);
         }
         result
     }
@@ -126,6 +127,23 @@ fn triangle_sagittas(mesh: &Mesh) -> Vec<f64> {
     }
     let highest = |nodes: &[u32; 3]| nodes.iter().map(|&n| heights[n as usize]).fold(0.0, f64::max);
     mesh.triangles().iter().map(|nodes| 4.0 / 3.0 * highest(nodes)).collect()
+}
+
+/// How far the values of a field differ along the edges around each facet. What a field does between its nodes
+/// is unknown, but a surface that leaves the values of a facet by more than they change around it oscillates.
+fn triangle_spreads(mesh: &Mesh, values: &[f64], dim: usize) -> Vec<f64> {
+    let value = |node: usize| &values[node * dim..][..dim];
+    let mut spreads = vec![0.0_f64; mesh.points().len()];
+    for &[a, b, c] in mesh.triangles() {
+        for (a, b) in [(a, b), (b, c), (c, a)] {
+            let (a, b) = (a as usize, b as usize);
+            let spread = value(a).iter().zip(value(b)).map(|(x, y)| (x - y).powi(2)).sum::<f64>().sqrt();
+            spreads[a] = spreads[a].max(spread);
+            spreads[b] = spreads[b].max(spread);
+        }
+    }
+    let largest = |nodes: &[u32; 3]| nodes.iter().map(|&n| spreads[n as usize]).fold(0.0, f64::max);
+    mesh.triangles().iter().map(largest).collect()
 }
 
 /// Sums of the area vectors of the triangles at each node.

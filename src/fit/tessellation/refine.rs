@@ -62,7 +62,7 @@ impl Problem<'_> {
         }
     }
 
-    /// Whether data and, above the sagitta, what lies between them are within the tolerance.
+    /// Whether data and, beyond what the facets explain, what lies between them are within the tolerance.
     fn is_met(&self, candidate: &Candidate, control: &Control) -> bool {
         let tolerance = self.tolerance.0;
         candidate.errors.max <= tolerance

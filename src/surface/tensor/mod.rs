@@ -7,12 +7,13 @@
 
 mod bicubic;
 mod evaluate;
+mod refine;
 
-use super::{Domain, Kind, Patches, Region, Surface, eval_grid_by_rows};
+use super::{ControlNet, Domain, Kind, Patches, Region, Surface, eval_grid_by_rows};
 use crate::bezier::{BezierPatch, apply, extraction};
 use crate::knots::KnotVector;
 use bicubic::BicubicTable;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use std::sync::OnceLock;
 
 /// A parameter direction.
@@ -236,6 +237,20 @@ impl Surface for TensorSurface {
 
     fn patches(&self) -> Option<&dyn Patches> {
         Some(self)
+    }
+
+    fn control_net(&self) -> Option<ControlNet> {
+        if self.dim != 3 {
+            return None;
+        }
+        let (count_u, count_v) = (self.knots_u.basis_count() as u32, self.knots_v.basis_count() as u32);
+        let along_u = (0..count_v).map(|j| (0..count_u).map(|i| i * count_v + j).collect());
+        let along_v = (0..count_u).map(|i| (0..count_v).map(|j| i * count_v + j).collect());
+        Some(ControlNet {
+            points: self.control_points.chunks_exact(3).map(DVec3::from_slice).collect(),
+            weights: self.weights().map(<[f64]>::to_vec),
+            lines: along_u.chain(along_v).collect(),
+        })
     }
 }
 

@@ -17,12 +17,12 @@ mod tests;
 
 pub use refine::Removal;
 
-use super::{Domain, Kind, Patches, Region, Surface};
+use super::{ControlNet, Domain, Kind, Patches, Region, Surface};
 use crate::curve::Curve;
 use crate::knots::{KnotError, KnotVector};
 use cells::Cells;
 use fast::FastTable;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use std::sync::OnceLock;
 
 /// The degree in both directions.
@@ -68,14 +68,6 @@ pub enum TSplineError {
         /// The curve.
         index: usize,
     },
-    /// The common knots of all curves make too many control points.
-    #[error("the tensor surface would have {count} control points, the limit is {limit}")]
-    TooLarge {
-        /// Control points over the common knots.
-        count: usize,
-        /// The limit given.
-        limit: usize,
-    },
 }
 
 impl TSplineError {
@@ -85,7 +77,6 @@ impl TSplineError {
             Self::NoSuchCurve { .. } => crate::ErrorKind::Index,
             Self::NotFinite { .. } => crate::ErrorKind::NotFinite,
             Self::Knots(error) => error.kind(),
-            Self::TooLarge { .. } => crate::ErrorKind::TooLarge,
             _ => crate::ErrorKind::InvalidArgument,
         }
     }
@@ -199,5 +190,19 @@ impl Surface for TSplineSurface {
 
     fn patches(&self) -> Option<&dyn Patches> {
         Some(self)
+    }
+
+    /// The control points of each control curve are a line; those of neighbours are not opposite to one another.
+    fn control_net(&self) -> Option<ControlNet> {
+        if self.dim() != 3 {
+            return None;
+        }
+        let mut net = ControlNet { points: Vec::new(), weights: None, lines: Vec::new() };
+        for curve in &self.curves {
+            let start = net.points.len();
+            net.points.extend(curve.control_points().chunks_exact(3).map(DVec3::from_slice));
+            net.lines.push((start as u32..net.points.len() as u32).collect());
+        }
+        Some(net)
     }
 }

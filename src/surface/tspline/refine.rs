@@ -12,8 +12,8 @@ use super::{DEGREE, TSplineError, TSplineSurface};
 use crate::bezier::extraction;
 use crate::curve::{Curve, common_knots, on_common_knots};
 use crate::knots::{KnotError, KnotVector};
-use crate::surface::Surface;
 use crate::surface::tensor::{TensorError, TensorSurface};
+use crate::surface::{ConvertError, Surface};
 use std::sync::OnceLock;
 
 /// What became of a knot that was to be removed.
@@ -95,16 +95,26 @@ impl TSplineSurface {
 
     /// The same surface as a tensor surface over the knots of all curves; refused if that takes more than
     /// `max_coefficients` control points.
-    pub fn to_tensor(&self, max_coefficients: usize) -> Result<TensorSurface, TSplineError> {
-        let count = self.tensor_coefficient_count()?;
-        if count > max_coefficients {
-            return Err(TSplineError::TooLarge { count, limit: max_coefficients });
+    pub fn to_tensor(&self, max_coefficients: usize) -> Result<TensorSurface, ConvertError> {
+        let needed = self.tensor_coefficient_count()?;
+        if needed > max_coefficients {
+            return Err(ConvertError::TooLarge { needed, limit: max_coefficients });
         }
-        let curves = on_common_knots(&self.curves.iter().collect::<Vec<_>>())?;
+        let joined = on_common_knots(&self.curves.iter().collect::<Vec<_>>());
+        let curves = joined.map_err(TSplineError::from)?;
         let lines: Vec<&[f64]> = curves.iter().map(Curve::control_points).collect();
         let mut tensor = tensor_of(curves[0].knots().clone(), self.knots_v.clone(), &lines, self.dim())?;
         *tensor.region_mut() = self.region.clone();
         Ok(tensor)
+    }
+
+    /// Control points of [`TSplineSurface::to_strips`].
+    pub fn strip_coefficient_count(&self) -> Result<usize, TSplineError> {
+        let count = |span| {
+            let curves: Vec<&Curve> = self.active(span).iter().collect();
+            Ok(common_knots(&curves)?.basis_count() * (DEGREE + 1))
+        };
+        self.knots_v.spans().map(count).sum()
     }
 
     /// The same surface as tensor surfaces over the single spans of v, each over the knots of its four curves only.

@@ -1,6 +1,6 @@
 use super::*;
 use crate::samples::Random;
-use crate::surface::derivative_rows;
+use crate::surface::{ConvertError, derivative_rows};
 
 /// Curves with a few common knots and many of their own; knots along v uneven, one of them twice.
 fn surface(dim: usize, seed: u64) -> TSplineSurface {
@@ -219,7 +219,7 @@ fn refusals_name_the_curve_or_the_knot() {
     ));
     let needed = surface.tensor_coefficient_count().unwrap();
     let refused = surface.to_tensor(needed - 1).unwrap_err();
-    assert_eq!(refused, TSplineError::TooLarge { count: needed, limit: needed - 1 });
+    assert_eq!(refused, ConvertError::TooLarge { needed, limit: needed - 1 });
     assert_eq!(changed, surface);
 
     let new = |curves: Vec<Curve>| TSplineSurface::new(surface.knots_v().clone(), curves).unwrap_err();

@@ -6,18 +6,20 @@ use std::path::Path;
 use std::process::ExitCode;
 
 /// The files of `src/ffi` in the order of the header.
-const SOURCES: [&str; 11] = [
+const SOURCES: [&str; 13] = [
     "status.rs",
     "progress.rs",
     "mesh.rs",
     "parameterize.rs",
     "report.rs",
     "surface.rs",
+    "patch.rs",
     "tensor.rs",
     "query.rs",
     "export.rs",
     "step.rs",
     "curve.rs",
+    "tspline.rs",
 ];
 
 fn main() -> ExitCode {

@@ -2,15 +2,20 @@
 //!
 //! "The VTK User's Guide", chapter "VTK File Formats". Readable by VTK 9, ParaView and meshio.
 
+mod bezier;
+mod grid;
+
+pub use bezier::write_patches;
+
 use super::error::{ExportError, write_file};
 use crate::control::Pool;
 use crate::error::Error;
 use crate::mesh::{Mesh, MeshError};
 use crate::query::deviation::{DeviationOptions, deviation};
 use crate::query::tessellate::{TessellateOptions, tessellate};
-use crate::surface::Surface;
+use crate::surface::{ControlNet, Surface};
 use glam::{DVec2, DVec3};
-use std::fmt::Write;
+use grid::Grid;
 use std::path::Path;
 
 /// Numbers at each node of a mesh.
@@ -38,18 +43,14 @@ pub fn write_mesh(mesh: &Mesh, data: &[PointData], path: &Path) -> Result<(), Ex
     let points: Vec<f64> = mesh.points().iter().flat_map(|p| p.to_array()).collect();
     let triangles = mesh.triangles();
     let mut grid = Grid::new(count, triangles.len());
-    grid.section("PointData", |grid| {
+    grid.section("PointData", "", |grid| {
         if !uv.is_empty() {
             grid.doubles("uv", 2, &uv);
         }
         data.iter().for_each(|data| grid.doubles(data.name, data.dim, data.values));
     });
-    grid.section("Points", |grid| grid.doubles("points", 3, &points));
-    grid.section("Cells", |grid| {
-        grid.integers("connectivity", triangles.iter().flatten().map(|&node| i64::from(node)));
-        grid.integers("offsets", (1..=triangles.len() as i64).map(|k| 3 * k));
-        grid.types(triangles.iter().map(|_| Grid::TRIANGLE));
-    });
+    grid.section("Points", "", |grid| grid.doubles("points", 3, &points));
+    grid.cells(grid::TRIANGLE, triangles.iter().map(|nodes| nodes.map(i64::from)));
     write_file(path, &grid.finish())
 }
 
@@ -90,68 +91,16 @@ pub fn on_surface(surface: &dyn Surface, mesh: &Mesh, uv: &[DVec2]) -> Result<Me
     Ok(moved)
 }
 
-/// A file in the making: the XML part, and the bytes that it points into.
-struct Grid {
-    xml: String,
-    appended: Vec<u8>,
-}
-
-impl Grid {
-    /// VTK_TRIANGLE
-    const TRIANGLE: u8 = 5;
-
-    fn new(point_count: usize, cell_count: usize) -> Self {
-        let xml = format!(
-            "<?xml version=\"1.0\"?>\n\
-             <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" \
-             header_type=\"UInt64\">\n<UnstructuredGrid>\n\
-             <Piece NumberOfPoints=\"{point_count}\" NumberOfCells=\"{cell_count}\">\n"
-        );
-        Self { xml, appended: Vec::new() }
-    }
-
-    fn section(&mut self, name: &str, fill: impl FnOnce(&mut Self)) {
-        // writing into a string cannot fail
-        let _ = writeln!(self.xml, "<{name}>");
-        fill(self);
-        let _ = writeln!(self.xml, "</{name}>");
-    }
-
-    fn doubles(&mut self, name: &str, dim: usize, values: &[f64]) {
-        self.array(name, "Float64", dim, values.iter().flat_map(|x| x.to_le_bytes()));
-    }
-
-    fn integers(&mut self, name: &str, values: impl Iterator<Item = i64>) {
-        self.array(name, "Int64", 1, values.flat_map(i64::to_le_bytes));
-    }
-
-    fn types(&mut self, values: impl Iterator<Item = u8>) {
-        self.array("types", "UInt8", 1, values);
-    }
-
-    fn array(&mut self, name: &str, kind: &str, dim: usize, bytes: impl Iterator<Item = u8>) {
-        let offset = self.appended.len();
-        let _ = writeln!(
-            self.xml,
-            "<DataArray type=\"{kind}\" Name=\"{}\" NumberOfComponents=\"{dim}\" format=\"appended\" \
-             offset=\"{offset}\"/>",
-            escape(name)
-        );
-        self.appended.extend([0; 8]);
-        self.appended.extend(bytes);
-        let size = (self.appended.len() - offset - 8) as u64;
-        self.appended[offset..offset + 8].copy_from_slice(&size.to_le_bytes());
-    }
-
-    fn finish(self) -> Vec<u8> {
-        let mut bytes = self.xml.into_bytes();
-        bytes.extend_from_slice(b"</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
-        bytes.extend(self.appended);
-        bytes.extend_from_slice(b"\n</AppendedData>\n</VTKFile>\n");
-        bytes
-    }
-}
-
-fn escape(name: &str) -> String {
-    name.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+/// Writes the control points of a surface in space, joined by the lines of its control net.
+pub fn write_control_net(net: &ControlNet, path: &Path) -> Result<(), ExportError> {
+    let mut grid = Grid::new(net.points.len(), net.lines.len());
+    let points: Vec<f64> = net.points.iter().flat_map(|p| p.to_array()).collect();
+    grid.section("PointData", "", |grid| {
+        if let Some(weights) = &net.weights {
+            grid.doubles("weight", 1, weights);
+        }
+    });
+    grid.section("Points", "", |grid| grid.doubles("points", 3, &points));
+    grid.cells(grid::POLY_LINE, net.lines.iter().map(|line| line.iter().map(|&point| i64::from(point))));
+    write_file(path, &grid.finish())
 }

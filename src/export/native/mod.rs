@@ -1,0 +1,141 @@
+//! The library's own format: everything a surface is, to the bit.
+//!
+//! Little-endian, every field eight bytes long but for two of four:
+//! ```text
+//! offset  type          content
+//!  0      8 bytes       "PLANISH" and a zero
+//!  8      u32           version of the format, 1
+//! 12      u32           kind of the surface: 0 tensor, 1 T-spline
+//! 16      u64           size of the whole in bytes
+//! 24                    what the family needs, see its module
+//! end-8   u64           CRC-32 (IEEE 802.3) of all bytes before
+//! ```
+//! Each family has a module of its own here, with its layout, its [`Save`] and `read`.
+
+mod bytes;
+mod tensor;
+mod tspline;
+
+use super::error::{ExportError, write_file};
+use crate::surface::AnySurface;
+use bytes::Reader;
+pub use bytes::Writer;
+use std::path::Path;
+
+/// A buffer or file is not a saved surface.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum LoadError {
+    /// The file cannot be read.
+    #[error("cannot read {path}: {reason}")]
+    File {
+        /// The file.
+        path: String,
+        /// What the system said.
+        reason: String,
+    },
+    /// The bytes are not what they claim to be.
+    #[error("not a saved surface: byte {byte}: {problem}")]
+    Format {
+        /// Where.
+        byte: usize,
+        /// What is wrong.
+        problem: String,
+    },
+    /// A later version of the library made it.
+    #[error("saved in version {version} of the format, this library knows versions up to {VERSION}")]
+    Version {
+        /// The version found.
+        version: u32,
+    },
+}
+
+impl LoadError {
+    /// The class of the error.
+    pub fn kind(&self) -> crate::ErrorKind {
+        match self {
+            Self::File { .. } => crate::ErrorKind::File,
+            Self::Format { .. } => crate::ErrorKind::Format,
+            Self::Version { .. } => crate::ErrorKind::Version,
+        }
+    }
+
+    /// The offending byte.
+    pub fn index(&self) -> Option<usize> {
+        match *self {
+            Self::Format { byte, .. } => Some(byte),
+            _ => None,
+        }
+    }
+}
+
+const MAGIC: [u8; 8] = *b"PLANISH\0";
+const VERSION: u32 = 1;
+/// Bytes before the content, and those of the checksum after it.
+const FRAME_SIZE: usize = 24 + 8;
+
+/// The kinds of surfaces as the file says them.
+const TENSOR: u32 = 0;
+const TSPLINE: u32 = 1;
+
+/// A surface that the format knows.
+pub trait Save {
+    /// The kind of the surface as the file says it.
+    fn file_kind(&self) -> u32;
+
+    /// Bytes that [`Save::write`] adds.
+    fn content_size(&self) -> usize;
+
+    /// Adds what the family needs.
+    fn write(&self, writer: &mut Writer);
+}
+
+impl AnySurface {
+    /// The surface for [`save`].
+    pub fn as_saved(&self) -> &dyn Save {
+        match self {
+            Self::Tensor(surface) => surface,
+            Self::TSpline(surface) => surface,
+        }
+    }
+}
+
+/// The bytes of a surface.
+pub fn save<S: Save + ?Sized>(surface: &S) -> Vec<u8> {
+    let mut writer = Writer::new(surface.file_kind(), save_size(surface));
+    surface.write(&mut writer);
+    writer.finish()
+}
+
+/// How many bytes [`save`] makes.
+pub fn save_size<S: Save + ?Sized>(surface: &S) -> usize {
+    FRAME_SIZE + surface.content_size()
+}
+
+/// The surface that bytes of [`save`] hold.
+pub fn load(bytes: &[u8]) -> Result<AnySurface, LoadError> {
+    let (kind, mut reader) = Reader::open(bytes)?;
+    let surface = match kind {
+        TENSOR => AnySurface::Tensor(tensor::read(&mut reader)?),
+        TSPLINE => AnySurface::TSpline(tspline::read(&mut reader)?),
+        _ => return Err(reader.wrong(format!("the kind {kind} is unknown"))),
+    };
+    reader.end()?;
+    Ok(surface)
+}
+
+/// Saves to a file.
+pub fn save_file<S: Save + ?Sized>(surface: &S, path: &Path) -> Result<(), ExportError> {
+    write_file(path, &save(surface))
+}
+
+/// Loads from a file.
+pub fn load_file(path: &Path) -> Result<AnySurface, LoadError> {
+    let fail = |error: std::io::Error| LoadError::File {
+        path: path.display().to_string(),
+        reason: error.to_string(),
+    };
+    load(&std::fs::read(path).map_err(fail)?)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,98 @@
+//! What is saved comes back, and nothing else is taken for a surface.
+
+use super::*;
+use crate::curve::Curve;
+use crate::knots::KnotVector;
+use crate::surface::tensor::TensorSurface;
+use crate::surface::tspline::TSplineSurface;
+use crate::surface::{Domain, Region, Surface, Trims};
+use glam::DVec2;
+
+fn tensor() -> AnySurface {
+    let knots_u = KnotVector::new(vec![0., 0., 0., 0.5, 1., 1., 1.], 2).unwrap();
+    let knots_v = KnotVector::new(vec![-1., 0., 1., 2.], 1).unwrap();
+    let points = (0..16).map(|k| f64::from(k).sqrt()).collect();
+    let weights = (1..9).map(f64::from).collect();
+    let mut surface = TensorSurface::new(2, knots_u, knots_v, points, Some(weights)).unwrap();
+    let triangle = [(0.1, 0.1), (0.9, 0.1), (0.5, 0.8)].map(|(u, v)| DVec2::new(u, v)).to_vec();
+    let data = Domain { min: DVec2::splat(0.1), max: DVec2::splat(0.9) };
+    let trims = Trims::new(vec![triangle], &surface.domain()).unwrap();
+    *surface.region_mut() = Region { data_box: Some(data), trims };
+    AnySurface::Tensor(surface)
+}
+
+fn tspline() -> AnySurface {
+    let knots_v = KnotVector::new(vec![-1., 0., 1., 2., 2., 3., 4., 4.5, 5.], 3).unwrap();
+    let curves = (0..5).map(|j| {
+        let breaks: Vec<f64> = (0..=j + 1).map(|k| f64::from(k) / f64::from(j + 1)).collect();
+        let knots = KnotVector::clamped(&breaks, 3).unwrap();
+        let points = (0..2 * knots.basis_count()).map(|k| (k as f64 + f64::from(j)).sqrt()).collect();
+        Curve::new(2, knots, points).unwrap()
+    });
+    let mut surface = TSplineSurface::new(knots_v, curves.collect()).unwrap();
+    let triangle = [(0.1, 2.1), (0.9, 2.1), (0.5, 2.8)].map(|(u, v)| DVec2::new(u, v)).to_vec();
+    let trims = Trims::new(vec![triangle], &surface.domain()).unwrap();
+    *surface.region_mut() = Region { data_box: Some(surface.domain()), trims };
+    AnySurface::TSpline(surface)
+}
+
+/// One of each family, with the bytes at which its counts and flags lie.
+fn families() -> Vec<(AnySurface, std::ops::Range<usize>)> {
+    vec![(tensor(), 24..88), (tspline(), 24..56)]
+}
+
+#[test]
+fn a_surface_comes_back_to_the_bit() {
+    for (surface, _) in families() {
+        let bytes = save(surface.as_saved());
+        assert_eq!(bytes.len(), save_size(surface.as_saved()));
+        assert_eq!(load(&bytes).unwrap(), surface);
+        assert_eq!(save(load(&bytes).unwrap().as_saved()), bytes);
+    }
+}
+
+#[test]
+fn every_flipped_bit_and_every_truncation_is_refused() {
+    for (surface, _) in families() {
+        let bytes = save(surface.as_saved());
+        for byte in 0..bytes.len() {
+            for bit in 0..8 {
+                let mut flipped = bytes.clone();
+                flipped[byte] ^= 1 << bit;
+                let error = load(&flipped).unwrap_err();
+                assert!(matches!(error, LoadError::Format { .. }), "byte {byte}: {error}");
+            }
+            assert!(matches!(load(&bytes[..byte]), Err(LoadError::Format { .. })), "{byte} bytes");
+        }
+    }
+}
+
+/// Writes a field and makes the checksum right again.
+fn forge(surface: &AnySurface, at: usize, field: &[u8]) -> Vec<u8> {
+    let mut bytes = save(surface.as_saved());
+    bytes[at..at + field.len()].copy_from_slice(field);
+    let end = bytes.len() - 8;
+    let sum = crc32fast::hash(&bytes[..end]);
+    bytes[end..].copy_from_slice(&u64::from(sum).to_le_bytes());
+    bytes
+}
+
+#[test]
+fn forged_sizes_are_refused_before_memory_is_asked_for() {
+    for (surface, sizes) in families() {
+        for at in sizes.step_by(8) {
+            for value in [u64::MAX, u64::MAX / 8, 1 << 40, 77] {
+                let result = load(&forge(&surface, at, &value.to_le_bytes()));
+                assert!(matches!(result, Err(LoadError::Format { .. })), "{value} at {at}: {result:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn later_versions_and_unknown_kinds_are_named() {
+    let later = load(&forge(&tensor(), 8, &2u32.to_le_bytes()));
+    assert_eq!(later.unwrap_err(), LoadError::Version { version: 2 });
+    let unknown = load(&forge(&tensor(), 12, &77u32.to_le_bytes()));
+    assert!(unknown.unwrap_err().to_string().contains("kind 77"));
+}

@@ -1,0 +1,195 @@
+//! The common view of tensor surfaces, T-splines and PHT-splines: Bezier patches; and conversion.
+
+use super::arguments::{ArgumentError, ReportOut, deref, init_options, options, out, rows_mut};
+use super::guard::guard;
+use super::planish_status;
+use super::surface::{planish_surface, query_surface};
+use crate::bezier::BezierPatch;
+use crate::surface::Patches;
+use glam::DVec2;
+
+/// A Bezier patch: the polynomial or rational piece of a surface over a rectangle of parameters. Set struct_size
+/// to sizeof(planish_patch) before the call; filled as far as that goes, on success only.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct planish_patch {
+    /// sizeof(planish_patch) as the caller sees it.
+    pub struct_size: usize,
+    /// Least u of the rectangle.
+    pub u_min: f64,
+    /// Largest u of the rectangle.
+    pub u_max: f64,
+    /// Least v of the rectangle.
+    pub v_min: f64,
+    /// Largest v of the rectangle.
+    pub v_max: f64,
+    /// Number of ordinates: (degree_u + 1) * (degree_v + 1).
+    pub ordinate_count: usize,
+    /// Numbers of an ordinate: dim, or dim + 1 if the patch is rational.
+    pub ordinate_width: usize,
+    /// Degree along u.
+    pub degree_u: u32,
+    /// Degree along v.
+    pub degree_v: u32,
+    /// 1 if the last number of each ordinate is a weight, and the others are multiplied by it; else 0.
+    pub is_rational: u32,
+    /// 0.
+    pub reserved: u32,
+}
+
+record!(planish_patch, 72, {
+    struct_size: 0, u_min: 8, u_max: 16, v_min: 24, v_max: 32, ordinate_count: 40, ordinate_width: 48,
+    degree_u: 56, degree_v: 60, is_rational: 64, reserved: 68,
+});
+
+impl Default for planish_patch {
+    fn default() -> Self {
+        Self {
+            struct_size: size_of::<Self>(),
+            u_min: 0.0,
+            u_max: 0.0,
+            v_min: 0.0,
+            v_max: 0.0,
+            ordinate_count: 0,
+            ordinate_width: 0,
+            degree_u: 0,
+            degree_v: 0,
+            is_rational: 0,
+            reserved: 0,
+        }
+    }
+}
+
+impl From<&BezierPatch> for planish_patch {
+    fn from(patch: &BezierPatch) -> Self {
+        let [degree_u, degree_v] = patch.degree;
+        Self {
+            u_min: patch.domain.min.x,
+            u_max: patch.domain.max.x,
+            v_min: patch.domain.min.y,
+            v_max: patch.domain.max.y,
+            ordinate_count: (degree_u + 1) * (degree_v + 1),
+            ordinate_width: patch.width(),
+            degree_u: degree_u as u32,
+            degree_v: degree_v as u32,
+            is_rational: patch.is_rational.into(),
+            ..Self::default()
+        }
+    }
+}
+
+fn patches(surface: &planish_surface) -> Result<&dyn Patches, ArgumentError> {
+    surface.any().patches().ok_or(ArgumentError::NoPatches { found: surface.any().kind() })
+}
+
+/// Number of Bezier patches of a surface: they cover the domain without overlap and are the surface exactly. 0
+/// for NULL and for a family that is not polynomial on rectangles.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_surface_patch_count(surface: *const planish_surface) -> usize {
+    // SAFETY: the caller's promise.
+    unsafe { query_surface(surface, |surface| Ok(patches(surface)?.patch_count())) }
+}
+
+/// The number of the patch over a parameter pair; beyond the domain the one whose polynomial is continued there.
+/// 0 for NULL and for a family without patches.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_surface_patch_at(surface: *const planish_surface, u: f64, v: f64) -> usize {
+    // SAFETY: the caller's promise.
+    unsafe { query_surface(surface, |surface| Ok(patches(surface)?.patch_at(DVec2::new(u, v)))) }
+}
+
+/// Copies a Bezier patch.
+///
+/// surface:       not NULL.
+/// index:         below planish_surface_patch_count().
+/// out_patch:     receives rectangle, degrees and sizes; NULL for none.
+/// out_ordinates: receives the patch's ordinate_count rows of ordinate_width numbers, v running fastest; NULL for
+///                none: ask for the sizes first.
+/// count:         rows that out_ordinates has room for.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INDEX, PLANISH_STATUS_WRONG_KIND (the
+/// family has no patches), PLANISH_STATUS_INVALID_ARGUMENT (struct_size) or PLANISH_STATUS_BUFFER_TOO_SMALL.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_surface_copy_patch(
+    surface: *const planish_surface,
+    index: usize,
+    out_patch: *mut planish_patch,
+    out_ordinates: *mut f64,
+    count: usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let patches = patches(deref(surface, "surface")?)?;
+        let patch_count = patches.patch_count();
+        if index >= patch_count {
+            return Err(ArgumentError::NoSuch { name: "patch", index, count: patch_count }.into());
+        }
+        let out_patch = ReportOut::new(out_patch)?;
+        let patch = patches.patch(index);
+        let record = planish_patch::from(&patch);
+        if !out_ordinates.is_null() {
+            let (needed, width) = (record.ordinate_count, record.ordinate_width);
+            rows_mut(out_ordinates, count, needed, width, "out_ordinates")?.copy_from_slice(&patch.ordinates);
+        }
+        out_patch.store(record);
+        Ok(())
+    })
+}
+
+/// How a surface is converted. Fill with planish_convert_options_init(), then change what you need.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct planish_convert_options {
+    /// Set by planish_convert_options_init().
+    pub struct_size: usize,
+    /// Most control points of the result; with more the call fails. Default 4000000.
+    pub max_coefficients: usize,
+}
+
+record!(planish_convert_options, 16, { struct_size: 0, max_coefficients: 8 });
+
+impl Default for planish_convert_options {
+    fn default() -> Self {
+        Self { struct_size: size_of::<Self>(), max_coefficients: 4_000_000 }
+    }
+}
+
+/// Fills options with the defaults.
+///
+/// options: not NULL.
+/// size:    sizeof(planish_convert_options).
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_convert_options_init(
+    options: *mut planish_convert_options,
+    size: usize,
+) -> planish_status {
+    // SAFETY: the caller's promise.
+    guard(|| unsafe { init_options(options, size) })
+}
+
+/// Makes a tensor surface that is the same surface exactly, with the same trims. A surface with local refinement
+/// may need far more control points as a tensor surface.
+///
+/// surface:     not NULL.
+/// options:     NULL for the defaults.
+/// out_surface: receives a new surface; destroy with planish_surface_free().
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option),
+/// PLANISH_STATUS_WRONG_KIND (the family is not polynomial on rectangles), PLANISH_STATUS_TOO_LARGE (more than
+/// max_coefficients control points) or PLANISH_STATUS_VERSION.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_surface_to_tensor(
+    surface: *const planish_surface,
+    options: *const planish_convert_options,
+    out_surface: *mut *mut planish_surface,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let surface = deref(surface, "surface")?.family()?;
+        let out_surface = out(out_surface, "out_surface")?;
+        let tensor = surface.to_tensor(self::options(options)?.max_coefficients)?;
+        out_surface.write(planish_surface::into_raw(tensor));
+        Ok(())
+    })
+}

@@ -1,0 +1,83 @@
+//! A surface of any family.
+
+use super::Surface;
+use super::tensor::TensorSurface;
+use super::tspline::{TSplineError, TSplineSurface};
+
+/// A surface cannot be converted.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ConvertError {
+    /// The result would have more control points than allowed.
+    #[error("the surface would have {needed} control points, {limit} are allowed")]
+    TooLarge {
+        /// Control points of the result.
+        needed: usize,
+        /// The limit.
+        limit: usize,
+    },
+    /// The control curves of a T-spline have no common knots.
+    #[error(transparent)]
+    TSpline(#[from] TSplineError),
+}
+
+impl ConvertError {
+    /// The class of the error.
+    pub fn kind(&self) -> crate::ErrorKind {
+        match self {
+            Self::TooLarge { .. } => crate::ErrorKind::TooLarge,
+            Self::TSpline(error) => error.kind(),
+        }
+    }
+}
+
+/// A surface of one of the families, for those who keep surfaces of all: handles and files.
+#[derive(Debug, Clone, PartialEq)]
+pub enum AnySurface {
+    /// Tensor product B-spline.
+    Tensor(TensorSurface),
+    /// T-spline with control curves.
+    TSpline(TSplineSurface),
+}
+
+impl AnySurface {
+    /// What every family can do.
+    pub fn as_surface(&self) -> &dyn Surface {
+        match self {
+            Self::Tensor(surface) => surface,
+            Self::TSpline(surface) => surface,
+        }
+    }
+
+    /// The same surface as a tensor product of at most `max_coefficients` control points.
+    pub fn to_tensor(&self, max_coefficients: usize) -> Result<TensorSurface, ConvertError> {
+        match self {
+            Self::Tensor(surface) => match surface.coefficient_count() {
+                needed if needed > max_coefficients => {
+                    Err(ConvertError::TooLarge { needed, limit: max_coefficients })
+                }
+                _ => Ok(surface.clone()),
+            },
+            Self::TSpline(surface) => surface.to_tensor(max_coefficients),
+        }
+    }
+
+    /// The same, to change what can be changed in every family.
+    pub fn as_surface_mut(&mut self) -> &mut dyn Surface {
+        match self {
+            Self::Tensor(surface) => surface,
+            Self::TSpline(surface) => surface,
+        }
+    }
+}
+
+impl From<TensorSurface> for AnySurface {
+    fn from(surface: TensorSurface) -> Self {
+        Self::Tensor(surface)
+    }
+}
+
+impl From<TSplineSurface> for AnySurface {
+    fn from(surface: TSplineSurface) -> Self {
+        Self::TSpline(surface)
+    }
+}
