@@ -1,8 +1,8 @@
 //! T-splines with control curves: skins of rows, parts in and out, knots in and out.
 
 use super::arguments::{
-    ArgumentError, Record, ReportOut, array_len, choice, copy, deref, deref_mut, flag, init_options, options,
-    out, rows_mut, slice,
+    ArgumentError, ReportOut, array_len, choice, copy, deref, deref_mut, flag, init_options, options, out,
+    rows_mut, slice,
 };
 use super::curve::planish_curve;
 use super::guard::{Failure, guard};

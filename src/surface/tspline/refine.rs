@@ -68,6 +68,9 @@ impl TSplineSurface {
         if !(from < v && v < to) {
             return Err(KnotError::Outside { at: v, from, to }.into());
         }
+        if self.knots_v.multiplicity(v) >= DEGREE {
+            return Err(KnotError::Torn { at: v, degree: DEGREE }.into());
+        }
         let k = t.partition_point(|&t| t <= v) - 1;
         let mut knots = t.to_vec();
         knots.insert(k + 1, v);
