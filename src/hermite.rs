@@ -18,6 +18,12 @@ pub fn shape_functions(s: f64) -> [f64; 4] {
     [1.0 - 3.0 * s2 + 2.0 * s3, 3.0 * s2 - 2.0 * s3, s - 2.0 * s2 + s3, s3 - s2]
 }
 
+/// Their derivatives with respect to `s`.
+pub fn shape_slopes(s: f64) -> [f64; 4] {
+    let s2 = s * s;
+    [6.0 * (s2 - s), 6.0 * (s - s2), 1.0 - 4.0 * s + 3.0 * s2, 3.0 * s2 - 2.0 * s]
+}
+
 /// The slopes of the natural C2 cubic spline through `values` on uniform knots.
 pub fn natural_slopes(values: &[f64]) -> Vec<f64> {
     let last = values.len() - 1;

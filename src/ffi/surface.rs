@@ -15,6 +15,7 @@ use crate::surface::evaluate::{
     Quantity, evaluate,
 };
 use crate::surface::tensor::TensorSurface;
+use crate::surface::tspline::TSplineSurface;
 use crate::surface::{AnySurface, Domain, Kind, MAX_DERIVATIVE, Surface, Trims};
 use glam::DVec2;
 
@@ -33,7 +34,7 @@ const _: () = {
 #[derive(Clone)]
 pub(super) enum Family {
     Any(AnySurface),
-    /// Stands for every other family while tensors are the only one.
+    /// Stands for every family that is not known here.
     #[cfg(test)]
     Other(super::tests::OtherFamily),
 }
@@ -77,8 +78,7 @@ impl planish_surface {
     pub(super) fn tensor(&self) -> Result<&TensorSurface, ArgumentError> {
         match &self.0 {
             Family::Any(AnySurface::Tensor(tensor)) => Ok(tensor),
-            #[cfg(test)]
-            Family::Other(_) => Err(self.wrong_kind(Kind::Tensor)),
+            _ => Err(self.wrong_kind(Kind::Tensor)),
         }
     }
 
@@ -86,12 +86,25 @@ impl planish_surface {
         self.tensor()?;
         match &mut self.0 {
             Family::Any(AnySurface::Tensor(tensor)) => Ok(tensor),
-            #[cfg(test)]
-            Family::Other(_) => unreachable!("refused above"),
+            _ => unreachable!("refused above"),
         }
     }
 
-    #[cfg_attr(not(test), expect(dead_code, reason = "tensors are the only family so far"))]
+    pub(super) fn tspline(&self) -> Result<&TSplineSurface, ArgumentError> {
+        match &self.0 {
+            Family::Any(AnySurface::TSpline(tspline)) => Ok(tspline),
+            _ => Err(self.wrong_kind(Kind::TSpline)),
+        }
+    }
+
+    pub(super) fn tspline_mut(&mut self) -> Result<&mut TSplineSurface, ArgumentError> {
+        self.tspline()?;
+        match &mut self.0 {
+            Family::Any(AnySurface::TSpline(tspline)) => Ok(tspline),
+            _ => unreachable!("refused above"),
+        }
+    }
+
     fn wrong_kind(&self, needed: Kind) -> ArgumentError {
         ArgumentError::WrongKind { found: self.any().kind(), needed }
     }

@@ -2,4 +2,5 @@
 
 pub mod errors;
 pub mod report;
+pub mod skin;
 pub mod tessellation;

@@ -2,6 +2,7 @@
 
 use super::Surface;
 use super::tensor::TensorSurface;
+use super::tspline::{TSplineError, TSplineSurface};
 
 /// A surface cannot be converted.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -14,6 +15,9 @@ pub enum ConvertError {
         /// The limit.
         limit: usize,
     },
+    /// The control curves of a T-spline have no common knots.
+    #[error(transparent)]
+    TSpline(#[from] TSplineError),
 }
 
 impl ConvertError {
@@ -21,6 +25,7 @@ impl ConvertError {
     pub fn kind(&self) -> crate::ErrorKind {
         match self {
             Self::TooLarge { .. } => crate::ErrorKind::TooLarge,
+            Self::TSpline(error) => error.kind(),
         }
     }
 }
@@ -30,6 +35,8 @@ impl ConvertError {
 pub enum AnySurface {
     /// Tensor product B-spline.
     Tensor(TensorSurface),
+    /// T-spline with control curves.
+    TSpline(TSplineSurface),
 }
 
 impl AnySurface {
@@ -37,6 +44,7 @@ impl AnySurface {
     pub fn as_surface(&self) -> &dyn Surface {
         match self {
             Self::Tensor(surface) => surface,
+            Self::TSpline(surface) => surface,
         }
     }
 
@@ -49,6 +57,7 @@ impl AnySurface {
                 }
                 _ => Ok(surface.clone()),
             },
+            Self::TSpline(surface) => surface.to_tensor(max_coefficients),
         }
     }
 
@@ -56,6 +65,7 @@ impl AnySurface {
     pub fn as_surface_mut(&mut self) -> &mut dyn Surface {
         match self {
             Self::Tensor(surface) => surface,
+            Self::TSpline(surface) => surface,
         }
     }
 }
@@ -63,5 +73,11 @@ impl AnySurface {
 impl From<TensorSurface> for AnySurface {
     fn from(surface: TensorSurface) -> Self {
         Self::Tensor(surface)
+    }
+}
+
+impl From<TSplineSurface> for AnySurface {
+    fn from(surface: TSplineSurface) -> Self {
+        Self::TSpline(surface)
     }
 }

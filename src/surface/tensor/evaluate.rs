@@ -2,11 +2,8 @@
 
 use super::{Axis, TensorSurface};
 use crate::basis::basis_derivatives;
-use crate::surface::derivative_rows;
+use crate::surface::{ORDERS, derivative_rows};
 use glam::DVec2;
-
-/// Orders (in u, in v) of the rows S, Su, Sv, Suu, Suv, Svv.
-const ORDERS: [(usize, usize); 6] = [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)];
 
 impl TensorSurface {
     pub(super) fn eval_rows_generic(&self, uv: &[DVec2], max_derivative: usize, out: &mut [f64]) {
