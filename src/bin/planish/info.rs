@@ -5,7 +5,7 @@ use crate::{Failure, Outcome};
 use clap::Args;
 use planish::export::native;
 use planish::mesh::{MeshOptions, read};
-use planish::surface::AnySurface;
+use planish::surface::{AnySurface, Surface};
 use planish::surface::tensor::{Axis, TensorSurface};
 use planish::surface::tspline::TSplineSurface;
 use std::path::{Path, PathBuf};
