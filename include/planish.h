@@ -183,6 +183,22 @@ typedef enum planish_remark {
      */
     PLANISH_REMARK_PLATE_ENERGY_USED = 512,
     /**
+     * Points that lay on the one before them in their row have been merged with it.
+     */
+    PLANISH_REMARK_MERGED_POINTS = 1048576,
+    /**
+     * A row looks reversed or shifted against the one before it: see align in planish_skin_options.
+     */
+    PLANISH_REMARK_TWISTED_ROWS = 2097152,
+    /**
+     * Some rows are much nearer to one another than to the next: control curves overshoot.
+     */
+    PLANISH_REMARK_CLUSTERED_ROWS = 4194304,
+    /**
+     * The end points of rows are too near to those of the next to say how far apart rows are; mean distances do.
+     */
+    PLANISH_REMARK_MEAN_STEPS = 8388608,
+    /**
      * Holes were closed by fans of triangles while the map was computed.
      */
     PLANISH_REMARK_HOLES_FILLED = 65536,
@@ -440,6 +456,60 @@ typedef enum planish_regularize {
      */
     PLANISH_REGULARIZE_ALWAYS = 2,
 } planish_regularize;
+
+/**
+ * Which knots the control curves of a skin get.
+ */
+typedef enum planish_skin_method {
+    /**
+     * Each its own, as few as the tolerance allows.
+     */
+    PLANISH_SKIN_METHOD_CONTROL_CURVES = 0,
+    /**
+     * All the same: the classical skin, for comparison.
+     */
+    PLANISH_SKIN_METHOD_COMMON_KNOTS = 1,
+} planish_skin_method;
+
+/**
+ * What happens at the ends of rows.
+ */
+typedef enum planish_section_ends {
+    /**
+     * Periodic for closed rows, parabolic for open ones.
+     */
+    PLANISH_SECTION_ENDS_AUTO = 0,
+    /**
+     * The slope of the parabola through three points; at the seam of closed rows a kink may remain.
+     */
+    PLANISH_SECTION_ENDS_PARABOLIC = 1,
+    /**
+     * No curvature.
+     */
+    PLANISH_SECTION_ENDS_NATURAL = 2,
+    /**
+     * The slopes in end_slopes.
+     */
+    PLANISH_SECTION_ENDS_SLOPES = 3,
+    /**
+     * Closed rows go on over the seam without a break in two derivatives.
+     */
+    PLANISH_SECTION_ENDS_PERIODIC = 4,
+} planish_section_ends;
+
+/**
+ * How far apart rows are along v.
+ */
+typedef enum planish_v_rule {
+    /**
+     * As their first and last points are; where that gives a step of next to nothing, as PLANISH_V_RULE_MEAN.
+     */
+    PLANISH_V_RULE_ENDPOINTS = 0,
+    /**
+     * As points at equal fractions of their lengths are on average.
+     */
+    PLANISH_V_RULE_MEAN = 1,
+} planish_v_rule;
 
 /**
  * The application protocol of a STEP file.
@@ -1271,6 +1341,182 @@ typedef struct planish_step_options {
      */
     uint32_t unit;
 } planish_step_options;
+
+/**
+ * What a skin did beside what every fit reports. Lengths are in model units.
+ */
+typedef struct planish_skin_report {
+    /**
+     * Set this to sizeof(planish_skin_report) before the call.
+     */
+    size_t struct_size;
+    /**
+     * By how much control curves may be larger than the rows, 1 at least. Equal steps give 3 at most; rows much
+     * nearer to one another than to the next make it large.
+     */
+    double overshoot;
+    /**
+     * A bound of the distance between the surface and the skin through the section curves at any (u,v); NaN unless
+     * certify asked for it, or if a section is no cubic.
+     */
+    double certified_distance;
+    /**
+     * The part of the error that fewer knots along v leave; 0 with a knot for each row.
+     */
+    double v_error;
+    /**
+     * The first row that looks reversed or shifted against the one before it, counted from 0; -1 if there is none.
+     */
+    int64_t twisted_row;
+    /**
+     * Control curves of the surface.
+     */
+    size_t curve_count;
+    /**
+     * Control points of the shortest control curve.
+     */
+    size_t least_count;
+    /**
+     * Control points of the longest control curve.
+     */
+    size_t largest_count;
+    /**
+     * Control points of the same surface as a tensor surface: what planish_surface_to_tensor() makes.
+     */
+    size_t tensor_count;
+    /**
+     * Control points of the same surface in strips: what PLANISH_STEP_FORM_STRIPS writes.
+     */
+    size_t strip_count;
+    /**
+     * Control points of the skin over common knots; 0 unless compare asked for it.
+     */
+    size_t common_count;
+    /**
+     * Knots that the removal pass took out.
+     */
+    size_t removed_knot_count;
+    /**
+     * Points that lay on the one before them.
+     */
+    size_t merged_point_count;
+    /**
+     * Rows that were turned round or given another first point.
+     */
+    size_t aligned_row_count;
+} planish_skin_report;
+
+/**
+ * Options of skins. Fill with planish_skin_options_init(), then change what you need.
+ */
+typedef struct planish_skin_options {
+    /**
+     * Set by planish_skin_options_init().
+     */
+    size_t struct_size;
+    /**
+     * The largest error allowed at the points, positive, measured in tolerance_scale. Default 1e-3.
+     */
+    double tolerance;
+    /**
+     * For each row two vectors of dim numbers, the slopes at its begin and its end, derivatives with respect to
+     * chord length (a unit tangent keeps the pace); NULL (default) unless ends is PLANISH_SECTION_ENDS_SLOPES. Not
+     * used for curves.
+     */
+    const double *end_slopes;
+    /**
+     * For each point of the first row, or each different knot of the first curve, a vector of dim numbers: the
+     * derivative across it with respect to length along v; NULL (default) for no curvature there.
+     */
+    const double *begin_tangents;
+    /**
+     * The same at the last row.
+     */
+    const double *end_tangents;
+    /**
+     * Hears of the progress and may cancel; NULL (default) for nobody.
+     */
+    planish_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *user;
+    /**
+     * Receives the (u,v) at which the error of each point is measured: two numbers for each point, or NULL
+     * (default; for curves it must be). Written on success only.
+     */
+    double *out_parameters;
+    /**
+     * Receives the error of each point in model units, or NULL (default; for curves it must be). Written on success
+     * only.
+     */
+    double *out_errors;
+    /**
+     * Receives what only skins report, or NULL (default). Set its struct_size before. Filled on success only.
+     */
+    struct planish_skin_report *out_report;
+    /**
+     * Numbers of a point, at least 1. Default 3. Not used for curves.
+     */
+    size_t dim;
+    /**
+     * A planish_tolerance_scale. Default PLANISH_TOLERANCE_SCALE_RELATIVE.
+     */
+    uint32_t tolerance_scale;
+    /**
+     * A planish_skin_method. Default PLANISH_SKIN_METHOD_CONTROL_CURVES.
+     */
+    uint32_t method;
+    /**
+     * 1 if rows are closed: their first point is not repeated. Default 0.
+     */
+    uint32_t closed;
+    /**
+     * A planish_section_ends. Default PLANISH_SECTION_ENDS_AUTO. Not used for curves.
+     */
+    uint32_t ends;
+    /**
+     * 1 if the last row is followed by the first one; needs three rows, and no tangents. Default 0.
+     */
+    uint32_t closed_v;
+    /**
+     * A planish_v_rule. Default PLANISH_V_RULE_ENDPOINTS.
+     */
+    uint32_t v_rule;
+    /**
+     * 1 turns rows round, and moves the first point of closed ones, where that brings them nearer to the row
+     * before. Default 0. Not used for curves.
+     */
+    uint32_t align;
+    /**
+     * 1 looks for fewer knots along v than rows. Default 0.
+     */
+    uint32_t approximate_v;
+    /**
+     * Places between two data at which a control curve is checked too, at most 100; 0 as in the paper. Default 3.
+     */
+    uint32_t extra_checks;
+    /**
+     * 1 inserts a knot into every span that needs one in each pass: faster, some more control points. Default 0.
+     */
+    uint32_t batch;
+    /**
+     * 1 takes knots out again that turn out not to be needed. Default 0.
+     */
+    uint32_t removal;
+    /**
+     * 1 bounds the distance from the skin through the section curves. Default 0.
+     */
+    uint32_t certify;
+    /**
+     * 1 counts the control points of PLANISH_SKIN_METHOD_COMMON_KNOTS for the report. Default 0.
+     */
+    uint32_t compare;
+    /**
+     * Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+     */
+    uint32_t thread_count;
+} planish_skin_options;
 
 #ifdef __cplusplus
 extern "C" {
@@ -2448,6 +2694,28 @@ enum planish_status planish_curve_fit(const double *u,
                                       struct planish_fit_report *out_report);
 
 /**
+ * Makes a curve from its parts, which are copied.
+ *
+ * dim:            numbers of a control point, at least 1.
+ * degree:         1 to 9.
+ * knots:          knot_count knots, never falling.
+ * knot_count:     at least 2 * (degree + 1).
+ * control_points: knot_count - degree - 1 rows of dim numbers.
+ * out_curve:      receives a new curve; destroy with planish_curve_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (dim, degree or knots),
+ * PLANISH_STATUS_NOT_FINITE (the index is the knot or the control point), PLANISH_STATUS_DEGENERATE (the knots span
+ * no interval), PLANISH_STATUS_TOO_LARGE or PLANISH_STATUS_OUT_OF_MEMORY.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_curve_new(size_t dim,
+                                      uint32_t degree,
+                                      const double *knots,
+                                      size_t knot_count,
+                                      const double *control_points,
+                                      struct planish_curve **out_curve);
+
+/**
  * Numbers of a value; 0 for NULL.
  */
 PLANISH_API size_t planish_curve_dim(const struct planish_curve *curve);
@@ -2546,6 +2814,170 @@ enum planish_status planish_curve_clone(const struct planish_curve *curve,
  * curve: from this library and not destroyed yet; NULL does nothing.
  */
 PLANISH_API void planish_curve_free(struct planish_curve *curve);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options: not NULL.
+ * size:    sizeof(planish_skin_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ */
+PLANISH_API enum planish_status planish_skin_options_init(struct planish_skin_options *options, size_t size);
+
+/**
+ * Skins rows of points: a surface over the unit square on which row after row lies within the tolerance, u along
+ * the rows and v across them. Rows may have any counts, one point included.
+ *
+ * points:      rows of dim numbers (3 unless the options say otherwise), row after row.
+ * row_counts:  row_count numbers of points, each at least 1.
+ * row_count:   at least 2; at least 3 for a surface closed along v.
+ * options:     NULL for the defaults.
+ * out_surface: receives a new T-spline; destroy with planish_surface_free().
+ * out_report:  receives what the fit did and how good it is; grid_u is the largest number of knots of a control
+ *              curve. NULL for no report.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_TOLERANCE_NOT_MET, PLANISH_STATUS_STAGNATED (points are so near to one
+ * another that no knot fits between), PLANISH_STATUS_INPUT_REPAIRED (points on the one before were merged) or an
+ * error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, too few rows, or a row without
+ * points, the index is the row), PLANISH_STATUS_NOT_FINITE (the index is the point, or the vector of an option),
+ * PLANISH_STATUS_DEGENERATE (a row lies on the one before, the index is the row), PLANISH_STATUS_TOO_LARGE,
+ * PLANISH_STATUS_VERSION or PLANISH_STATUS_CANCELLED.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tspline_skin(const double *points,
+                                         const size_t *row_counts,
+                                         size_t row_count,
+                                         const struct planish_skin_options *options,
+                                         struct planish_surface **out_surface,
+                                         struct planish_fit_report *out_report);
+
+/**
+ * Skins section curves of any degree, over any domains. Their data are their values at their different knots.
+ *
+ * curves:      curve_count curves of one dimension, none of them NULL.
+ * curve_count: at least 2; at least 3 for a surface closed along v.
+ * options:     NULL for the defaults. closed says that the curves are closed, and smooth there.
+ * out_surface: receives a new T-spline; destroy with planish_surface_free().
+ * out_report:  receives what the fit did and how good it is; NULL for no report.
+ * Returns what planish_tspline_skin() returns; PLANISH_STATUS_INVALID_ARGUMENT also for a curve of another dimension
+ * than the first, the index is the curve.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tspline_skin_curves(const struct planish_curve *const *curves,
+                                                size_t curve_count,
+                                                const struct planish_skin_options *options,
+                                                struct planish_surface **out_surface,
+                                                struct planish_fit_report *out_report);
+
+/**
+ * Makes a T-spline from its parts, which are copied.
+ *
+ * knots:       the knots along v, never falling, cubic.
+ * knot_count:  at least 8.
+ * curves:      knot_count - 4 control curves: cubic, their end knots repeated four times, all over one domain and of
+ *              one dimension; none of them NULL.
+ * curve_count: knot_count - 4.
+ * out_surface: receives a new surface; destroy with planish_surface_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (knots or curves, the index
+ * is the one), PLANISH_STATUS_NOT_FINITE or PLANISH_STATUS_DEGENERATE (the knots span no interval).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tspline_new(const double *knots,
+                                        size_t knot_count,
+                                        const struct planish_curve *const *curves,
+                                        size_t curve_count,
+                                        struct planish_surface **out_surface);
+
+/**
+ * Number of control curves of a T-spline; 0 for NULL and other families.
+ */
+PLANISH_API size_t planish_tspline_curve_count(const struct planish_surface *surface);
+
+/**
+ * Makes a copy of a control curve, whose knots and control points the functions of planish_curve hand out.
+ *
+ * surface:   not NULL.
+ * curve:     below planish_tspline_curve_count().
+ * out_curve: receives a new curve; destroy with planish_curve_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or PLANISH_STATUS_INDEX.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tspline_clone_curve(const struct planish_surface *surface,
+                                                size_t curve,
+                                                struct planish_curve **out_curve);
+
+/**
+ * Number of knots of a T-spline along v, each as often as it occurs; 0 for NULL and other families.
+ */
+PLANISH_API size_t planish_tspline_knot_count(const struct planish_surface *surface);
+
+/**
+ * Copies the knots of a T-spline along v.
+ *
+ * surface:   not NULL.
+ * out_knots: receives planish_tspline_knot_count() knots.
+ * count:     knots that out_knots has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
+ * PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tspline_copy_knots(const struct planish_surface *surface,
+                                               double *out_knots,
+                                               size_t count);
+
+/**
+ * Inserts a knot into one control curve of a T-spline, which stays the same surface; all other curves stay as they
+ * are.
+ *
+ * surface: not NULL; changed.
+ * curve:   below planish_tspline_curve_count().
+ * u:       inside the domain, where the curve has no more than two knots yet.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX,
+ * PLANISH_STATUS_OUTSIDE (u, also if it is NaN) or PLANISH_STATUS_INVALID_ARGUMENT (the knot would occur too often).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tspline_insert_knot_u(struct planish_surface *surface,
+                                                  size_t curve,
+                                                  double u);
+
+/**
+ * Inserts a knot along v into a T-spline, which stays the same surface and has one control curve more.
+ *
+ * surface: not NULL; changed.
+ * v:       inside the domain, where there are no more than two knots yet.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_OUTSIDE (v, also
+ * if it is NaN) or PLANISH_STATUS_INVALID_ARGUMENT (the knot would occur too often).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tspline_insert_knot_v(struct planish_surface *surface,
+                                                  double v);
+
+/**
+ * Removes a knot from one control curve of a T-spline if the surface then moves by no more than a tolerance.
+ *
+ * surface:   not NULL; changed unless PLANISH_STATUS_TOLERANCE_NOT_MET is returned.
+ * curve:     below planish_tspline_curve_count().
+ * knot:      index of a knot of that curve inside the domain, counted from 0 over all its knots.
+ * tolerance: in model units; 0 or more, or the knot stays.
+ * out_error: receives a bound of the distance that the surface moves at any (u,v), or would have moved; NULL for
+ *            none.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_TOLERANCE_NOT_MET (the knot stays) or an error:
+ * PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or PLANISH_STATUS_INDEX (no such curve, or no such knot
+ * inside the domain).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tspline_remove_knot_u(struct planish_surface *surface,
+                                                  size_t curve,
+                                                  size_t knot,
+                                                  double tolerance,
+                                                  double *out_error);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -29,6 +29,7 @@ mod surface;
 mod tensor;
 #[cfg(test)]
 mod tests;
+mod tspline;
 
 pub use curve::*;
 pub use export::*;
@@ -42,3 +43,4 @@ pub use status::*;
 pub use step::*;
 pub use surface::*;
 pub use tensor::*;
+pub use tspline::*;

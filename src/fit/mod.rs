@@ -4,4 +4,5 @@ pub mod errors;
 pub mod field;
 pub mod pht;
 pub mod report;
+pub mod skin;
 pub mod tessellation;

@@ -5,8 +5,9 @@ use crate::{Failure, Outcome};
 use clap::Args;
 use planish::export::native;
 use planish::mesh::{MeshOptions, read};
-use planish::surface::AnySurface;
 use planish::surface::tensor::{Axis, TensorSurface};
+use planish::surface::tspline::TSplineSurface;
+use planish::surface::{AnySurface, Surface};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
@@ -73,6 +74,8 @@ fn surface_table(path: &Path, surface: &AnySurface) -> Table {
     table.row("surface", path.display().to_string());
     match surface {
         AnySurface::Tensor(tensor) => tensor_rows(tensor, &mut table),
+        AnySurface::TSpline(tspline) => tspline_rows(tspline, &mut table),
+        AnySurface::Pht(_) => table.row("kind", "PHT-spline".to_owned()),
     }
     let surface = surface.as_surface();
     let domain = surface.domain();
@@ -91,4 +94,12 @@ fn tensor_rows(surface: &TensorSurface, table: &mut Table) {
     table.row("degrees", format!("{} x {}", knots_u.degree(), knots_v.degree()));
     table.row("control points", format!("{} x {}", knots_u.basis_count(), knots_v.basis_count()));
     table.row("weights", if surface.weights().is_some() { "yes" } else { "no" }.to_owned());
+}
+
+fn tspline_rows(surface: &TSplineSurface, table: &mut Table) {
+    let counts = surface.curves().iter().map(|curve| curve.knots().basis_count());
+    let (least, most) = (counts.clone().min().unwrap_or(0), counts.max().unwrap_or(0));
+    table.row("kind", "T-spline".to_owned());
+    table.row("control curves", format!("{}, of {least} to {most} control points", surface.curves().len()));
+    table.row("control points", surface.coefficient_count().to_string());
 }

@@ -6,8 +6,9 @@
 use super::PhtSurface;
 use super::jet;
 use super::topology::Topology;
+use crate::surface::ORDERS;
 use crate::surface::derivative_rows;
-use crate::surface::homogeneous::{ORDERS, divide};
+use crate::surface::homogeneous::divide;
 use crate::surface::rows_of_four::{combine, contract};
 use glam::DVec2;
 use pulp::{Arch, Simd, WithSimd};

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 /// The files of `src/ffi` in the order of the header.
-const SOURCES: [&str; 12] = [
+const SOURCES: [&str; 13] = [
     "status.rs",
     "progress.rs",
     "mesh.rs",
@@ -19,6 +19,7 @@ const SOURCES: [&str; 12] = [
     "export.rs",
     "step.rs",
     "curve.rs",
+    "tspline.rs",
 ];
 
 fn main() -> ExitCode {
