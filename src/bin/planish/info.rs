@@ -5,8 +5,9 @@ use crate::{Failure, Outcome};
 use clap::Args;
 use planish::export::native;
 use planish::mesh::{MeshOptions, read};
-use planish::surface::AnySurface;
+use planish::surface::pht::PhtSurface;
 use planish::surface::tensor::{Axis, TensorSurface};
+use planish::surface::{AnySurface, Surface};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
@@ -73,6 +74,7 @@ fn surface_table(path: &Path, surface: &AnySurface) -> Table {
     table.row("surface", path.display().to_string());
     match surface {
         AnySurface::Tensor(tensor) => tensor_rows(tensor, &mut table),
+        AnySurface::Pht(pht) => pht_rows(pht, &mut table),
     }
     let surface = surface.as_surface();
     let domain = surface.domain();
@@ -91,4 +93,13 @@ fn tensor_rows(surface: &TensorSurface, table: &mut Table) {
     table.row("degrees", format!("{} x {}", knots_u.degree(), knots_v.degree()));
     table.row("control points", format!("{} x {}", knots_u.basis_count(), knots_v.basis_count()));
     table.row("weights", if surface.weights().is_some() { "yes" } else { "no" }.to_owned());
+}
+
+fn pht_rows(surface: &PhtSurface, table: &mut Table) {
+    let mesh = surface.mesh();
+    let deepest = mesh.leaves().map(|leaf| mesh.cell(leaf).level).max().unwrap_or(0);
+    table.row("kind", "PHT-spline".to_owned());
+    table.row("cells", format!("{} down to level {deepest}", mesh.leaf_count()));
+    table.row("control points", surface.coefficient_count().to_string());
+    table.row("weights", if surface.is_rational() { "yes" } else { "no" }.to_owned());
 }

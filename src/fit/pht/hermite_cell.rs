@@ -108,7 +108,7 @@ mod tests {
     fn unknowns(p: i32, q: i32) -> [f64; COUNT] {
         let slope = |x: f64, p: i32| if p == 0 { 0.0 } else { f64::from(p) * x.powi(p - 1) };
         let mut unknowns = [0.0; COUNT];
-        for (corner, [x, y]) in [[0., 0.], [0., 1.], [1., 0.], [1., 1.]].into_iter().enumerate() {
+        for (corner, [x, y]) in [[0.0_f64, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0]].into_iter().enumerate() {
             let (fx, fy) = ([x.powi(p), slope(x, p)], [y.powi(q), slope(y, q)]);
             unknowns[4 * corner..][..4].copy_from_slice(&[
                 fx[0] * fy[0],

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 /// The files of `src/ffi` in the order of the header.
-const SOURCES: [&str; 12] = [
+const SOURCES: [&str; 14] = [
     "status.rs",
     "progress.rs",
     "mesh.rs",
@@ -15,6 +15,8 @@ const SOURCES: [&str; 12] = [
     "surface.rs",
     "patch.rs",
     "tensor.rs",
+    "pht.rs",
+    "pht_parts.rs",
     "query.rs",
     "export.rs",
     "step.rs",
