@@ -105,6 +105,11 @@ impl Remarks {
         }
     }
 
+    /// Takes `other` out.
+    pub fn remove(&mut self, other: Self) {
+        self.0 &= !other.0;
+    }
+
     /// Whether all bits of `other` hold.
     pub fn has(self, other: Self) -> bool {
         self.0 & other.0 == other.0

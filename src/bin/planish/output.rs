@@ -1,12 +1,14 @@
 //! What the commands print and write.
 
 use crate::Failure;
+use glam::DVec2;
 use planish::export::picture::{Picture, View};
 use planish::export::step::{self, StepOptions};
 use planish::export::{native, obj, vtk};
-use planish::fit::tessellation::TensorFit;
+use planish::fit::report::FitReport;
 use planish::mesh::{Mesh, MeshRepairs};
 use planish::query::tessellate::{TessellateOptions, tessellate};
+use planish::surface::AnySurface;
 use std::fmt;
 use std::path::Path;
 
@@ -63,25 +65,40 @@ fn extension(path: &Path) -> String {
     path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
 }
 
+/// A fit by any method.
+#[derive(Debug)]
+pub struct Fit {
+    pub surface: AnySurface,
+    pub report: FitReport,
+    /// The (u,v) of each node.
+    pub parameters: Vec<DVec2>,
+    /// The error of each node.
+    pub errors: Vec<f64>,
+}
+
+/// Most control points of the tensor surface that stands for another family in a STEP file.
+const MOST_STEP_COEFFICIENTS: usize = 1_000_000;
+
 /// Writes a fit in the format of the name; `step` says what STEP files say beside the shape.
-pub fn write_fit(mesh: &Mesh, fit: &TensorFit, path: &Path, step: &StepOptions) -> Result<(), Failure> {
+pub fn write_fit(mesh: &Mesh, fit: &Fit, path: &Path, step: &StepOptions) -> Result<(), Failure> {
+    let surface = fit.surface.as_surface();
     match extension(path).as_str() {
         "step" | "stp" => {
-            step::write(&fit.surface, step, path)?;
+            step::write(&fit.surface.to_tensor(MOST_STEP_COEFFICIENTS)?, step, path)?;
         }
         "vtu" => {
             let data = vtk::PointData { name: "deviation", dim: 1, values: &fit.errors };
-            vtk::write_mesh(&vtk::on_surface(&fit.surface, mesh, &fit.parameters)?, &[data], path)?;
+            vtk::write_mesh(&vtk::on_surface(surface, mesh, &fit.parameters)?, &[data], path)?;
         }
-        "obj" => obj::write(&tessellate(&fit.surface, &TessellateOptions::default())?.mesh, path)?,
-        _ => native::save_file(&fit.surface, path)?,
+        "obj" => obj::write(&tessellate(surface, &TessellateOptions::default())?.mesh, path)?,
+        _ => native::save_file(fit.surface.as_saved(), path)?,
     }
     Ok(())
 }
 
 /// Writes a picture of the surface coloured by the error at the nodes.
-pub fn write_picture(mesh: &Mesh, fit: &TensorFit, path: &Path) -> Result<(), Failure> {
-    let moved = vtk::on_surface(&fit.surface, mesh, &fit.parameters)?;
+pub fn write_picture(mesh: &Mesh, fit: &Fit, path: &Path) -> Result<(), Failure> {
+    let moved = vtk::on_surface(fit.surface.as_surface(), mesh, &fit.parameters)?;
     let mut picture = Picture::new(1200, 900, &View::facing(&moved), &moved);
     let range = (0.0, fit.report.max_error);
     picture.draw_mesh(&moved, Some(&fit.errors), range);

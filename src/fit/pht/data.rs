@@ -12,6 +12,10 @@ use crate::mesh::Mesh;
 use crate::surface::Surface;
 use glam::{DVec2, DVec3};
 
+/// Weight of the middle of a triangle against that of a node: an estimate, which must not pull the surface off the
+/// nodes.
+const MIDDLE_WEIGHT: f64 = 0.3;
+
 /// The data of a fit.
 pub struct Data<'a> {
     pub mesh: Option<&'a Mesh>,
@@ -22,6 +26,8 @@ pub struct Data<'a> {
     pub dim: usize,
     /// Parameters of the data; sweeps move them.
     pub uv: Vec<DVec2>,
+    /// Parameters as they were at first.
+    pub first_uv: Vec<DVec2>,
     /// The box of `uv` as it was at first.
     pub data_box: Domain,
     pub frame: Frame,
@@ -46,6 +52,7 @@ impl<'a> Data<'a> {
             sagittas: Vec::new(),
             values,
             dim,
+            first_uv: uv.clone(),
             uv,
             data_box,
             frame,
@@ -67,10 +74,10 @@ impl<'a> Data<'a> {
         if is_shape {
             data.sagittas = triangle_sagittas(mesh);
         }
-        if let Some(weights) = weights {
-            let mean = |nodes: &[u32; 3]| nodes.iter().map(|&n| weights[n as usize]).sum::<f64>() / 3.0;
-            data.sample_weights.extend(mesh.triangles().iter().map(mean));
-        }
+        let weight = |n: u32| weights.map_or(1.0, |weights| weights[n as usize]);
+        let mean = |nodes: &[u32; 3]| nodes.iter().map(|&n| weight(n)).sum::<f64>() / 3.0;
+        data.sample_weights.resize(mesh.points().len(), 1.0);
+        data.sample_weights.extend(mesh.triangles().iter().map(|nodes| MIDDLE_WEIGHT * mean(nodes)));
         data
     }
 

@@ -19,7 +19,7 @@ mod refine;
 #[cfg(test)]
 mod tests;
 
-use super::report::{FitReport, Tolerance};
+use super::report::{FitReport, Remarks, Tolerance};
 use super::tessellation::{
     FitError, NodeParameters, Regularize, check_parameters, check_values, node_parameters,
 };
@@ -51,8 +51,8 @@ pub struct PhtOptions<'a> {
     pub tolerance: Tolerance,
     /// What determines the jets.
     pub estimator: Estimator,
-    /// Weight of the plate energy of each cell, mapped to the unit cell; of [`Estimator::Global`]. Default 1e-6:
-    /// ten times more flattens, a hundred times less leaves empty cells to rounding.
+    /// Weight of the plate energy of each cell, mapped to the unit cell; of [`Estimator::Global`]. Default 1e-3:
+    /// ten times more flattens, a hundred times less lets the surface swing where a cell has few data.
     pub smoothing: f64,
     /// Cells to start from, along u and v.
     pub initial_grid: [usize; 2],
@@ -68,8 +68,8 @@ pub struct PhtOptions<'a> {
     pub correction_sweeps: usize,
     /// What to do with parameters that came with the mesh.
     pub regularize: Regularize,
-    /// How a mesh without parameters gets them; None for a circle, stretched once where the plain map is very
-    /// uneven.
+    /// How a mesh without parameters gets them; None for a circle, with one stretch step unless the tolerance is
+    /// fine and the plain map even.
     pub parameterize: Option<ParameterizeOptions>,
     /// A positive weight for each datum.
     pub weights: Option<&'a [f64]>,
@@ -82,7 +82,7 @@ impl Default for PhtOptions<'_> {
         Self {
             tolerance: Tolerance::default(),
             estimator: Estimator::default(),
-            smoothing: 1e-6,
+            smoothing: 1e-3,
             initial_grid: [1, 1],
             max_level: 12,
             max_cells: 200_000,
@@ -170,23 +170,29 @@ fn fit_on_mesh(
     Ok(fit)
 }
 
-/// Largest stretch at which the plain mean value map needs no stretch step: quadtrees absorb changes of scale, and
-/// a step costs conformality. Heads that need none have up to 20, those that do 120 and more.
+/// Largest stretch at which the plain mean value map is even enough for fine tolerances. A quadtree absorbs changes
+/// of scale by levels, of which a fine mesh has enough, but not what a stretch step costs in conformality: heads
+/// that are better off without have up to 20, the others 120 and more.
 const EVEN_STRETCH: f64 = 30.0;
+/// Relative tolerances above this give so coarse a mesh that scale matters more.
+const COARSE_TOLERANCE: f64 = 3e-3;
 
 /// The parameters of the nodes.
 fn map(mesh: &Mesh, options: &PhtOptions, control: &mut Control) -> Result<NodeParameters, FitError> {
-    if let Some(asked) = &options.parameterize {
-        return node_parameters(mesh, asked, options.regularize, control);
-    }
-    let plain = ParameterizeOptions::MEAN_VALUE.with_border(Border::Circle);
-    let map = node_parameters(mesh, &plain, options.regularize, control)?;
-    let stretch = crate::parameterize::stretch(mesh.points(), mesh.triangles(), &map.uv);
-    if mesh.parameters().is_some() || stretch.max <= EVEN_STRETCH {
-        return Ok(map);
-    }
     let stretched = ParameterizeOptions::PHT.with_border(Border::Circle);
-    node_parameters(mesh, &stretched, options.regularize, control)
+    let asked = options.parameterize.unwrap_or(stretched);
+    let relative = options.tolerance.absolute(&mesh.bounds()).0 / mesh.diagonal();
+    let is_choice = options.parameterize.is_none() && mesh.parameters().is_none();
+    if is_choice && relative <= COARSE_TOLERANCE {
+        let plain = ParameterizeOptions::MEAN_VALUE.with_border(Border::Circle);
+        let mut map = node_parameters(mesh, &plain, options.regularize, control)?;
+        if crate::parameterize::stretch(mesh.points(), mesh.triangles(), &map.uv).max <= EVEN_STRETCH {
+            // what one step would mend is no reason to cut the mesh
+            map.remarks.remove(Remarks::SEGMENTATION_ADVISED);
+            return Ok(map);
+        }
+    }
+    node_parameters(mesh, &asked, options.regularize, control)
 }
 
 fn check_options(options: &PhtOptions) -> Result<(), FitError> {

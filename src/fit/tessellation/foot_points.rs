@@ -37,7 +37,7 @@ impl Problem<'_> {
             })
         });
         if let Some(mesh) = self.mesh {
-            hold_back(mesh.triangles(), &self.uv, &mut moved);
+            hold_back(mesh.triangles(), (&self.uv, LEAST_AREA), &self.uv, &mut moved);
         }
         moved
     }
@@ -59,7 +59,9 @@ pub fn gauss_newton_step(row: &[f64], value: &[f64]) -> DVec2 {
 }
 
 /// Halves the moves of the nodes of every triangle that would lose nearly all its area, until none does.
-pub fn hold_back(triangles: &[[u32; 3]], from: &[DVec2], to: &mut [DVec2]) {
+///
+/// `first` are the parameters whose areas count, of which a triangle keeps at least the share `least`.
+pub fn hold_back(triangles: &[[u32; 3]], (first, least): (&[DVec2], f64), from: &[DVec2], to: &mut [DVec2]) {
     let area = |uv: &[DVec2], t: &[u32; 3]| {
         let [a, b, c] = t.map(|n| uv[n as usize]);
         (b - a).perp_dot(c - a)
@@ -68,8 +70,8 @@ pub fn hold_back(triangles: &[[u32; 3]], from: &[DVec2], to: &mut [DVec2]) {
     let mut suspects: Vec<usize> = (0..triangles.len()).collect();
     loop {
         suspects.retain(|&t| {
-            let before = area(from, &triangles[t]);
-            !(area(to, &triangles[t]) >= LEAST_AREA * before) && before > 0.0
+            let before = area(first, &triangles[t]);
+            !(area(to, &triangles[t]) >= least * before) && before > 0.0
         });
         let mut nodes: Vec<u32> = suspects.iter().flat_map(|&t| triangles[t]).collect();
         nodes.sort_unstable();

@@ -87,12 +87,12 @@ pub struct LocalExtraction {
 }
 
 /// The basis functions of a surface.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy)]
 pub struct BasisFunctions<'a> {
     mesh: &'a TMesh,
     topology: &'a Topology,
-    expansions: Vec<Vec<(u32, Matrix)>>,
-    widths: Vec<Widths>,
+    expansions: &'a [Vec<(u32, Matrix)>],
+    widths: &'a [Widths],
 }
 
 impl BasisFunctions<'_> {
@@ -173,24 +173,25 @@ fn support_widths(mesh: &TMesh, topology: &Topology, expansions: &[Vec<(u32, Mat
 }
 
 impl PhtSurface {
-    /// The basis functions over the mesh.
+    /// The basis functions over the mesh. Their tables are made once for a mesh.
     pub fn basis(&self, basis: Basis) -> BasisFunctions<'_> {
         let (mesh, topology) = (&self.mesh, self.topology());
-        let expansions = topology.expansions(mesh);
-        let widths = match basis {
-            Basis::Canonical => self.jets.keys().map(|&vertex| Widths::canonical(mesh, vertex)).collect(),
-            Basis::SupportSized => support_widths(mesh, topology, &expansions),
-        };
-        BasisFunctions { mesh, topology, expansions, widths }
+        BasisFunctions { mesh, topology, expansions: self.expansions(), widths: self.widths(basis) }
     }
 
-    fn all_widths(&self, basis: Basis) -> Vec<Widths> {
-        match basis {
+    fn expansions(&self) -> &[Vec<(u32, Matrix)>] {
+        let view = self.view();
+        view.expansions.get_or_init(|| view.topology.expansions(&self.mesh))
+    }
+
+    fn widths(&self, basis: Basis) -> &[Widths] {
+        let view = self.view();
+        view.widths[basis as usize].get_or_init(|| match basis {
             Basis::Canonical => {
                 self.jets.keys().map(|&vertex| Widths::canonical(&self.mesh, vertex)).collect()
             }
-            Basis::SupportSized => self.basis(basis).widths,
-        }
+            Basis::SupportSized => support_widths(&self.mesh, &view.topology, self.expansions()),
+        })
     }
 
     /// The control points: for each basis vertex in order the rows --, +-, -+, ++ of [`PhtSurface::width`]
@@ -198,7 +199,7 @@ impl PhtSurface {
     pub fn control_points(&self, basis: Basis) -> Vec<f64> {
         let width = self.width();
         let mut points = vec![0.0; ROWS * width * self.jets.len()];
-        let vertices = self.jets.values().zip(self.all_widths(basis));
+        let vertices = self.jets.values().zip(self.widths(basis));
         for ((jet, widths), points) in vertices.zip(points.chunks_exact_mut(ROWS * width)) {
             for (k, point) in points.chunks_exact_mut(width).enumerate() {
                 let (p, q) = ([-widths.u[0], widths.u[1]][k % 2], [-widths.v[0], widths.v[1]][k / 2]);
@@ -215,7 +216,7 @@ impl PhtSurface {
         basis: Basis,
         points: &[f64],
     ) -> Result<(), PhtError> {
-        let (width, all) = (self.width(), self.all_widths(basis));
+        let (width, all) = (self.width(), self.widths(basis));
         let expected = ranks.len() * ROWS * width;
         if points.len() != expected {
             return Err(PhtError::Count { what: "the control points", count: points.len(), expected });

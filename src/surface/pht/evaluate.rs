@@ -4,14 +4,16 @@
 //! surfaces; everything else goes the general way.
 
 use super::PhtSurface;
+use super::basis::Widths;
 use super::jet;
-use super::topology::Topology;
+use super::topology::{Matrix, Topology};
 use crate::surface::ORDERS;
 use crate::surface::derivative_rows;
 use crate::surface::homogeneous::divide;
 use crate::surface::rows_of_four::{combine, contract};
 use glam::DVec2;
 use pulp::{Arch, Simd, WithSimd};
+use std::sync::OnceLock;
 
 /// What is derived from the state.
 #[derive(Debug, Clone)]
@@ -23,6 +25,10 @@ pub struct View {
     pub ordinates: Vec<f64>,
     width: usize,
     frames: Vec<Frame>,
+    /// What the vertices are made of, for basis functions.
+    pub expansions: OnceLock<Vec<Vec<(u32, Matrix)>>>,
+    /// Of the functions of each vertex, by [`Basis`](super::Basis).
+    pub widths: [OnceLock<Vec<Widths>>; 2],
 }
 
 /// Where a leaf lies.
@@ -46,7 +52,15 @@ impl View {
             jet::ordinates(corners, domain.size().to_array(), width, ordinates);
             frames.push(Frame { min: domain.min, inverse_size: domain.size().recip() });
         }
-        Self { topology, jets, ordinates, width, frames }
+        Self {
+            topology,
+            jets,
+            ordinates,
+            width,
+            frames,
+            expansions: OnceLock::new(),
+            widths: Default::default(),
+        }
     }
 
     /// The jet of a vertex.

@@ -78,6 +78,17 @@ impl PhtSurface {
         Ok(surface)
     }
 
+    /// The spline that is zero, with weights of 1.
+    pub fn zero(dim: usize, is_rational: bool, mesh: TMesh) -> Result<Self, PhtError> {
+        let width = dim.saturating_add(usize::from(is_rational));
+        let mut jet = vec![0.0; ROWS.saturating_mul(width)];
+        if is_rational {
+            jet[dim] = 1.0;
+        }
+        let count = Topology::new(&mesh).basis.len();
+        Self::new(dim, is_rational, mesh, &jet.repeat(count))
+    }
+
     /// The same, whatever the signs of the weights.
     fn with_any_weights(dim: usize, is_rational: bool, mesh: TMesh, jets: &[f64]) -> Result<Self, PhtError> {
         if dim == 0 {
