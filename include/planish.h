@@ -493,6 +493,20 @@ typedef enum planish_v_rule {
 } planish_v_rule;
 
 /**
+ * What a STEP file holds of a T-spline.
+ */
+typedef enum planish_step_form {
+    /**
+     * The same surface as one tensor surface.
+     */
+    PLANISH_STEP_FORM_TENSOR = 0,
+    /**
+     * One face for each span of v, over the knots of four control curves: far fewer control points.
+     */
+    PLANISH_STEP_FORM_STRIPS = 1,
+} planish_step_form;
+
+/**
  * The application protocol of a STEP file.
  */
 typedef enum planish_step_schema {
@@ -1274,13 +1288,21 @@ typedef struct planish_step_report {
      */
     double diagonal;
     /**
-     * Bounds of the face, the outer one included.
+     * Bounds of all faces, the outer ones included.
      */
     size_t loop_count;
     /**
      * Edges of all bounds.
      */
     size_t edge_count;
+    /**
+     * Faces.
+     */
+    size_t face_count;
+    /**
+     * Control points of all faces.
+     */
+    size_t pole_count;
 } planish_step_report;
 
 /**
@@ -1321,6 +1343,18 @@ typedef struct planish_step_options {
      * A planish_unit, what one model unit is; PLANISH_UNIT_MILLIMETRE (default).
      */
     uint32_t unit;
+    /**
+     * Most control points of PLANISH_STEP_FORM_TENSOR. Default 4000000.
+     */
+    size_t max_coefficients;
+    /**
+     * A planish_step_form, what is written of a T-spline; PLANISH_STEP_FORM_TENSOR (default).
+     */
+    uint32_t form;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
 } planish_step_options;
 
 /**
@@ -2630,18 +2664,18 @@ enum planish_status planish_surface_load_file(const char *path,
 PLANISH_API enum planish_status planish_step_options_init(struct planish_step_options *options, size_t size);
 
 /**
- * Writes a tensor surface in space as a STEP file with one face, bounded by the surface's trims or, if it has
- * none, by its domain. P-curves are the trims themselves, of degree 1; curves in space are cubic and follow
+ * Writes a surface in space as a STEP file with one face, bounded by the surface's trims or, if it has none, by its
+ * domain. A T-spline is written as the same tensor surface, or in strips. P-curves are the trims themselves, of degree 1; curves in space are cubic and follow
  * them over the same parameters within the uncertainty that the file states. The file appears whole or not at
  * all; equal input gives equal bytes.
  *
- * surface: not NULL, a tensor surface of dimension 3.
+ * surface: not NULL, of dimension 3.
  * path:    UTF-8, ends with a NUL; an existing file is replaced.
  * options: NULL for the defaults.
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension, an
  * option, a text that is not UTF-8), PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOPOLOGY (trims that cross or
  * touch, the index is one of them; trims around several pieces; a knot inside the domain that occurs more often
- * than the degree), PLANISH_STATUS_DEGENERATE (a trim without area, the index; a face without size) or
+ * than the degree), PLANISH_STATUS_TOO_LARGE (max_coefficients), PLANISH_STATUS_DEGENERATE (a trim without area, the index; a face without size) or
  * PLANISH_STATUS_FILE.
  */
 PLANISH_API

@@ -5,9 +5,9 @@ use crate::{Failure, Outcome};
 use clap::Args;
 use planish::export::native;
 use planish::mesh::{MeshOptions, read};
-use planish::surface::AnySurface;
 use planish::surface::tensor::{Axis, TensorSurface};
 use planish::surface::tspline::TSplineSurface;
+use planish::surface::{AnySurface, Surface};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]

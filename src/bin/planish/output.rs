@@ -7,6 +7,7 @@ use planish::export::{native, obj, vtk};
 use planish::fit::tessellation::TensorFit;
 use planish::mesh::{Mesh, MeshRepairs};
 use planish::query::tessellate::{TessellateOptions, tessellate};
+use planish::surface::AnySurface;
 use std::fmt;
 use std::path::Path;
 
@@ -63,18 +64,33 @@ fn extension(path: &Path) -> String {
     path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
 }
 
+/// Whether a name asks for a STEP file.
+pub fn is_step(path: &Path) -> bool {
+    ["step", "stp"].contains(&extension(path).as_str())
+}
+
 /// Writes a fit in the format of the name; `step` says what STEP files say beside the shape.
 pub fn write_fit(mesh: &Mesh, fit: &TensorFit, path: &Path, step: &StepOptions) -> Result<(), Failure> {
+    if extension(path) == "vtu" {
+        let data = vtk::PointData { name: "deviation", dim: 1, values: &fit.errors };
+        vtk::write_mesh(&vtk::on_surface(&fit.surface, mesh, &fit.parameters)?, &[data], path)?;
+        return Ok(());
+    }
+    write_surface(&fit.surface.clone().into(), path, step)
+}
+
+/// Writes a surface in the format of the name.
+pub fn write_surface(surface: &AnySurface, path: &Path, step: &StepOptions) -> Result<(), Failure> {
     match extension(path).as_str() {
         "step" | "stp" => {
-            step::write(&fit.surface, step, path)?;
+            step::write(surface, step, path)?;
         }
-        "vtu" => {
-            let data = vtk::PointData { name: "deviation", dim: 1, values: &fit.errors };
-            vtk::write_mesh(&vtk::on_surface(&fit.surface, mesh, &fit.parameters)?, &[data], path)?;
-        }
-        "obj" => obj::write(&tessellate(&fit.surface, &TessellateOptions::default())?.mesh, path)?,
-        _ => native::save_file(&fit.surface, path)?,
+        "vtu" => match surface.as_surface().patches() {
+            Some(patches) => vtk::write_patches(patches, path)?,
+            None => return Err(Failure::new("this family of surface has no patches for .vtu")),
+        },
+        "obj" => obj::write(&tessellate(surface.as_surface(), &TessellateOptions::default())?.mesh, path)?,
+        _ => native::save_file(surface.as_saved(), path)?,
     }
     Ok(())
 }
