@@ -183,6 +183,16 @@ FOLLOWS(planish_step_report, edge_count, face_count);
 FOLLOWS(planish_step_report, face_count, pole_count);
 LAST(planish_step_report, pole_count);
 
+FIRST(planish_sample_rows_options);
+FOLLOWS(planish_sample_rows_options, struct_size, spacing);
+FOLLOWS(planish_sample_rows_options, spacing, begin_index);
+FOLLOWS(planish_sample_rows_options, begin_index, end_index);
+FOLLOWS(planish_sample_rows_options, end_index, progress);
+FOLLOWS(planish_sample_rows_options, progress, user);
+FOLLOWS(planish_sample_rows_options, user, begin);
+FOLLOWS(planish_sample_rows_options, begin, end);
+LAST(planish_sample_rows_options, end);
+
 FIRST(planish_skin_report);
 FOLLOWS(planish_skin_report, struct_size, overshoot);
 FOLLOWS(planish_skin_report, overshoot, certified_distance);

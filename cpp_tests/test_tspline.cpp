@@ -70,7 +70,7 @@ TEST(TSpline, IsAFullMemberOfTheFamily) {
   CHECK(surface.kind() == PLANISH_KIND_TSPLINE);
   CHECK(surface.coefficient_count() == skinned.report.coefficient_count);
   const planish::point3 place = surface.point(0.3, 0.6);
-  const auto projected = surface.project({place});
+  const auto projected = surface.project(std::vector<planish::point3>{place});
   CHECK(projected.distances[0] < 1e-9);
   CHECK(surface.tessellate().triangle_count() > 100);
   CHECK(distance(planish::surface::load(surface.save()), surface) == 0);

@@ -16,6 +16,7 @@ use crate::mesh::{CutError, MeshError, ReadError};
 use crate::parameterize::ParameterizeError;
 use crate::query::deviation::DeviationError;
 use crate::query::project::ProjectError;
+use crate::query::rows::SampleRowsError;
 use crate::query::tessellate::TessellateError;
 use crate::surface::evaluate::EvalError;
 use crate::surface::tensor::TensorError;
@@ -96,6 +97,9 @@ pub enum Error {
     /// Points cannot be projected.
     #[error(transparent)]
     Project(#[from] ProjectError),
+    /// Rows of points cannot be taken from a mesh.
+    #[error(transparent)]
+    SampleRows(#[from] SampleRowsError),
     /// A surface cannot be tessellated.
     #[error(transparent)]
     Tessellate(#[from] TessellateError),
@@ -147,6 +151,7 @@ impl Error {
             Self::Eval(error) => (error.kind(), error.index()),
             Self::Deviation(error) => (error.kind(), error.index()),
             Self::Project(error) => (error.kind(), error.index()),
+            Self::SampleRows(error) => (error.kind(), error.index()),
             Self::Tessellate(error) => (error.kind(), None),
             Self::Export(error) => (error.kind(), None),
             Self::Step(error) => (error.kind(), error.index()),

@@ -36,4 +36,4 @@ int main() try {
   std::fprintf(stderr, "%s: %s\n", error.status_name(), error.what());
   return 1;
 }
-// Output: within the tolerance with 204 control points, common knots need 280, 11 faces hold 1204
+// Output: within the tolerance with 106 control points, common knots need 126, 11 faces hold 780

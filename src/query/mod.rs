@@ -2,5 +2,6 @@
 
 pub mod deviation;
 pub mod project;
+pub mod rows;
 pub mod tessellate;
 pub mod triangles;

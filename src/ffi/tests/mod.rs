@@ -6,6 +6,7 @@ mod forms;
 mod meshes;
 mod queries;
 mod records;
+mod rows;
 mod statuses;
 mod surfaces;
 mod tsplines;

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 /// The files of `src/ffi` in the order of the header.
-const SOURCES: [&str; 13] = [
+const SOURCES: [&str; 14] = [
     "status.rs",
     "progress.rs",
     "mesh.rs",
@@ -16,6 +16,7 @@ const SOURCES: [&str; 13] = [
     "patch.rs",
     "tensor.rs",
     "query.rs",
+    "rows.rs",
     "export.rs",
     "step.rs",
     "curve.rs",
