@@ -143,6 +143,31 @@ TEST(TSpline, RefusesBadRowsByName) {
   refused(PLANISH_STATUS_INVALID_ARGUMENT, -1, skin_options());
 }
 
+TEST(TSpline, SkinsRowsOfAMesh) {
+  // a tube with a waist
+  std::vector<planish::point3> points;
+  std::vector<planish::triangle> triangles;
+  const std::uint32_t around = 48, along = 30;
+  for (std::uint32_t j = 0; j <= along; ++j) {
+    for (std::uint32_t k = 0; k < around; ++k) {
+      const double angle = 2 * 3.14159265358979323846 * k / around, z = 0.1 * j, radius = 1 + 0.3 * std::cos(2 * z);
+      points.push_back({radius * std::cos(angle), radius * std::sin(angle), z});
+      if (j == along) continue;
+      const std::uint32_t a = j * around + k, b = j * around + (k + 1) % around;
+      triangles.push_back({a, b, b + around});
+      triangles.push_back({a, b + around, a + around});
+    }
+  }
+  const planish::mesh mesh(points, triangles);
+  const auto rows = planish::sample_rows(mesh, 14);
+  CHECK_EQUAL(rows.size(), 14u);
+  auto options = skin_options();
+  options.closed = 1;
+  const auto skinned = planish::tspline_skin(rows, options);
+  CHECK(skinned.status == PLANISH_STATUS_OK);
+  CHECK(skinned.report.max_error <= skinned.report.tolerance);
+}
+
 TEST(TSpline, StopsWhenAsked) {
   try {
     planish::tspline_skin(hull(), skin_options(), [](double, double) { return false; });

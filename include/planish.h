@@ -439,6 +439,20 @@ typedef enum planish_regularize {
 } planish_regularize;
 
 /**
+ * What the rows of planish_mesh_sample_rows() lie between.
+ */
+typedef enum planish_row_source {
+    /**
+     * A boundary loop.
+     */
+    PLANISH_ROW_SOURCE_LOOP = 0,
+    /**
+     * A node.
+     */
+    PLANISH_ROW_SOURCE_NODE = 1,
+} planish_row_source;
+
+/**
  * Which knots the control curves of a skin get.
  */
 typedef enum planish_skin_method {
@@ -1237,6 +1251,44 @@ typedef struct planish_deviation_report {
      */
     size_t back_count;
 } planish_deviation_report;
+
+/**
+ * What rows to take from a mesh. Fill with planish_sample_rows_options_init(), then change what you need.
+ */
+typedef struct planish_sample_rows_options {
+    /**
+     * Set by planish_sample_rows_options_init().
+     */
+    size_t struct_size;
+    /**
+     * About how far apart points are along a row, in model units; 0 (default) takes the mean length of edges.
+     */
+    double spacing;
+    /**
+     * The loop or node that the first row is nearest to. Default 0.
+     */
+    size_t begin_index;
+    /**
+     * The loop or node that the last row is nearest to. Default 1.
+     */
+    size_t end_index;
+    /**
+     * Hears of the progress and may cancel; NULL (default) for nobody.
+     */
+    planish_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *user;
+    /**
+     * A planish_row_source: what begin_index counts. Default PLANISH_ROW_SOURCE_LOOP.
+     */
+    uint32_t begin;
+    /**
+     * A planish_row_source: what end_index counts. Default PLANISH_ROW_SOURCE_LOOP.
+     */
+    uint32_t end;
+} planish_sample_rows_options;
 
 /**
  * What a VTK file shows. Fill with planish_vtk_options_init(), then change what you need.
@@ -2565,6 +2617,45 @@ enum planish_status planish_surface_deviation(const struct planish_surface *surf
                                               double *out_distances,
                                               size_t count,
                                               struct planish_deviation_report *out_report);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options: not NULL.
+ * size:    sizeof(planish_sample_rows_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ */
+PLANISH_API
+enum planish_status planish_sample_rows_options_init(struct planish_sample_rows_options *options,
+                                                     size_t size);
+
+/**
+ * Takes closed rows of points from a mesh: level curves of a harmonic field between two loops or nodes, which all
+ * start on one seam along the field's gradient and run the same way; ready for planish_tspline_skin() with closed.
+ * Call it once without out_points for the counts, then with room for all points.
+ *
+ * mesh:            not NULL, in one piece.
+ * options:         NULL for the defaults: rows from the first loop to the second.
+ * out_row_counts:  receives the number of points of each row, which does not repeat its first.
+ * row_count:       rows to take, 1 to 1000000.
+ * out_points:      receives rows of x, y, z, row after row; NULL to learn the counts only.
+ * point_count:     points that out_points has room for.
+ * out_point_count: receives the number of points of all rows.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, the number of
+ * rows, or both sources share a node, which is the index), PLANISH_STATUS_INDEX (no such loop or node),
+ * PLANISH_STATUS_TOPOLOGY (the mesh has several pieces; or a row is not one closed curve, as on a mesh with handles or
+ * further loops: the index is the row), PLANISH_STATUS_SINGULAR (the field is lost in rounding),
+ * PLANISH_STATUS_BUFFER_TOO_SMALL, PLANISH_STATUS_VERSION or PLANISH_STATUS_CANCELLED.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_sample_rows(const struct planish_mesh *mesh,
+                                             const struct planish_sample_rows_options *options,
+                                             size_t *out_row_counts,
+                                             size_t row_count,
+                                             double *out_points,
+                                             size_t point_count,
+                                             size_t *out_point_count);
 
 /**
  * Fills options with the defaults.

@@ -126,6 +126,9 @@ inline planish_status init(planish_parameterize_options &options) {
 inline planish_status init(planish_tensor_options &options) {
   return planish_tensor_options_init(&options, sizeof options);
 }
+inline planish_status init(planish_sample_rows_options &options) {
+  return planish_sample_rows_options_init(&options, sizeof options);
+}
 inline planish_status init(planish_skin_options &options) {
   return planish_skin_options_init(&options, sizeof options);
 }
@@ -955,6 +958,26 @@ inline skinned tspline_skin(const std::vector<std::vector<point3>> &point_rows,
     row_counts.push_back(row.size());
   }
   return tspline_skin(points, row_counts, options, hear);
+}
+
+/// Rows of points of a mesh, level curves of a harmonic field between two loops or nodes; no first point is repeated.
+inline std::vector<std::vector<point3>> sample_rows(
+    const mesh &mesh, std::size_t row_count,
+    const planish_sample_rows_options &options = defaults<planish_sample_rows_options>()) {
+  std::vector<std::size_t> counts(row_count);
+  std::size_t total = 0;
+  detail::checked(
+      planish_mesh_sample_rows(mesh.get(), &options, counts.data(), row_count, nullptr, 0, &total));
+  std::vector<point3> points(total);
+  detail::checked(planish_mesh_sample_rows(mesh.get(), &options, counts.data(), row_count, detail::flat(points),
+                                           points.size(), &total));
+  std::vector<std::vector<point3>> rows;
+  auto next = points.begin();
+  for (std::size_t count : counts) {
+    rows.emplace_back(next, next + static_cast<std::ptrdiff_t>(count));
+    next += static_cast<std::ptrdiff_t>(count);
+  }
+  return rows;
 }
 
 /// Skins section curves.

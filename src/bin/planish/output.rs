@@ -1,13 +1,15 @@
 //! What the commands print and write.
 
 use crate::Failure;
+use glam::{DVec2, DVec3};
 use planish::export::picture::{Picture, View};
 use planish::export::step::{self, StepOptions};
 use planish::export::{native, obj, vtk};
 use planish::fit::tessellation::TensorFit;
 use planish::mesh::{Mesh, MeshRepairs};
 use planish::query::tessellate::{TessellateOptions, tessellate};
-use planish::surface::AnySurface;
+use planish::surface::tspline::TSplineSurface;
+use planish::surface::{AnySurface, Domain, Patches, Surface};
 use std::fmt;
 use std::path::Path;
 
@@ -102,6 +104,32 @@ pub fn write_picture(mesh: &Mesh, fit: &TensorFit, path: &Path) -> Result<(), Fa
     let range = (0.0, fit.report.max_error);
     picture.draw_mesh(&moved, Some(&fit.errors), range);
     picture.draw_scale("deviation", range);
+    write_png(&picture, path)
+}
+
+/// Writes a picture of a surface with the borders of its patches, and its control net on request.
+pub fn write_knot_picture(surface: &TSplineSurface, has_net: bool, path: &Path) -> Result<(), Failure> {
+    const KNOT_LINE: [f64; 3] = [0.15, 0.2, 0.3];
+    const NET_LINE: [f64; 3] = [0.8, 0.2, 0.1];
+    /// Straight pieces of one side of a patch.
+    const PIECES: usize = 8;
+    let shape = tessellate(surface, &TessellateOptions::default())?.mesh;
+    let mut picture = Picture::new(1200, 900, &View::facing(&shape), &shape);
+    picture.draw_mesh(&shape, None, (0.0, 1.0));
+    for index in 0..surface.patch_count() {
+        let Domain { min, max } = surface.patch(index).domain;
+        for end in [DVec2::new(min.x, max.y), DVec2::new(max.x, min.y)] {
+            let uv: Vec<DVec2> = (0..=PIECES).map(|k| min.lerp(end, k as f64 / PIECES as f64)).collect();
+            let mut rows = vec![0.0; 3 * uv.len()];
+            surface.eval_rows(&uv, 0, &mut rows);
+            let points: Vec<DVec3> = rows.chunks(3).map(DVec3::from_slice).collect();
+            picture.draw_line(&points, KNOT_LINE);
+        }
+    }
+    for curve in surface.curves().iter().filter(|_| has_net) {
+        let points: Vec<DVec3> = curve.control_points().chunks(3).map(DVec3::from_slice).collect();
+        picture.draw_line(&points, NET_LINE);
+    }
     write_png(&picture, path)
 }
 

@@ -281,10 +281,10 @@ fn lofted(
     if options.closed_v {
         return Ok((Loft::closed(parameters, 1.0)?, 0.0));
     }
-    if options.approximate_v {
-        if let Some(found) = approximate::loft(&parameters, &data.sources, tolerance, watch)? {
-            return Ok(found);
-        }
+    if options.approximate_v
+        && let Some(found) = approximate::loft(&parameters, &data.sources, tolerance, watch)?
+    {
+        return Ok(found);
     }
     Ok((Loft::interpolating(parameters, data.has_tangents, steps.length())?, 0.0))
 }
