@@ -39,6 +39,12 @@ inline planish_skin_options skin_options() {
   return options;
 }
 
+inline planish_pht_options pht_options() {
+  planish_pht_options options;
+  planish_pht_options_init(&options, sizeof options);
+  return options;
+}
+
 inline planish_eval_options eval_options() {
   planish_eval_options options;
   planish_eval_options_init(&options, sizeof options);

@@ -117,7 +117,42 @@ FOLLOWS(planish_fit_report, empty_cell_count, flipped_count);
 FOLLOWS(planish_fit_report, flipped_count, remarks);
 FOLLOWS(planish_fit_report, remarks, pass_count);
 FOLLOWS(planish_fit_report, pass_count, stop_reason);
-LAST(planish_fit_report, stop_reason);
+FOLLOWS(planish_fit_report, stop_reason, cell_count);
+FOLLOWS(planish_fit_report, cell_count, rough_cell_count);
+FOLLOWS(planish_fit_report, rough_cell_count, deepest_level);
+FOLLOWS(planish_fit_report, deepest_level, reserved);
+LAST(planish_fit_report, reserved);
+
+FIRST(planish_pht_options);
+FOLLOWS(planish_pht_options, struct_size, tolerance);
+FOLLOWS(planish_pht_options, tolerance, smoothing);
+FOLLOWS(planish_pht_options, smoothing, parameterize);
+FOLLOWS(planish_pht_options, parameterize, weights);
+FOLLOWS(planish_pht_options, weights, progress);
+FOLLOWS(planish_pht_options, progress, user);
+FOLLOWS(planish_pht_options, user, out_parameters);
+FOLLOWS(planish_pht_options, out_parameters, out_errors);
+FOLLOWS(planish_pht_options, out_errors, max_cells);
+FOLLOWS(planish_pht_options, max_cells, tolerance_scale);
+FOLLOWS(planish_pht_options, tolerance_scale, estimator);
+FOLLOWS(planish_pht_options, estimator, regularize);
+FOLLOWS(planish_pht_options, regularize, grid_u);
+FOLLOWS(planish_pht_options, grid_u, grid_v);
+FOLLOWS(planish_pht_options, grid_v, max_level);
+FOLLOWS(planish_pht_options, max_level, min_samples);
+FOLLOWS(planish_pht_options, min_samples, grade);
+FOLLOWS(planish_pht_options, grade, correction_sweeps);
+FOLLOWS(planish_pht_options, correction_sweeps, measure_distance);
+FOLLOWS(planish_pht_options, measure_distance, thread_count);
+FOLLOWS(planish_pht_options, thread_count, reserved);
+LAST(planish_pht_options, reserved);
+
+FIRST(planish_pht_convert_options);
+FOLLOWS(planish_pht_convert_options, struct_size, tolerance);
+FOLLOWS(planish_pht_convert_options, tolerance, max_cells);
+FOLLOWS(planish_pht_convert_options, max_cells, max_level);
+FOLLOWS(planish_pht_convert_options, max_level, reserved);
+LAST(planish_pht_convert_options, reserved);
 
 FIRST(planish_tessellate_options);
 FOLLOWS(planish_tessellate_options, struct_size, chord_tolerance);
@@ -125,7 +160,8 @@ FOLLOWS(planish_tessellate_options, chord_tolerance, max_edge_length);
 FOLLOWS(planish_tessellate_options, max_edge_length, max_point_count);
 FOLLOWS(planish_tessellate_options, max_point_count, keep_trims);
 FOLLOWS(planish_tessellate_options, keep_trims, reserved);
-LAST(planish_tessellate_options, reserved);
+FOLLOWS(planish_tessellate_options, reserved, out_report);
+LAST(planish_tessellate_options, out_report);
 
 FIRST(planish_project_options);
 FOLLOWS(planish_project_options, struct_size, guesses);
@@ -158,8 +194,9 @@ FIRST(planish_vtk_options);
 FOLLOWS(planish_vtk_options, struct_size, deviation_from);
 FOLLOWS(planish_vtk_options, deviation_from, tessellate);
 FOLLOWS(planish_vtk_options, tessellate, thread_count);
-FOLLOWS(planish_vtk_options, thread_count, reserved);
-LAST(planish_vtk_options, reserved);
+FOLLOWS(planish_vtk_options, thread_count, content);
+LAST(planish_vtk_options, content);
+
 FIRST(planish_step_options);
 FOLLOWS(planish_step_options, struct_size, product);
 FOLLOWS(planish_step_options, product, author);
@@ -238,3 +275,25 @@ LAST(planish_skin_options, thread_count);
 
 int planish_layout_holds(void);
 int planish_layout_holds(void) { return 1; }
+
+FIRST(planish_patch);
+FOLLOWS(planish_patch, struct_size, u_min);
+FOLLOWS(planish_patch, u_min, u_max);
+FOLLOWS(planish_patch, u_max, v_min);
+FOLLOWS(planish_patch, v_min, v_max);
+FOLLOWS(planish_patch, v_max, ordinate_count);
+FOLLOWS(planish_patch, ordinate_count, ordinate_width);
+FOLLOWS(planish_patch, ordinate_width, degree_u);
+FOLLOWS(planish_patch, degree_u, degree_v);
+FOLLOWS(planish_patch, degree_v, is_rational);
+FOLLOWS(planish_patch, is_rational, reserved);
+LAST(planish_patch, reserved);
+
+FIRST(planish_convert_options);
+FOLLOWS(planish_convert_options, struct_size, max_coefficients);
+LAST(planish_convert_options, max_coefficients);
+
+FIRST(planish_tessellate_report);
+FOLLOWS(planish_tessellate_report, struct_size, smallest_angle);
+FOLLOWS(planish_tessellate_report, smallest_angle, chord_error);
+LAST(planish_tessellate_report, chord_error);

@@ -329,6 +329,25 @@ typedef enum planish_outside {
 } planish_outside;
 
 /**
+ * What a VTK file holds of a surface.
+ */
+typedef enum planish_vtk_content {
+    /**
+     * Triangles of the part inside the trims, or of deviation_from.
+     */
+    PLANISH_VTK_CONTENT_TRIANGLES = 0,
+    /**
+     * Its Bezier patches as cells of type VTK_BEZIER_QUADRILATERAL (VTK 9): the surface itself. Trims are not
+     * shown; cell data "parameters" has least and largest u, least and largest v of each patch.
+     */
+    PLANISH_VTK_CONTENT_PATCHES = 1,
+    /**
+     * Its control points, joined by polylines as neighbours in the control net.
+     */
+    PLANISH_VTK_CONTENT_CONTROL_NET = 2,
+} planish_vtk_content;
+
+/**
  * Flags of a point: bits of the elements of out_flags.
  */
 typedef enum planish_flag {
@@ -1085,6 +1104,22 @@ typedef struct planish_fit_report {
      * Why the fit ended: a planish_stop_reason.
      */
     uint32_t stop_reason;
+    /**
+     * Cells of an adaptive mesh; 0 for a grid.
+     */
+    size_t cell_count;
+    /**
+     * Cells of it in which an error exceeds the tolerance.
+     */
+    size_t rough_cell_count;
+    /**
+     * The deepest level of its cells: how often one of the first was halved.
+     */
+    uint32_t deepest_level;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
 } planish_fit_report;
 
 /**
@@ -1584,6 +1619,134 @@ typedef struct planish_skin_options {
      */
     uint32_t thread_count;
 } planish_skin_options;
+
+/**
+ * Options of PHT fits. Fill with planish_pht_options_init(), then change what you need.
+ *
+ * A datum is a node of the mesh, or a point; a sample is a datum, or the middle of a triangle.
+ */
+typedef struct planish_pht_options {
+    /**
+     * Set by planish_pht_options_init().
+     */
+    size_t struct_size;
+    /**
+     * The largest error allowed at the data, positive, measured in tolerance_scale. Default 1e-3.
+     */
+    double tolerance;
+    /**
+     * Weight of the bending energy of each cell, mapped to the unit cell. Default 1e-3.
+     */
+    double smoothing;
+    /**
+     * How a mesh without parameters gets them; NULL (default) for a circle, with one stretch step unless the
+     * tolerance is fine and the plain map even. Of this record progress, user and thread_count are not looked at, and node_weights must be
+     * NULL. Not used for points.
+     */
+    const struct planish_parameterize_options *parameterize;
+    /**
+     * A positive weight for each datum; NULL (default) for all 1.
+     */
+    const double *weights;
+    /**
+     * Hears of the progress and may cancel; NULL (default) for nobody.
+     */
+    planish_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *user;
+    /**
+     * Receives the (u,v) at which the error of each datum is measured: two numbers for each datum, or NULL
+     * (default). Written on success only.
+     */
+    double *out_parameters;
+    /**
+     * Receives the error of each datum in model units: one number for each datum, or NULL (default). Written
+     * on success only.
+     */
+    double *out_errors;
+    /**
+     * Most cells, at least the initial ones. Default 200000.
+     */
+    size_t max_cells;
+    /**
+     * A planish_tolerance_scale. Default PLANISH_TOLERANCE_SCALE_RELATIVE.
+     */
+    uint32_t tolerance_scale;
+    /**
+     * A planish_pht_estimator. Default PLANISH_PHT_ESTIMATOR_GLOBAL.
+     */
+    uint32_t estimator;
+    /**
+     * A planish_regularize. Default PLANISH_REGULARIZE_AUTO.
+     */
+    uint32_t regularize;
+    /**
+     * Cells along u to start from, 1 to 4095. Default 1.
+     */
+    uint32_t grid_u;
+    /**
+     * Cells along v to start from, 1 to 4095. Default 1.
+     */
+    uint32_t grid_v;
+    /**
+     * Deepest level of a cell, at most 20. Default 12.
+     */
+    uint32_t max_level;
+    /**
+     * A cell with fewer samples is not split, at least 1. Default 2.
+     */
+    uint32_t min_samples;
+    /**
+     * Levels by which cells that share an edge may differ; 0 for any number. Default 1.
+     */
+    uint32_t grade;
+    /**
+     * Sweeps of parameter correction in each round of the fit of a shape. Default 1.
+     */
+    uint32_t correction_sweeps;
+    /**
+     * 1 measures the closest-point distance of the nodes for the report. Default 0.
+     */
+    uint32_t measure_distance;
+    /**
+     * Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+     */
+    uint32_t thread_count;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} planish_pht_options;
+
+/**
+ * How a tensor surface becomes a PHT-spline. Fill with planish_pht_convert_options_init(), then change what you
+ * need.
+ */
+typedef struct planish_pht_convert_options {
+    /**
+     * Set by planish_pht_convert_options_init().
+     */
+    size_t struct_size;
+    /**
+     * Largest distance at equal parameters, in model units; 0 (default) takes all knot lines, which is exact up to
+     * degree 3.
+     */
+    double tolerance;
+    /**
+     * Most cells; with more the call fails. Default 200000.
+     */
+    size_t max_cells;
+    /**
+     * Deepest level of a cell, at most 20. Default 12.
+     */
+    uint32_t max_level;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} planish_pht_convert_options;
 
 #ifdef __cplusplus
 extern "C" {
@@ -3084,6 +3247,446 @@ enum planish_status planish_tspline_remove_knot_u(struct planish_surface *surfac
                                                   size_t knot,
                                                   double tolerance,
                                                   double *out_error);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_pht_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+ */
+PLANISH_API
+enum planish_status planish_pht_options_init(struct planish_pht_options *options,
+                                             size_t struct_size);
+
+/**
+ * Fits a PHT-spline to the shape of a mesh: a smooth bicubic surface whose cells are as small as the shape asks,
+ * place by place. A mesh without parameters is parameterized first, which changes nothing in the mesh. The
+ * boundary loops become trims.
+ *
+ * mesh:        not NULL.
+ * options:     NULL for the defaults.
+ * out_surface: receives a new surface of dim 3; destroy with planish_surface_free().
+ * out_report:  receives what the fit did and how good it is; NULL for no report.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_FOLDED_PARAMETERS, PLANISH_STATUS_TOLERANCE_NOT_MET,
+ * PLANISH_STATUS_STAGNATED (all three with the best surface found) or an error: PLANISH_STATUS_NULL_POINTER,
+ * PLANISH_STATUS_INVALID_ARGUMENT (an option, or fewer than 3 data), PLANISH_STATUS_NOT_FINITE (a weight; the
+ * index is the datum), PLANISH_STATUS_DEGENERATE (all data have the same u or the same v),
+ * PLANISH_STATUS_SINGULAR (the data do not determine a surface), PLANISH_STATUS_VERSION or
+ * PLANISH_STATUS_CANCELLED; for a mesh without parameters also what planish_mesh_parameterize() returns.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_pht_fit(const struct planish_mesh *mesh,
+                                    const struct planish_pht_options *options,
+                                    struct planish_surface **out_surface,
+                                    struct planish_fit_report *out_report);
+
+/**
+ * Fits a PHT-spline to values at scattered parameters.
+ *
+ * uv:          count rows of u, v.
+ * values:      count rows of dim numbers.
+ * count:       at least 3.
+ * dim:         numbers of a value, at least 1.
+ * options:     NULL for the defaults; parameterize, regularize and correction_sweeps are not used.
+ * out_surface: receives a new surface; destroy with planish_surface_free().
+ * out_report:  receives what the fit did and how good it is; NULL for no report.
+ * Returns what planish_pht_fit() returns; PLANISH_STATUS_NOT_FINITE also for uv and values (the index is the
+ * datum), PLANISH_STATUS_TOO_LARGE (count times dim) and PLANISH_STATUS_OUT_OF_MEMORY.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_pht_fit_points(const double *uv,
+                                           const double *values,
+                                           size_t count,
+                                           size_t dim,
+                                           const struct planish_pht_options *options,
+                                           struct planish_surface **out_surface,
+                                           struct planish_fit_report *out_report);
+
+/**
+ * Fits a PHT-spline to values on the nodes of a mesh, over the same parameters as its shape.
+ *
+ * mesh:        not NULL.
+ * values:      count rows of dim numbers.
+ * count:       planish_mesh_point_count().
+ * dim:         numbers of a value, at least 1.
+ * options:     NULL for the defaults; correction_sweeps is not used.
+ * out_surface: receives a new surface; destroy with planish_surface_free().
+ * out_report:  receives what the fit did and how good it is; NULL for no report.
+ * Returns what planish_pht_fit() returns; PLANISH_STATUS_INVALID_ARGUMENT also for count,
+ * PLANISH_STATUS_NOT_FINITE also for values (the index is the node), and PLANISH_STATUS_TOO_LARGE.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_pht_fit_field(const struct planish_mesh *mesh,
+                                          const double *values,
+                                          size_t count,
+                                          size_t dim,
+                                          const struct planish_pht_options *options,
+                                          struct planish_surface **out_surface,
+                                          struct planish_fit_report *out_report);
+
+/**
+ * Makes a PHT-spline from an initial grid and a list of splits.
+ *
+ * dim:           numbers of a value, at least 1.
+ * is_rational:   1 if values are followed by a weight and multiplied by it, else 0.
+ * lines_u:       line_count_u increasing parameters.
+ * line_count_u:  2 to 4096.
+ * lines_v:       line_count_v increasing parameters.
+ * line_count_v:  2 to 4096.
+ * cells:         split_count rows of level, i, j: the cells to split, a cell before its quarters; i and j are
+ *                counted along u and v over the cells of that level.
+ * split_count:   may be 0.
+ * data:          for each basis vertex, ordered along u, then along v, the rows f, f_u, f_v, f_uv of dim numbers
+ *                (dim + 1 with weights); NULL for zeros, and weights of 1: the vertices are known afterwards.
+ * data_count:    numbers in data; 0 if it is NULL.
+ * out_surface:   receives a new surface; destroy with planish_surface_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (dim, a count, a line
+ * that does not increase, a weight that is not positive everywhere), PLANISH_STATUS_NOT_FINITE (the index is the
+ * line or the vertex), PLANISH_STATUS_INDEX (a cell that is no leaf when its turn comes; the index is its row),
+ * PLANISH_STATUS_TOO_LARGE (lines, or a level above 20) or PLANISH_STATUS_OUT_OF_MEMORY.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_pht_new(size_t dim,
+                                    uint32_t is_rational,
+                                    const double *lines_u,
+                                    size_t line_count_u,
+                                    const double *lines_v,
+                                    size_t line_count_v,
+                                    const uint32_t *cells,
+                                    size_t split_count,
+                                    const double *data,
+                                    size_t data_count,
+                                    struct planish_surface **out_surface);
+
+/**
+ * Splits cells of a PHT-spline at their middles; the surface stays the same, all cells or none are split.
+ *
+ * surface: not NULL; changed.
+ * cells:   count rows of level, i, j: leaves when their turn comes, so quarters may follow their cell.
+ * count:   may be 0.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX (a cell
+ * is no leaf; the index is its row), PLANISH_STATUS_TOO_LARGE (a level above 20) or
+ * PLANISH_STATUS_OUT_OF_MEMORY.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_pht_split(struct planish_surface *surface,
+                                      const uint32_t *cells,
+                                      size_t count);
+
+/**
+ * Merges the quarters of cells of a PHT-spline: the exact inverse of planish_pht_split(). The surface changes
+ * where the vertices that vanish acted, which may reach beyond the neighbours. All cells or none are merged.
+ *
+ * surface: not NULL; changed.
+ * cells:   count rows of level, i, j: cells whose quarters are four leaves when their turn comes.
+ * count:   may be 0.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX (the
+ * quarters are not four leaves; the index is the row) or PLANISH_STATUS_OUT_OF_MEMORY.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_pht_merge(struct planish_surface *surface,
+                                      const uint32_t *cells,
+                                      size_t count);
+
+/**
+ * Merges as many cells of a PHT-spline as it can while no point moves by more than a tolerance.
+ *
+ * surface:       not NULL; changed.
+ * tolerance:     in model units, not negative.
+ * out_deviation: receives a bound of how far a point has moved; NULL for none.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
+ * PLANISH_STATUS_INVALID_ARGUMENT (tolerance).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_pht_simplify(struct planish_surface *surface,
+                                         double tolerance,
+                                         double *out_deviation);
+
+/**
+ * Splits all cells of a PHT-spline that meet the inside of a rectangle until they have at least some level; the
+ * surface stays the same.
+ *
+ * surface:   not NULL; changed.
+ * region:    least u, largest u, least v, largest v.
+ * level:     at most 20.
+ * max_cells: with more cells the call fails.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
+ * PLANISH_STATUS_TOO_LARGE (level, cells).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_pht_refine_region(struct planish_surface *surface,
+                                              const double *region,
+                                              uint32_t level,
+                                              size_t max_cells);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_pht_convert_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+ */
+PLANISH_API
+enum planish_status planish_pht_convert_options_init(struct planish_pht_convert_options *options,
+                                                     size_t struct_size);
+
+/**
+ * Makes a PHT-spline of a tensor surface, with its weights and trims.
+ *
+ * surface:     not NULL, a tensor surface without creases: no knot inside occurs degree times.
+ * options:     NULL for the defaults.
+ * out_surface: receives a new surface; destroy with planish_surface_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND (a PHT-spline is refused as
+ * well), PLANISH_STATUS_INVALID_ARGUMENT (an option; a crease, the index is the knot: convert the parts of
+ * planish_tensor_split()), PLANISH_STATUS_TOO_LARGE (the limits do not allow the tolerance) or
+ * PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_pht_from_surface(const struct planish_surface *surface,
+                                             const struct planish_pht_convert_options *options,
+                                             struct planish_surface **out_surface);
+
+/**
+ * Makes tensor surfaces that together are a PHT-spline exactly. They meet with equal parameters, each over cells
+ * whose levels differ by at most sigma: many small ones for 0, one for 20. They have no trims.
+ *
+ * surface:      not NULL.
+ * sigma:        levels.
+ * out_surfaces: receives new surfaces; destroy each with planish_surface_free(). NULL asks for the number.
+ * count:        handles that out_surfaces has room for.
+ * out_count:    receives the number of surfaces.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND,
+ * PLANISH_STATUS_BUFFER_TOO_SMALL (nothing is made) or PLANISH_STATUS_NOT_FINITE (a number would overflow).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_pht_to_tensor_patches(const struct planish_surface *surface,
+                                                  uint32_t sigma,
+                                                  struct planish_surface **out_surfaces,
+                                                  size_t count,
+                                                  size_t *out_count);
+
+/**
+ * Makes two PHT-splines meet with common tangents along an edge of each: both get the same vertices there, by
+ * splits, and the means of their positions and derivatives. Changes neither if they cannot be stitched.
+ *
+ * first:       not NULL, not second; changed.
+ * first_side:  a planish_border_side.
+ * second:      not NULL; changed.
+ * second_side: a planish_border_side.
+ * is_reversed: 1 if the edges run in opposite directions, else 0.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
+ * PLANISH_STATUS_INVALID_ARGUMENT (a side; the dimensions or the initial grids along the edges differ).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_pht_stitch(struct planish_surface *first,
+                                       uint32_t first_side,
+                                       struct planish_surface *second,
+                                       uint32_t second_side,
+                                       uint32_t is_reversed);
+
+/**
+ * Number of cells (leaves) of a PHT-spline; 0 for NULL and other families. Cell k is patch k of
+ * planish_surface_copy_patch().
+ */
+PLANISH_API size_t planish_pht_cell_count(const struct planish_surface *surface);
+
+/**
+ * Number of basis vertices of a PHT-spline, each with four control points; 0 for NULL and other families.
+ */
+PLANISH_API size_t planish_pht_vertex_count(const struct planish_surface *surface);
+
+/**
+ * Number of T-vertices of a PHT-spline: they lie inside an edge of a cell, their host, and have its data; 0 for
+ * NULL and other families.
+ */
+PLANISH_API
+size_t planish_pht_hanging_count(const struct planish_surface *surface);
+
+/**
+ * Numbers of a row of data: dim, or dim + 1 with weights; 0 for NULL and other families.
+ */
+PLANISH_API size_t planish_pht_width(const struct planish_surface *surface);
+
+/**
+ * Copies the addresses of the cells of a PHT-spline.
+ *
+ * surface:   not NULL.
+ * out_cells: receives planish_pht_cell_count() rows of level, i, j.
+ * count:     rows that out_cells has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
+ * PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_pht_copy_cells(const struct planish_surface *surface,
+                                           uint32_t *out_cells,
+                                           size_t count);
+
+/**
+ * Copies the parameters of the basis vertices of a PHT-spline, ordered along u, then along v.
+ *
+ * surface: not NULL.
+ * out_uv:  receives planish_pht_vertex_count() rows of u, v.
+ * count:   rows that out_uv has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
+ * PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_pht_copy_vertices(const struct planish_surface *surface,
+                                              double *out_uv,
+                                              size_t count);
+
+/**
+ * Copies the T-vertices of a PHT-spline with their hosts.
+ *
+ * surface:   not NULL.
+ * out_uv:    receives planish_pht_hanging_count() rows of u, v; NULL for none.
+ * out_hosts: receives as many numbers of cells; NULL for none.
+ * count:     rows that each has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
+ * PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_pht_copy_hanging(const struct planish_surface *surface,
+                                             double *out_uv,
+                                             uint32_t *out_hosts,
+                                             size_t count);
+
+/**
+ * Copies the numbers of the cells that share a part of an edge with a cell: those at its least u, largest u,
+ * least v and largest v, in order along each.
+ *
+ * surface:   not NULL.
+ * cell:      below planish_pht_cell_count().
+ * out_cells: receives the numbers; NULL asks how many there are.
+ * count:     numbers that out_cells has room for.
+ * out_count: receives how many there are.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX or
+ * PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_pht_copy_neighbours(const struct planish_surface *surface,
+                                                size_t cell,
+                                                size_t *out_cells,
+                                                size_t count,
+                                                size_t *out_count);
+
+/**
+ * Copies the data of the basis vertices of a PHT-spline.
+ *
+ * surface:  not NULL.
+ * out_data: receives for each of planish_pht_vertex_count() vertices four rows f, f_u, f_v, f_uv of
+ *           planish_pht_width() numbers; with weights those of (w x, .., w).
+ * count:    vertices that out_data has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
+ * PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_pht_copy_data(const struct planish_surface *surface,
+                                          double *out_data,
+                                          size_t count);
+
+/**
+ * Replaces the data of some basis vertices of a PHT-spline, all or none.
+ *
+ * surface:  not NULL; changed.
+ * vertices: count numbers below planish_pht_vertex_count().
+ * count:    may be 0.
+ * data:     for each of them four rows f, f_u, f_v, f_uv of planish_pht_width() numbers.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX,
+ * PLANISH_STATUS_NOT_FINITE (the index is the vertex), PLANISH_STATUS_INVALID_ARGUMENT (a weight would not be
+ * positive everywhere; the index is the cell) or PLANISH_STATUS_TOO_LARGE.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_pht_set_data(struct planish_surface *surface,
+                                         const size_t *vertices,
+                                         size_t count,
+                                         const double *data);
+
+/**
+ * Copies the control points of a PHT-spline.
+ *
+ * surface:    not NULL.
+ * basis:      a planish_pht_basis.
+ * out_points: receives for each of planish_pht_vertex_count() vertices four rows --, +-, -+, ++ (towards less or
+ *             more u, then v) of planish_pht_width() numbers; with weights those of (w x, .., w).
+ * count:      vertices that out_points has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND,
+ * PLANISH_STATUS_INVALID_ARGUMENT (basis) or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_pht_copy_control_points(const struct planish_surface *surface,
+                                                    uint32_t basis,
+                                                    double *out_points,
+                                                    size_t count);
+
+/**
+ * Replaces the control points of some basis vertices of a PHT-spline, all or none.
+ *
+ * surface:  not NULL; changed.
+ * vertices: count numbers below planish_pht_vertex_count().
+ * count:    may be 0.
+ * basis:    a planish_pht_basis.
+ * points:   for each of them four rows --, +-, -+, ++ of planish_pht_width() numbers.
+ * Returns what planish_pht_set_data() returns; PLANISH_STATUS_INVALID_ARGUMENT also for basis.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_pht_set_control_points(struct planish_surface *surface,
+                                                   const size_t *vertices,
+                                                   size_t count,
+                                                   uint32_t basis,
+                                                   const double *points);
+
+/**
+ * Copies the operator that makes the Bezier ordinates of a cell from the control points that act on it.
+ *
+ * surface:      not NULL.
+ * cell:         below planish_pht_cell_count().
+ * basis:        a planish_pht_basis.
+ * out_vertices: receives the basis vertices, ascending; NULL asks how many there are.
+ * out_matrix:   receives 16 rows, v running fastest, of four numbers for each vertex; NULL for none.
+ * count:        vertices that both have room for.
+ * out_count:    receives how many there are.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX,
+ * PLANISH_STATUS_INVALID_ARGUMENT (basis) or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_pht_copy_extraction(const struct planish_surface *surface,
+                                                size_t cell,
+                                                uint32_t basis,
+                                                uint32_t *out_vertices,
+                                                double *out_matrix,
+                                                size_t count,
+                                                size_t *out_count);
+
+/**
+ * The number of the cell that has a parameter pair: on a line the one to the right or above; beyond the domain the
+ * nearest. 0 for NULL and other families.
+ */
+PLANISH_API
+size_t planish_pht_cell_at(const struct planish_surface *surface,
+                           double u,
+                           double v);
 
 #ifdef __cplusplus
 }  // extern "C"

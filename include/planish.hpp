@@ -132,6 +132,12 @@ inline planish_status init(planish_sample_rows_options &options) {
 inline planish_status init(planish_skin_options &options) {
   return planish_skin_options_init(&options, sizeof options);
 }
+inline planish_status init(planish_pht_options &options) {
+  return planish_pht_options_init(&options, sizeof options);
+}
+inline planish_status init(planish_pht_convert_options &options) {
+  return planish_pht_convert_options_init(&options, sizeof options);
+}
 inline planish_status init(planish_eval_options &options) {
   return planish_eval_options_init(&options, sizeof options);
 }
@@ -143,6 +149,9 @@ inline planish_status init(planish_deviation_options &options) {
 }
 inline planish_status init(planish_tessellate_options &options) {
   return planish_tessellate_options_init(&options, sizeof options);
+}
+inline planish_status init(planish_convert_options &options) {
+  return planish_convert_options_init(&options, sizeof options);
 }
 inline planish_status init(planish_step_options &options) {
   return planish_step_options_init(&options, sizeof options);
@@ -465,6 +474,14 @@ struct deviated {
   planish_deviation_report report;
 };
 
+/// A Bezier patch of a surface.
+struct patch {
+  /// Its rectangle of parameters, its degrees and sizes.
+  planish_patch record;
+  /// Rows of record.ordinate_width numbers, v running fastest.
+  std::vector<double> ordinates;
+};
+
 /// A surface: a map from a rectangle of parameters (u,v) to R^dim. Copies are deep; one that was moved from may
 /// only be assigned to or destroyed.
 ///
@@ -645,7 +662,7 @@ class surface {
     return mesh(made);
   }
 
-  /// Writes a VTK file of triangles (.vtu); `path` is UTF-8.
+  /// Writes a VTK file (.vtu) of triangles, patches or the control net; `path` is UTF-8.
   void write_vtk(const std::string &path,
                  const planish_vtk_options &options = defaults<planish_vtk_options>()) const {
     detail::checked(planish_surface_write_vtk(get(), path.c_str(), &options));
@@ -684,6 +701,49 @@ class surface {
     planish_surface *made = nullptr;
     detail::checked(planish_surface_load_file(path.c_str(), &made));
     return surface(made);
+  }
+
+  /// Number of Bezier patches; 0 for a family that is not polynomial on rectangles.
+  std::size_t patch_count() const noexcept { return planish_surface_patch_count(get()); }
+
+  /// The number of the patch over a parameter pair.
+  std::size_t patch_at(double u, double v) const noexcept { return planish_surface_patch_at(get(), u, v); }
+
+  /// The exact Bezier patch of a number below patch_count().
+  planish::patch patch(std::size_t index) const {
+    planish::patch result{detail::sized<planish_patch>(), {}};
+    detail::checked(planish_surface_copy_patch(get(), index, &result.record, nullptr, 0));
+    result.ordinates.resize(result.record.ordinate_count * result.record.ordinate_width);
+    detail::checked(planish_surface_copy_patch(get(), index, nullptr, result.ordinates.data(),
+                                               result.record.ordinate_count));
+    return result;
+  }
+
+  /// The same surface as a tensor surface.
+  surface to_tensor(const planish_convert_options &options = defaults<planish_convert_options>()) const {
+    planish_surface *made = nullptr;
+    detail::checked(planish_surface_to_tensor(get(), &options, &made));
+    return surface(made);
+  }
+
+  /// Inserts knots into a tensor surface along a planish_axis; the surface stays the same.
+  void insert_knots(std::uint32_t axis, const values<double> &knots) {
+    detail::checked(planish_tensor_insert_knots(get(), axis, knots.data(), knots.count()));
+  }
+
+  /// Raises the degree of a tensor surface along a planish_axis; the surface stays the same.
+  void elevate_degree(std::uint32_t axis, std::uint32_t degree) {
+    detail::checked(planish_tensor_elevate_degree(get(), axis, degree));
+  }
+
+  /// Turns a tensor surface round along a planish_axis.
+  void reverse(std::uint32_t axis) { detail::checked(planish_tensor_reverse(get(), axis)); }
+
+  /// The parts of a tensor surface below and above a parameter along a planish_axis.
+  std::array<surface, 2> split(std::uint32_t axis, double at) const {
+    planish_surface *lower = nullptr, *upper = nullptr;
+    detail::checked(planish_tensor_split(get(), axis, at, &lower, &upper));
+    return {surface(lower), surface(upper)};
   }
 
   /// Degree of a tensor surface along a planish_axis; 0 for other families.
@@ -840,8 +900,8 @@ Fitted fit_any(Options options, const progress &hear, const Call &call) {
   return {std::move(owner), report, status};
 }
 
-template <class Call>
-fitted fit(const planish_tensor_options &options, const progress &hear, const Call &call) {
+template <class Options, class Call>
+fitted fit(const Options &options, const progress &hear, const Call &call) {
   return fit_any<fitted, surface, planish_surface>(options, hear, call);
 }
 
@@ -893,6 +953,62 @@ inline fitted tensor_fit_field(const mesh &mesh, const values<double> &values, s
   });
 }
 
+/// Fits a PHT-spline to the shape of a mesh: cells as small as the shape asks. A mesh without parameters is
+/// parameterized first.
+inline fitted pht_fit(const mesh &mesh, const planish_pht_options &options = defaults<planish_pht_options>(),
+                      const progress &hear = {}) {
+  return detail::fit(options, hear, [&](const planish_pht_options *given, auto out, auto report) {
+    return planish_pht_fit(mesh.get(), given, out, report);
+  });
+}
+
+/// Fits a PHT-spline to rows of `dim` numbers at scattered parameters.
+inline fitted pht_fit_points(const rows<double, 2> &uv, const values<double> &values, std::size_t dim,
+                             const planish_pht_options &options = defaults<planish_pht_options>(),
+                             const progress &hear = {}) {
+  detail::check_rows(values.count(), uv.count(), dim);
+  return detail::fit(options, hear, [&](const planish_pht_options *given, auto out, auto report) {
+    return planish_pht_fit_points(uv.data(), values.data(), uv.count(), dim, given, out, report);
+  });
+}
+
+/// Fits a PHT-spline to rows of `dim` numbers on the nodes of a mesh.
+inline fitted pht_fit_field(const mesh &mesh, const values<double> &values, std::size_t dim,
+                            const planish_pht_options &options = defaults<planish_pht_options>(),
+                            const progress &hear = {}) {
+  detail::check_rows(values.count(), mesh.point_count(), dim);
+  return detail::fit(options, hear, [&](const planish_pht_options *given, auto out, auto report) {
+    return planish_pht_fit_field(mesh.get(), values.data(), mesh.point_count(), dim, given, out, report);
+  });
+}
+
+/// A cell of a PHT-spline: level, i, j.
+using pht_cell = std::array<std::uint32_t, 3>;
+
+/// Makes a PHT-spline from an initial grid and splits, with data of zero (and weights of 1).
+inline surface pht_new(std::size_t dim, bool is_rational, const values<double> &lines_u,
+                       const values<double> &lines_v, const std::vector<pht_cell> &splits = {}) {
+  planish_surface *made = nullptr;
+  detail::checked(planish_pht_new(dim, is_rational ? 1 : 0, lines_u.data(), lines_u.count(), lines_v.data(),
+                                  lines_v.count(), splits.empty() ? nullptr : splits.front().data(),
+                                  splits.size(), nullptr, 0, &made));
+  return surface(made);
+}
+
+/// Makes a PHT-spline of a tensor surface, with its weights and trims.
+inline surface pht_from_surface(
+    const surface &tensor, const planish_pht_convert_options &options = defaults<planish_pht_convert_options>()) {
+  planish_surface *made = nullptr;
+  detail::checked(planish_pht_from_surface(tensor.get(), &options, &made));
+  return surface(made);
+}
+
+/// Makes two PHT-splines meet with common tangents along an edge of each.
+inline void pht_stitch(surface &first, planish_border_side first_side, surface &second,
+                       planish_border_side second_side, bool is_reversed) {
+  detail::checked(planish_pht_stitch(first.get(), first_side, second.get(), second_side, is_reversed ? 1 : 0));
+}
+
 /// Fits a cubic curve to rows of `dim` numbers at parameters in any order.
 inline fitted_curve curve_fit(const values<double> &u, const values<double> &values, std::size_t dim,
                               const planish_tensor_options &options = defaults<planish_tensor_options>(),
@@ -903,6 +1019,90 @@ inline fitted_curve curve_fit(const values<double> &u, const values<double> &val
         return planish_curve_fit(u.data(), values.data(), u.count(), dim, given, out, report);
       });
 }
+
+/// A PHT-spline, seen as one: cells, vertices and what can be done with them. It must not outlive its surface.
+class pht {
+ public:
+  /// Throws if the surface is of another family.
+  explicit pht(surface &of) : surface_(of.get()) {
+    if (planish_surface_kind(surface_) != PLANISH_KIND_PHT) {
+      throw error(PLANISH_STATUS_WRONG_KIND, "the surface is no PHT-spline", -1);
+    }
+  }
+
+  /// Number of cells.
+  std::size_t cell_count() const noexcept { return planish_pht_cell_count(surface_); }
+  /// Number of basis vertices.
+  std::size_t vertex_count() const noexcept { return planish_pht_vertex_count(surface_); }
+  /// Numbers of a row of data.
+  std::size_t width() const noexcept { return planish_pht_width(surface_); }
+
+  /// The addresses of the cells.
+  std::vector<pht_cell> cells() const {
+    std::vector<pht_cell> cells(cell_count());
+    detail::checked(planish_pht_copy_cells(surface_, detail::flat(cells), cells.size()));
+    return cells;
+  }
+
+  /// The parameters of the basis vertices.
+  std::vector<point2> vertices() const {
+    std::vector<point2> uv(vertex_count());
+    detail::checked(planish_pht_copy_vertices(surface_, detail::flat(uv), uv.size()));
+    return uv;
+  }
+
+  /// For each basis vertex the rows f, f_u, f_v, f_uv.
+  std::vector<double> data() const {
+    std::vector<double> data(4 * width() * vertex_count());
+    detail::checked(planish_pht_copy_data(surface_, data.data(), vertex_count()));
+    return data;
+  }
+
+  /// Replaces the data of some basis vertices.
+  void set_data(const std::vector<std::size_t> &vertices, const std::vector<double> &data) {
+    detail::check_rows(data.size(), vertices.size(), 4 * width());
+    detail::checked(planish_pht_set_data(surface_, vertices.data(), vertices.size(), data.data()));
+  }
+
+  /// For each basis vertex the control points --, +-, -+, ++.
+  std::vector<double> control_points(planish_pht_basis basis = PLANISH_PHT_BASIS_CANONICAL) const {
+    std::vector<double> points(4 * width() * vertex_count());
+    detail::checked(planish_pht_copy_control_points(surface_, basis, points.data(), vertex_count()));
+    return points;
+  }
+
+  /// Splits leaves; the surface stays the same.
+  void split(const std::vector<pht_cell> &cells) {
+    detail::checked(planish_pht_split(surface_, cells.empty() ? nullptr : cells.front().data(), cells.size()));
+  }
+
+  /// Merges the quarters of cells.
+  void merge(const std::vector<pht_cell> &cells) {
+    detail::checked(planish_pht_merge(surface_, cells.empty() ? nullptr : cells.front().data(), cells.size()));
+  }
+
+  /// Merges what it can while no point moves by more than `tolerance`; returns a bound of how far one has.
+  double simplify(double tolerance) {
+    double deviation = 0;
+    detail::checked(planish_pht_simplify(surface_, tolerance, &deviation));
+    return deviation;
+  }
+
+  /// Exact tensor surfaces over cells whose levels differ by at most `sigma`.
+  std::vector<surface> tensor_patches(std::uint32_t sigma) const {
+    std::size_t count = 0;
+    detail::checked(planish_pht_to_tensor_patches(surface_, sigma, nullptr, 0, &count));
+    std::vector<surface> patches;
+    patches.reserve(count);
+    std::vector<planish_surface *> handles(count);
+    detail::checked(planish_pht_to_tensor_patches(surface_, sigma, handles.data(), count, &count));
+    for (planish_surface *handle : handles) patches.emplace_back(handle);
+    return patches;
+  }
+
+ private:
+  planish_surface *surface_;
+};
 
 /// Makes a tensor surface from its parts. Control points are rows of `dim` numbers, v running fastest; no
 /// weights make it polynomial.

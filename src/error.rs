@@ -19,6 +19,7 @@ use crate::query::project::ProjectError;
 use crate::query::rows::SampleRowsError;
 use crate::query::tessellate::TessellateError;
 use crate::surface::evaluate::EvalError;
+use crate::surface::pht::PhtError;
 use crate::surface::tensor::TensorError;
 use crate::surface::tspline::TSplineError;
 use crate::surface::{ConvertError, TrimError};
@@ -85,6 +86,9 @@ pub enum Error {
     /// A tensor surface is not one.
     #[error(transparent)]
     Tensor(#[from] TensorError),
+    /// A PHT-spline is not one, or cannot be changed as asked.
+    #[error(transparent)]
+    Pht(#[from] PhtError),
     /// A T-spline is not one, or cannot be changed as asked.
     #[error(transparent)]
     TSpline(#[from] TSplineError),
@@ -147,6 +151,7 @@ impl Error {
             Self::Knots(error) => (error.kind(), error.index()),
             Self::Curve(error) => (error.kind(), error.index()),
             Self::Tensor(error) => (error.kind(), error.index()),
+            Self::Pht(error) => (error.kind(), error.index()),
             Self::TSpline(error) => (error.kind(), error.index()),
             Self::Eval(error) => (error.kind(), error.index()),
             Self::Deviation(error) => (error.kind(), error.index()),

@@ -45,6 +45,8 @@ pub(super) enum ArgumentError {
     NoPatches { found: Kind },
     #[error("the surface is of the family {found:?}, which has no control net")]
     NoControlNet { found: Kind },
+    #[error("{name} must be another handle")]
+    NotTwo { name: &'static str },
     #[error("no memory for {count} elements of {name}")]
     OutOfMemory { name: &'static str, count: usize },
 }

@@ -6,7 +6,8 @@ use super::planish_status;
 use super::surface::planish_surface;
 use crate::fit::report::{FitReport, Remarks, StopReason};
 use crate::fit::skin::SkinFit;
-use crate::fit::tessellation::{CurveFit, TensorFit};
+use crate::fit::tessellation::CurveFit;
+use crate::surface::AnySurface;
 use glam::DVec2;
 use std::mem::MaybeUninit;
 
@@ -127,14 +128,22 @@ pub struct planish_fit_report {
     pub pass_count: u32,
     /// Why the fit ended: a planish_stop_reason.
     pub stop_reason: u32,
+    /// Cells of an adaptive mesh; 0 for a grid.
+    pub cell_count: usize,
+    /// Cells of it in which an error exceeds the tolerance.
+    pub rough_cell_count: usize,
+    /// The deepest level of its cells: how often one of the first was halved.
+    pub deepest_level: u32,
+    /// 0.
+    pub reserved: u32,
 }
 
-record!(planish_fit_report, 168, {
+record!(planish_fit_report, 192, {
     struct_size: 0, max_error: 8, rms_error: 16, mean_error: 24, tolerance: 32, diagonal: 40,
     max_interior_error: 48, facet_sagitta: 56, max_distance: 64, smoothing: 72, stretch: 80,
     parameterize_seconds: 88, seconds: 96, worst_index: 104, grid_u: 112, grid_v: 120,
     coefficient_count: 128, empty_cell_count: 136, flipped_count: 144, remarks: 152, pass_count: 160,
-    stop_reason: 164,
+    stop_reason: 164, cell_count: 168, rough_cell_count: 176, deepest_level: 184, reserved: 188,
 });
 
 impl From<&FitReport> for planish_fit_report {
@@ -162,6 +171,10 @@ impl From<&FitReport> for planish_fit_report {
             remarks: report.remarks.0,
             pass_count: u32::try_from(report.passes).unwrap_or(u32::MAX),
             stop_reason: planish_stop_reason::from(report.stop) as u32,
+            cell_count: report.cell_count,
+            rough_cell_count: report.rough_cell_count,
+            deepest_level: report.deepest_level,
+            reserved: 0,
         }
     }
 }
@@ -241,9 +254,14 @@ impl<T> FitOutputs<'_, T> {
 }
 
 impl FitOutputs<'_, planish_surface> {
-    pub fn store_surface(self, fit: TensorFit) -> planish_status {
-        let handle = planish_surface::into_raw(fit.surface);
-        self.store(&fit.parameters, &fit.errors, &fit.report, handle)
+    pub fn store_surface(
+        self,
+        surface: impl Into<AnySurface>,
+        parameters: &[DVec2],
+        errors: &[f64],
+        report: &FitReport,
+    ) -> planish_status {
+        self.store(parameters, errors, report, planish_surface::into_raw(surface))
     }
 
     /// Of section curves the caller has no data to be told of.

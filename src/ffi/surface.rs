@@ -14,6 +14,7 @@ use crate::surface::evaluate::{
     FLAG_IN_BUFFER, FLAG_NO_NORMAL, FLAG_OUTSIDE_DOMAIN, FLAG_OUTSIDE_TRIMS, Output, OutsideRule, Points,
     Quantity, evaluate,
 };
+use crate::surface::pht::PhtSurface;
 use crate::surface::tensor::TensorSurface;
 use crate::surface::tspline::TSplineSurface;
 use crate::surface::{AnySurface, Domain, Kind, MAX_DERIVATIVE, Surface, Trims};
@@ -83,10 +84,10 @@ impl planish_surface {
     }
 
     pub(super) fn tensor_mut(&mut self) -> Result<&mut TensorSurface, ArgumentError> {
-        self.tensor()?;
+        let refused = self.wrong_kind(Kind::Tensor);
         match &mut self.0 {
             Family::Any(AnySurface::Tensor(tensor)) => Ok(tensor),
-            _ => unreachable!("refused above"),
+            _ => Err(refused),
         }
     }
 
@@ -98,10 +99,25 @@ impl planish_surface {
     }
 
     pub(super) fn tspline_mut(&mut self) -> Result<&mut TSplineSurface, ArgumentError> {
-        self.tspline()?;
+        let refused = self.wrong_kind(Kind::TSpline);
         match &mut self.0 {
             Family::Any(AnySurface::TSpline(tspline)) => Ok(tspline),
-            _ => unreachable!("refused above"),
+            _ => Err(refused),
+        }
+    }
+
+    pub(super) fn pht(&self) -> Result<&PhtSurface, ArgumentError> {
+        match &self.0 {
+            Family::Any(AnySurface::Pht(pht)) => Ok(pht),
+            _ => Err(self.wrong_kind(Kind::Pht)),
+        }
+    }
+
+    pub(super) fn pht_mut(&mut self) -> Result<&mut PhtSurface, ArgumentError> {
+        let refused = self.wrong_kind(Kind::Pht);
+        match &mut self.0 {
+            Family::Any(AnySurface::Pht(pht)) => Ok(pht),
+            _ => Err(refused),
         }
     }
 

@@ -244,7 +244,7 @@ unsafe fn fit(
         let fit = with_control(given.thread_count, given.progress, given.user, |control| {
             method(&options, control)
         })??;
-        Ok(outputs.store_surface(fit))
+        Ok(outputs.store_surface(fit.surface, &fit.parameters, &fit.errors, &fit.report))
     }
 }
 

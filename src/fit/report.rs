@@ -1,6 +1,9 @@
 //! What a fit says of itself, the same for every method.
 
 use crate::geometry::Bounds;
+use crate::mesh::Mesh;
+use crate::parameterize::{folds, stretch};
+use glam::DVec2;
 
 /// What a tolerance is measured in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -102,6 +105,11 @@ impl Remarks {
         }
     }
 
+    /// Takes `other` out.
+    pub fn remove(&mut self, other: Self) {
+        self.0 &= !other.0;
+    }
+
     /// Whether all bits of `other` hold.
     pub fn has(self, other: Self) -> bool {
         self.0 & other.0 == other.0
@@ -135,6 +143,12 @@ pub struct FitReport {
     pub grid_u: usize,
     /// Knots of the grid along v.
     pub grid_v: usize,
+    /// Cells of an adaptive mesh; 0 for a grid.
+    pub cell_count: usize,
+    /// The deepest level of its cells: how often one of the first was halved.
+    pub deepest_level: u32,
+    /// Cells of it in which an error exceeds the tolerance.
+    pub rough_cell_count: usize,
     /// Unknowns of the fit. The surface may store more control points, which these determine.
     pub coefficient_count: usize,
     /// Weight of the smoothing energy in the chosen fit.
@@ -155,4 +169,14 @@ pub struct FitReport {
     pub seconds: f64,
     /// Everything worth knowing.
     pub remarks: Remarks,
+}
+
+impl FitReport {
+    /// Adds what the parameters of a mesh are like.
+    pub fn measure_map(&mut self, mesh: &Mesh, uv: &[DVec2]) {
+        let (reversed, flat) = folds(mesh.triangles(), uv);
+        self.flipped_count = reversed + flat;
+        self.remarks.add_if(self.flipped_count > 0, Remarks::FOLDED_PARAMETERS);
+        self.stretch = stretch(mesh.points(), mesh.triangles(), uv).l2;
+    }
 }

@@ -1,7 +1,8 @@
 //! A surface of any family.
 
 use super::Surface;
-use super::tensor::TensorSurface;
+use super::pht::PhtSurface;
+use super::tensor::{TensorError, TensorSurface};
 use super::tspline::{TSplineError, TSplineSurface};
 
 /// A surface cannot be converted.
@@ -15,6 +16,9 @@ pub enum ConvertError {
         /// The limit.
         limit: usize,
     },
+    /// A number of the result would overflow.
+    #[error("the tensor surface would not be one: {0}")]
+    Tensor(#[from] TensorError),
     /// The control curves of a T-spline have no common knots.
     #[error(transparent)]
     TSpline(#[from] TSplineError),
@@ -25,6 +29,7 @@ impl ConvertError {
     pub fn kind(&self) -> crate::ErrorKind {
         match self {
             Self::TooLarge { .. } => crate::ErrorKind::TooLarge,
+            Self::Tensor(error) => error.kind(),
             Self::TSpline(error) => error.kind(),
         }
     }
@@ -37,6 +42,8 @@ pub enum AnySurface {
     Tensor(TensorSurface),
     /// T-spline with control curves.
     TSpline(TSplineSurface),
+    /// Bicubic spline over a hierarchical T-mesh.
+    Pht(PhtSurface),
 }
 
 impl AnySurface {
@@ -44,6 +51,7 @@ impl AnySurface {
     pub fn as_surface(&self) -> &dyn Surface {
         match self {
             Self::Tensor(surface) => surface,
+            Self::Pht(surface) => surface,
             Self::TSpline(surface) => surface,
         }
     }
@@ -57,6 +65,7 @@ impl AnySurface {
                 }
                 _ => Ok(surface.clone()),
             },
+            Self::Pht(surface) => surface.to_tensor(max_coefficients),
             Self::TSpline(surface) => surface.to_tensor(max_coefficients),
         }
     }
@@ -65,6 +74,7 @@ impl AnySurface {
     pub fn as_surface_mut(&mut self) -> &mut dyn Surface {
         match self {
             Self::Tensor(surface) => surface,
+            Self::Pht(surface) => surface,
             Self::TSpline(surface) => surface,
         }
     }
@@ -73,6 +83,12 @@ impl AnySurface {
 impl From<TensorSurface> for AnySurface {
     fn from(surface: TensorSurface) -> Self {
         Self::Tensor(surface)
+    }
+}
+
+impl From<PhtSurface> for AnySurface {
+    fn from(surface: PhtSurface) -> Self {
+        Self::Pht(surface)
     }
 }
 

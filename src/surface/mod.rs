@@ -9,7 +9,10 @@ mod cubic;
 mod cut;
 mod differential;
 pub mod evaluate;
+mod homogeneous;
+pub mod pht;
 mod region;
+mod rows_of_four;
 pub mod tensor;
 pub mod tspline;
 

@@ -1,13 +1,14 @@
 //! `planish fit`.
 
-use crate::output::{self, Table};
+use crate::output::{self, Fit, Table};
 use crate::{Failure, Outcome};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use planish::Control;
 use planish::export::step::{StepOptions, Unit};
+use planish::fit::pht::{self, PhtOptions};
 use planish::fit::report::{FitReport, Remarks, StopReason, Tolerance, ToleranceScale};
-use planish::fit::tessellation::{Ends, Method, Regularize, TensorFit, TensorOptions, fit_mesh};
+use planish::fit::tessellation::{self, Ends, FitError, Method, Regularize, TensorOptions};
 use planish::mesh::{Mesh, MeshOptions, MeshRepairs, read};
 use planish::parameterize::{Border, ParameterizeOptions};
 use serde_json::json;
@@ -19,6 +20,9 @@ use std::path::PathBuf;
 pub struct FitArguments {
     /// Mesh file: OFF, OBJ, PLY or STL.
     mesh: PathBuf,
+    /// Family of the surface.
+    #[arg(long, value_enum, default_value_t = FamilyName::Tensor)]
+    family: FamilyName,
     /// Largest error allowed at the nodes, as a fraction of the bounding box's diagonal.
     #[arg(long, default_value_t = 1e-3, value_name = "T")]
     tolerance: f64,
@@ -56,9 +60,9 @@ pub struct FitArguments {
     /// Use the equations of Dannenhoffer and Haimes instead of least squares.
     #[arg(long)]
     ferguson: bool,
-    /// Sweeps of parameter correction on each grid.
-    #[arg(long, default_value_t = 0, value_name = "N")]
-    sweeps: usize,
+    /// Sweeps of parameter correction on each grid, or in each round; the default depends on the family.
+    #[arg(long, value_name = "N")]
+    sweeps: Option<usize>,
     /// Join nodes closer than this.
     #[arg(long, default_value_t = 0.0, value_name = "DISTANCE")]
     weld: f64,
@@ -85,6 +89,14 @@ enum BorderName {
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
+enum FamilyName {
+    /// One grid of knots: what every CAD system edits.
+    Tensor,
+    /// Cells as small as the shape asks, place by place.
+    Pht,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
 enum UnitName {
     Mm,
     M,
@@ -99,7 +111,7 @@ pub fn run(arguments: &FitArguments) -> Result<Outcome, Failure> {
     if arguments.ignore_parameters {
         mesh.clear_parameters();
     }
-    let fit = fit_with_bar(&mesh, &options(arguments), arguments.threads)?;
+    let fit = fit_with_bar(&mesh, arguments)?;
     let stem = arguments.mesh.file_stem().unwrap_or_default().to_string_lossy();
     let step = StepOptions {
         unit: match arguments.unit {
@@ -125,33 +137,67 @@ pub fn run(arguments: &FitArguments) -> Result<Outcome, Failure> {
     Ok(if is_met { Outcome::Done } else { Outcome::ToleranceNotMet })
 }
 
-fn options(arguments: &FitArguments) -> TensorOptions<'static> {
+fn fit_by_family(mesh: &Mesh, arguments: &FitArguments, control: &mut Control) -> Result<Fit, FitError> {
+    match arguments.family {
+        FamilyName::Tensor => {
+            let fit = tessellation::fit_mesh(mesh, &tensor_options(arguments), control)?;
+            let (report, parameters, errors) = (fit.report, fit.parameters, fit.errors);
+            Ok(Fit { surface: fit.surface.into(), report, parameters, errors })
+        }
+        FamilyName::Pht => {
+            let fit = pht::fit_mesh(mesh, &pht_options(arguments), control)?;
+            let (report, parameters, errors) = (fit.report, fit.parameters, fit.errors);
+            Ok(Fit { surface: fit.surface.into(), report, parameters, errors })
+        }
+    }
+}
+
+fn tolerance(arguments: &FitArguments) -> Tolerance {
     let scale = if arguments.absolute { ToleranceScale::Absolute } else { ToleranceScale::Relative };
-    let border = match arguments.border {
+    Tolerance { value: arguments.tolerance, scale }
+}
+
+fn border(arguments: &FitArguments) -> Border {
+    match arguments.border {
         BorderName::Auto => Border::Auto,
         BorderName::Circle => Border::Circle,
         BorderName::Turns => Border::SquareByTurns,
         BorderName::Arc => Border::SquareByArc,
-    };
+    }
+}
+
+fn tensor_options(arguments: &FitArguments) -> TensorOptions<'static> {
     TensorOptions {
-        tolerance: Tolerance { value: arguments.tolerance, scale },
+        tolerance: tolerance(arguments),
         method: if arguments.ferguson { Method::Ferguson } else { Method::LeastSquares },
         ends: if arguments.free_ends { Ends::Free } else { Ends::Natural },
         smoothing: arguments.smoothing,
         max_grid: arguments.max_grid,
         max_coefficients: arguments.max_grid.saturating_mul(arguments.max_grid),
-        correction_sweeps: arguments.sweeps,
+        correction_sweeps: arguments.sweeps.unwrap_or(0),
         regularize: Regularize::Auto,
-        parameterize: ParameterizeOptions::TENSOR.with_border(border),
+        parameterize: ParameterizeOptions::TENSOR.with_border(border(arguments)),
         ..TensorOptions::default()
     }
 }
 
+fn pht_options(arguments: &FitArguments) -> PhtOptions<'static> {
+    let defaults = PhtOptions::default();
+    let is_asked = !matches!(arguments.border, BorderName::Auto);
+    PhtOptions {
+        tolerance: tolerance(arguments),
+        smoothing: if arguments.smoothing > 0.0 { arguments.smoothing } else { defaults.smoothing },
+        correction_sweeps: arguments.sweeps.unwrap_or(defaults.correction_sweeps),
+        parameterize: is_asked.then(|| ParameterizeOptions::PHT.with_border(border(arguments))),
+        ..defaults
+    }
+}
+
 /// Fits with a bar on a terminal, silently elsewhere.
-fn fit_with_bar(mesh: &Mesh, options: &TensorOptions, threads: usize) -> Result<TensorFit, Failure> {
+fn fit_with_bar(mesh: &Mesh, arguments: &FitArguments) -> Result<Fit, Failure> {
     const STEPS: f64 = 1000.0;
     if !std::io::stderr().is_terminal() {
-        return Ok(fit_mesh(mesh, options, &mut Control::new(threads))?);
+        return Ok(fit_by_family(mesh, arguments, &mut Control::new(arguments.threads))?);
     }
     let bar = ProgressBar::new(STEPS as u64);
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent:>3} %  {msg}") {
@@ -164,7 +210,8 @@ fn fit_with_bar(mesh: &Mesh, options: &TensorOptions, threads: usize) -> Result<
         }
         ControlFlow::Continue(())
     };
-    let fit = fit_mesh(mesh, options, &mut Control::new(threads).with_progress(&mut progress));
+    let mut control = Control::new(arguments.threads).with_progress(&mut progress);
+    let fit = fit_by_family(mesh, arguments, &mut control);
     bar.finish_and_clear();
     Ok(fit?)
 }
@@ -179,7 +226,10 @@ fn table(arguments: &FitArguments, mesh: &Mesh, repairs: &MeshRepairs, report: &
         table.row("repaired", output::repairs(repairs));
     }
     table.row("map", format!("stretch {:.3}, {} flipped triangles", report.stretch, report.flipped_count));
-    let grid = format!("{} x {} knots", report.grid_u, report.grid_v);
+    let grid = match report.cell_count {
+        0 => format!("{} x {} knots", report.grid_u, report.grid_v),
+        cells => format!("{cells} cells down to level {}", report.deepest_level),
+    };
     table.row("surface", format!("{grid}, {} coefficients", report.coefficient_count));
     table.row("tolerance", both(report.tolerance));
     table.row("max error", both(report.max_error));
@@ -201,7 +251,7 @@ fn verdict(report: &FitReport) -> String {
     let reason = match report.stop {
         StopReason::ToleranceMet => "tolerance met",
         StopReason::FixedGrid => "grid as asked",
-        StopReason::Limit => "grid limit reached",
+        StopReason::Limit => "limit on grid or cells reached",
         StopReason::DataExhausted => "more coefficients than data",
         StopReason::Stagnated => "refinement no longer helps",
     };
@@ -241,6 +291,8 @@ fn json_report(mesh: &Mesh, report: &FitReport) -> serde_json::Value {
         "max_interior_error": report.max_interior_error,
         "facet_sagitta": report.facet_sagitta,
         "grid": [report.grid_u, report.grid_v],
+        "cell_count": report.cell_count,
+        "deepest_level": report.deepest_level,
         "coefficient_count": report.coefficient_count,
         "smoothing": report.smoothing,
         "empty_cell_count": report.empty_cell_count,

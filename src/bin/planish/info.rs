@@ -5,6 +5,7 @@ use crate::{Failure, Outcome};
 use clap::Args;
 use planish::export::native;
 use planish::mesh::{MeshOptions, read};
+use planish::surface::pht::PhtSurface;
 use planish::surface::tensor::{Axis, TensorSurface};
 use planish::surface::tspline::TSplineSurface;
 use planish::surface::{AnySurface, Surface};
@@ -75,6 +76,7 @@ fn surface_table(path: &Path, surface: &AnySurface) -> Table {
     match surface {
         AnySurface::Tensor(tensor) => tensor_rows(tensor, &mut table),
         AnySurface::TSpline(tspline) => tspline_rows(tspline, &mut table),
+        AnySurface::Pht(pht) => pht_rows(pht, &mut table),
     }
     let surface = surface.as_surface();
     let domain = surface.domain();
@@ -101,4 +103,13 @@ fn tspline_rows(surface: &TSplineSurface, table: &mut Table) {
     table.row("kind", "T-spline".to_owned());
     table.row("control curves", format!("{}, of {least} to {most} control points", surface.curves().len()));
     table.row("control points", surface.coefficient_count().to_string());
+}
+
+fn pht_rows(surface: &PhtSurface, table: &mut Table) {
+    let mesh = surface.mesh();
+    let deepest = mesh.leaves().map(|leaf| mesh.cell(leaf).level).max().unwrap_or(0);
+    table.row("kind", "PHT-spline".to_owned());
+    table.row("cells", format!("{} down to level {deepest}", mesh.leaf_count()));
+    table.row("control points", surface.coefficient_count().to_string());
+    table.row("weights", if surface.is_rational() { "yes" } else { "no" }.to_owned());
 }

@@ -1,15 +1,14 @@
 //! What the commands print and write.
 
 use crate::Failure;
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use planish::export::picture::{Picture, View};
 use planish::export::step::{self, StepOptions};
 use planish::export::{native, obj, vtk};
-use planish::fit::tessellation::TensorFit;
+use planish::fit::report::FitReport;
 use planish::mesh::{Mesh, MeshRepairs};
 use planish::query::tessellate::{TessellateOptions, tessellate};
-use planish::surface::tspline::TSplineSurface;
-use planish::surface::{AnySurface, Domain, Patches, Surface};
+use planish::surface::AnySurface;
 use std::fmt;
 use std::path::Path;
 
@@ -71,14 +70,26 @@ pub fn is_step(path: &Path) -> bool {
     ["step", "stp"].contains(&extension(path).as_str())
 }
 
+/// A fit by any method.
+#[derive(Debug)]
+pub struct Fit {
+    pub surface: AnySurface,
+    pub report: FitReport,
+    /// The (u,v) of each node.
+    pub parameters: Vec<DVec2>,
+    /// The error of each node.
+    pub errors: Vec<f64>,
+}
+
 /// Writes a fit in the format of the name; `step` says what STEP files say beside the shape.
-pub fn write_fit(mesh: &Mesh, fit: &TensorFit, path: &Path, step: &StepOptions) -> Result<(), Failure> {
+pub fn write_fit(mesh: &Mesh, fit: &Fit, path: &Path, step: &StepOptions) -> Result<(), Failure> {
     if extension(path) == "vtu" {
         let data = vtk::PointData { name: "deviation", dim: 1, values: &fit.errors };
-        vtk::write_mesh(&vtk::on_surface(&fit.surface, mesh, &fit.parameters)?, &[data], path)?;
+        let moved = vtk::on_surface(fit.surface.as_surface(), mesh, &fit.parameters)?;
+        vtk::write_mesh(&moved, &[data], path)?;
         return Ok(());
     }
-    write_surface(&fit.surface.clone().into(), path, step)
+    write_surface(&fit.surface, path, step)
 }
 
 /// Writes a surface in the format of the name.
@@ -98,8 +109,8 @@ pub fn write_surface(surface: &AnySurface, path: &Path, step: &StepOptions) -> R
 }
 
 /// Writes a picture of the surface coloured by the error at the nodes.
-pub fn write_picture(mesh: &Mesh, fit: &TensorFit, path: &Path) -> Result<(), Failure> {
-    let moved = vtk::on_surface(&fit.surface, mesh, &fit.parameters)?;
+pub fn write_picture(mesh: &Mesh, fit: &Fit, path: &Path) -> Result<(), Failure> {
+    let moved = vtk::on_surface(fit.surface.as_surface(), mesh, &fit.parameters)?;
     let mut picture = Picture::new(1200, 900, &View::facing(&moved), &moved);
     let range = (0.0, fit.report.max_error);
     picture.draw_mesh(&moved, Some(&fit.errors), range);
@@ -107,33 +118,8 @@ pub fn write_picture(mesh: &Mesh, fit: &TensorFit, path: &Path) -> Result<(), Fa
     write_png(&picture, path)
 }
 
-/// Writes a picture of a surface with the borders of its patches, and its control net on request.
-pub fn write_knot_picture(surface: &TSplineSurface, has_net: bool, path: &Path) -> Result<(), Failure> {
-    const KNOT_LINE: [f64; 3] = [0.15, 0.2, 0.3];
-    const NET_LINE: [f64; 3] = [0.8, 0.2, 0.1];
-    /// Straight pieces of one side of a patch.
-    const PIECES: usize = 8;
-    let shape = tessellate(surface, &TessellateOptions::default())?.mesh;
-    let mut picture = Picture::new(1200, 900, &View::facing(&shape), &shape);
-    picture.draw_mesh(&shape, None, (0.0, 1.0));
-    for index in 0..surface.patch_count() {
-        let Domain { min, max } = surface.patch(index).domain;
-        for end in [DVec2::new(min.x, max.y), DVec2::new(max.x, min.y)] {
-            let uv: Vec<DVec2> = (0..=PIECES).map(|k| min.lerp(end, k as f64 / PIECES as f64)).collect();
-            let mut rows = vec![0.0; 3 * uv.len()];
-            surface.eval_rows(&uv, 0, &mut rows);
-            let points: Vec<DVec3> = rows.chunks(3).map(DVec3::from_slice).collect();
-            picture.draw_line(&points, KNOT_LINE);
-        }
-    }
-    for curve in surface.curves().iter().filter(|_| has_net) {
-        let points: Vec<DVec3> = curve.control_points().chunks(3).map(DVec3::from_slice).collect();
-        picture.draw_line(&points, NET_LINE);
-    }
-    write_png(&picture, path)
-}
-
-fn write_png(picture: &Picture, path: &Path) -> Result<(), Failure> {
+/// Writes a picture.
+pub fn write_png(picture: &Picture, path: &Path) -> Result<(), Failure> {
     let fail = |reason: &dyn fmt::Display| Failure::new(format!("cannot write {}: {reason}", path.display()));
     let (width, height, pixels) = picture.finish();
     let file = std::fs::File::create(path).map_err(|error| fail(&error))?;

@@ -24,12 +24,6 @@ pub struct SkinArguments {
     /// Write a file: .step or .stp, .obj (a tessellation), .planish (the surface itself); may be given several times.
     #[arg(long, value_name = "FILE")]
     out: Vec<PathBuf>,
-    /// Write a picture of the surface with the lines that its knots draw on it.
-    #[arg(long, value_name = "PNG")]
-    picture: Option<PathBuf>,
-    /// Draw the control curves' polygons into the picture too.
-    #[arg(long, requires = "picture")]
-    control_net: bool,
     /// What STEP files hold, which know no T-splines.
     #[arg(long, value_enum, default_value_t = FormName::Tensor)]
     step_form: FormName,
@@ -92,9 +86,6 @@ pub fn run(arguments: &SkinArguments) -> Result<Outcome, Failure> {
     let fit = skin(&rows, &options, &mut Control::new(arguments.threads))?;
     for path in &arguments.out {
         write(&fit, &rows, &options, arguments, path)?;
-    }
-    if let Some(path) = &arguments.picture {
-        output::write_knot_picture(&fit.surface, arguments.control_net, path)?;
     }
     if arguments.json {
         println!("{}", json_report(&rows, &fit));

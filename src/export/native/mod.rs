@@ -5,7 +5,7 @@
 //! offset  type          content
 //!  0      8 bytes       "PLANISH" and a zero
 //!  8      u32           version of the format, 1
-//! 12      u32           kind of the surface: 0 tensor, 1 T-spline
+//! 12      u32           kind of the surface: 0 tensor, 1 T-spline, 2 PHT-spline
 //! 16      u64           size of the whole in bytes
 //! 24                    what the family needs, see its module
 //! end-8   u64           CRC-32 (IEEE 802.3) of all bytes before
@@ -13,6 +13,7 @@
 //! Each family has a module of its own here, with its layout, its [`Save`] and `read`.
 
 mod bytes;
+mod pht;
 mod tensor;
 mod tspline;
 
@@ -76,6 +77,7 @@ const FRAME_SIZE: usize = 24 + 8;
 /// The kinds of surfaces as the file says them.
 const TENSOR: u32 = 0;
 const TSPLINE: u32 = 1;
+const PHT: u32 = 2;
 
 /// A surface that the format knows.
 pub trait Save {
@@ -94,6 +96,7 @@ impl AnySurface {
     pub fn as_saved(&self) -> &dyn Save {
         match self {
             Self::Tensor(surface) => surface,
+            Self::Pht(surface) => surface,
             Self::TSpline(surface) => surface,
         }
     }
@@ -116,6 +119,7 @@ pub fn load(bytes: &[u8]) -> Result<AnySurface, LoadError> {
     let (kind, mut reader) = Reader::open(bytes)?;
     let surface = match kind {
         TENSOR => AnySurface::Tensor(tensor::read(&mut reader)?),
+        PHT => AnySurface::Pht(pht::read(&mut reader)?),
         TSPLINE => AnySurface::TSpline(tspline::read(&mut reader)?),
         _ => return Err(reader.wrong(format!("the kind {kind} is unknown"))),
     };

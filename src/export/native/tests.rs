@@ -3,6 +3,7 @@
 use super::*;
 use crate::curve::Curve;
 use crate::knots::KnotVector;
+use crate::surface::pht::{Cell, PhtSurface, TMesh};
 use crate::surface::tensor::TensorSurface;
 use crate::surface::tspline::TSplineSurface;
 use crate::surface::{Domain, Region, Surface, Trims};
@@ -36,9 +37,20 @@ fn tspline() -> AnySurface {
     AnySurface::TSpline(surface)
 }
 
+fn pht() -> AnySurface {
+    let cell = |level, i, j| Cell { level, i, j };
+    let mut mesh = TMesh::new(&[0.0, 1.0, 3.0], &[0.0, 2.0]).unwrap();
+    mesh.split_all(&[cell(0, 1, 0), cell(1, 2, 1)]).unwrap();
+    let mut surface = PhtSurface::zero(1, true, mesh).unwrap();
+    surface.set_jets(&[0, 3], &[0.5, 2.0, 0.1, 0.0, 0.2, 0.1, 0.3, 0.0].repeat(2)).unwrap();
+    let triangle = [(0.1, 0.1), (0.9, 0.1), (0.5, 0.8)].map(|(u, v)| DVec2::new(u, v)).to_vec();
+    surface.region_mut().trims = Trims::new(vec![triangle], &surface.domain()).unwrap();
+    AnySurface::Pht(surface)
+}
+
 /// One of each family, with the bytes at which its counts and flags lie.
 fn families() -> Vec<(AnySurface, std::ops::Range<usize>)> {
-    vec![(tensor(), 24..88), (tspline(), 24..56)]
+    vec![(tensor(), 24..88), (tspline(), 24..56), (pht(), 24..88)]
 }
 
 #[test]

@@ -4,6 +4,7 @@ mod curves;
 mod fits;
 mod forms;
 mod meshes;
+mod pht;
 mod queries;
 mod records;
 mod rows;

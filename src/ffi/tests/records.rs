@@ -56,6 +56,8 @@ fn every_init_refuses_null() {
         null_refused(planish_eval_options_init(null_mut(), 40), "options");
         null_refused(planish_tensor_options_init(null_mut(), 136), "options");
         null_refused(planish_skin_options_init(null_mut(), 144), "options");
+        null_refused(planish_pht_options_init(null_mut(), 128), "options");
+        null_refused(planish_pht_convert_options_init(null_mut(), 32), "options");
     }
 }
 
@@ -92,6 +94,18 @@ fn defaults_are_those_of_the_header() {
     assert_eq!((tensor.regularize, tensor.grid_u, tensor.grid_v, tensor.correction_sweeps), (0, 0, 0, 0));
     assert_eq!((tensor.measure_distance, tensor.thread_count, tensor.reserved), (0, 0, 0));
     assert!(tensor.parameterize.is_null() && tensor.weights.is_null() && tensor.progress.is_none());
+    let (mut pht, mut convert): (planish_pht_options, planish_pht_convert_options) = (canary(), canary());
+    // SAFETY: each of its size.
+    unsafe {
+        ok(planish_pht_options_init(&mut pht, size_of_val(&pht)));
+        ok(planish_pht_convert_options_init(&mut convert, size_of_val(&convert)));
+    }
+    assert_eq!((pht.tolerance, pht.smoothing, pht.max_cells, pht.max_level), (1e-3, 1e-3, 200_000, 12));
+    assert_eq!((pht.tolerance_scale, pht.estimator, pht.regularize, pht.min_samples), (0, 0, 0, 2));
+    assert_eq!((pht.grid_u, pht.grid_v, pht.grade, pht.correction_sweeps), (1, 1, 1, 1));
+    assert_eq!((pht.measure_distance, pht.thread_count, pht.reserved), (0, 0, 0));
+    assert!(pht.parameterize.is_null() && pht.weights.is_null() && pht.progress.is_none());
+    assert_eq!((convert.tolerance, convert.max_cells, convert.max_level), (0.0, 200_000, 12));
     assert!(tensor.out_parameters.is_null() && tensor.out_errors.is_null() && tensor.user.is_null());
 }
 
@@ -159,7 +173,7 @@ fn reports_are_filled_as_far_as_the_size_goes() {
         assert!(fit((&raw mut longer).cast()) as i32 >= 0);
         assert_eq!(longer.record.struct_size, size);
         // SAFETY: plain bytes.
-        let bytes: [u8; 184] = unsafe { std::mem::transmute(longer) };
+        let bytes: [u8; 208] = unsafe { std::mem::transmute(longer) };
         assert!(bytes[size..].iter().all(|&byte| byte == CANARY), "beyond {size}");
         if size > known {
             assert_eq!(bytes[known..size], [0; 16]);

@@ -94,7 +94,7 @@ impl<'a> CurveProblem<'a> {
         options: &'a TensorOptions<'a>,
     ) -> Result<Self, FitError> {
         check_options(options)?;
-        check_values(u.len(), values, dim, options)?;
+        check_values(u.len(), values, dim, options.weights)?;
         if let Some(index) = u.iter().position(|u| !u.is_finite()) {
             return Err(FitError::ParametersNotFinite { index });
         }

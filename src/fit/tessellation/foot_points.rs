@@ -11,9 +11,9 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 /// Gauss-Newton steps a datum makes in one sweep.
-const STEPS: usize = 2;
+pub const STEPS: usize = 2;
 /// Longest step, in cells.
-const LONGEST_STEP: f64 = 0.3;
+pub const LONGEST_STEP: f64 = 0.3;
 /// A triangle that keeps less than this share of its area holds its nodes back.
 const LEAST_AREA: f64 = 1e-3;
 /// How often a move is halved before it is given up.
@@ -37,14 +37,14 @@ impl Problem<'_> {
             })
         });
         if let Some(mesh) = self.mesh {
-            hold_back(mesh.triangles(), &self.uv, &mut moved);
+            hold_back(mesh.triangles(), (&self.uv, LEAST_AREA), &self.uv, &mut moved);
         }
         moved
     }
 }
 
 /// Solves `min |S + du Su + dv Sv - P|`; zero where the tangents are parallel.
-fn gauss_newton_step(row: &[f64], value: &[f64]) -> DVec2 {
+pub fn gauss_newton_step(row: &[f64], value: &[f64]) -> DVec2 {
     let dim = value.len();
     let (s, su, sv) = (&row[..dim], &row[dim..2 * dim], &row[2 * dim..]);
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
@@ -59,7 +59,9 @@ fn gauss_newton_step(row: &[f64], value: &[f64]) -> DVec2 {
 }
 
 /// Halves the moves of the nodes of every triangle that would lose nearly all its area, until none does.
-fn hold_back(triangles: &[[u32; 3]], from: &[DVec2], to: &mut [DVec2]) {
+///
+/// `first` are the parameters whose areas count, of which a triangle keeps at least the share `least`.
+pub fn hold_back(triangles: &[[u32; 3]], (first, least): (&[DVec2], f64), from: &[DVec2], to: &mut [DVec2]) {
     let area = |uv: &[DVec2], t: &[u32; 3]| {
         let [a, b, c] = t.map(|n| uv[n as usize]);
         (b - a).perp_dot(c - a)
@@ -68,8 +70,8 @@ fn hold_back(triangles: &[[u32; 3]], from: &[DVec2], to: &mut [DVec2]) {
     let mut suspects: Vec<usize> = (0..triangles.len()).collect();
     loop {
         suspects.retain(|&t| {
-            let before = area(from, &triangles[t]);
-            !(area(to, &triangles[t]) >= LEAST_AREA * before) && before > 0.0
+            let before = area(first, &triangles[t]);
+            !(area(to, &triangles[t]) >= least * before) && before > 0.0
         });
         let mut nodes: Vec<u32> = suspects.iter().flat_map(|&t| triangles[t]).collect();
         nodes.sort_unstable();

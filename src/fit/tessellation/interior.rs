@@ -22,17 +22,25 @@ pub struct InteriorErrors {
     pub max_excess: f64,
 }
 
-impl Problem<'_> {
+/// Values on the nodes of a mesh over parameters.
+#[derive(Clone, Copy)]
+pub struct MeshData<'a> {
+    pub mesh: &'a Mesh,
+    pub uv: &'a [DVec2],
+    pub values: &'a [f64],
+    /// Whether the values are the nodes' places in space.
+    pub is_shape: bool,
+}
+
+impl MeshData<'_> {
     /// Measures a surface between the nodes.
-    pub fn interior_errors(&self, surface: &TensorSurface, pool: &Pool) -> InteriorErrors {
-        let Some(mesh) = self.mesh else {
-            return InteriorErrors::default();
-        };
-        let (uv, values) = interior_samples(mesh, &self.uv, self.values, self.dim);
+    pub fn interior_errors(&self, surface: &dyn Surface, pool: &Pool) -> InteriorErrors {
+        let (uv, values) = interior_samples(self.mesh, self.uv, self.values, surface.dim());
         let (errors, allowances) = if self.is_shape {
-            (heights_over(surface, &uv, &values, pool), triangle_sagittas(mesh))
+            (heights_over(surface, &uv, &values, pool), triangle_sagittas(self.mesh))
         } else {
-            (data_errors(surface, &uv, &values, pool).each, triangle_spreads(mesh, self.values, self.dim))
+            let spreads = triangle_spreads(self.mesh, self.values, surface.dim());
+            (data_errors(surface, &uv, &values, pool).each, spreads)
         };
         let mut result = InteriorErrors::default();
         for (errors, &allowance) in errors.chunks_exact(4).zip(&allowances) {
@@ -47,10 +55,21 @@ impl Problem<'_> {
     }
 }
 
+impl Problem<'_> {
+    /// Measures a surface between the nodes.
+    pub fn interior_errors(&self, surface: &TensorSurface, pool: &Pool) -> InteriorErrors {
+        let Some(mesh) = self.mesh else {
+            return InteriorErrors::default();
+        };
+        let data = MeshData { mesh, uv: &self.uv, values: self.values, is_shape: self.is_shape };
+        data.interior_errors(surface, pool)
+    }
+}
+
 /// Distances from places on facets to the tangent planes of the surface at their parameters. A map that
 /// stretches unevenly puts the mean of parameters beside the mean of places, along the surface: that is no
 /// error of the shape. Where the surface has no tangent plane the whole distance counts.
-fn heights_over(surface: &TensorSurface, uv: &[DVec2], values: &[f64], pool: &Pool) -> Vec<f64> {
+pub fn heights_over(surface: &dyn Surface, uv: &[DVec2], values: &[f64], pool: &Pool) -> Vec<f64> {
     const CHUNK: usize = 1024;
     let mut heights = vec![0.0; uv.len()];
     pool.run(|| {
@@ -107,7 +126,7 @@ fn interior_samples(mesh: &Mesh, uv: &[DVec2], values: &[f64], dim: usize) -> (V
 /// to an arc of height `l/2 tan(a/4)`; the middle of an equilateral triangle on a sphere lies 4/3 as high as
 /// the middle of its edges. Normals are rough at borders and on uneven triangles, so each facet takes the
 /// largest height among the edges at its nodes.
-fn triangle_sagittas(mesh: &Mesh) -> Vec<f64> {
+pub fn triangle_sagittas(mesh: &Mesh) -> Vec<f64> {
     let normals = node_normals(mesh);
     let mut heights = vec![0.0_f64; normals.len()];
     let mut is_border = vec![false; normals.len()];

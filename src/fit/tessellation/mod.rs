@@ -10,15 +10,15 @@
 //! ```
 
 mod curve;
-mod energy;
+pub(in crate::fit) mod energy;
 mod ferguson;
-mod foot_points;
-mod grid;
-mod interior;
-mod normal_equations;
-mod refine;
-mod samples;
-mod single_grid;
+pub(in crate::fit) mod foot_points;
+pub(in crate::fit) mod grid;
+pub(in crate::fit) mod interior;
+pub(in crate::fit) mod normal_equations;
+pub(in crate::fit) mod refine;
+pub(in crate::fit) mod samples;
+pub(in crate::fit) mod single_grid;
 
 pub use curve::{CurveFit, fit_curve};
 pub use energy::Energy;
@@ -164,6 +164,9 @@ pub enum FitError {
         /// The datum.
         index: usize,
     },
+    /// A surface that is to be updated is not one of this fitter's.
+    #[error("the surface has other knots or another dimension than the fields of this fitter")]
+    OtherGrid,
     /// A weight is not a positive number.
     #[error("weight {index} is {weight}, it must be positive and finite")]
     Weight {
@@ -196,7 +199,9 @@ impl FitError {
     pub fn kind(&self) -> crate::ErrorKind {
         use crate::ErrorKind;
         match self {
-            Self::Option { .. } | Self::TooFew { .. } | Self::Count { .. } => ErrorKind::InvalidArgument,
+            Self::Option { .. } | Self::TooFew { .. } | Self::Count { .. } | Self::OtherGrid => {
+                ErrorKind::InvalidArgument
+            }
             Self::Weight { weight, .. } if weight.is_finite() => ErrorKind::InvalidArgument,
             Self::ParametersNotFinite { .. } | Self::ValuesNotFinite { .. } | Self::Weight { .. } => {
                 ErrorKind::NotFinite
@@ -276,9 +281,9 @@ fn fit_on_mesh(
 ) -> Result<TensorFit, FitError> {
     let start = Instant::now();
     check_options(options)?;
-    check_values(mesh.points().len(), values, dim, options)?;
+    check_values(mesh.points().len(), values, dim, options.weights)?;
     control.set_stage(0.0, 0.3);
-    let map = node_parameters(mesh, options, control)?;
+    let map = node_parameters(mesh, &options.parameterize, options.regularize, control)?;
     let parameterize_seconds = start.elapsed().as_secs_f64();
     check(&map.uv, values, dim, options)?;
     let mut problem = Problem::new(map.uv, values, dim, Some(mesh), options)?;
@@ -287,45 +292,43 @@ fn fit_on_mesh(
     let mut fit = problem.fit(control)?;
     fit.report.parameterize_seconds = parameterize_seconds;
     fit.report.remarks.0 |= map.remarks.0;
-    let folded = crate::parameterize::folds(mesh.triangles(), &fit.parameters);
-    fit.report.flipped_count = folded.0 + folded.1;
-    fit.report.remarks.add_if(fit.report.flipped_count > 0, Remarks::FOLDED_PARAMETERS);
-    fit.report.stretch = crate::parameterize::stretch(mesh.points(), mesh.triangles(), &fit.parameters).l2;
+    fit.report.measure_map(mesh, &fit.parameters);
     fit.report.seconds = start.elapsed().as_secs_f64();
     Ok(fit)
 }
 
 /// The parameters of the nodes, and how they came about.
-struct NodeParameters {
-    uv: Vec<DVec2>,
-    remarks: Remarks,
+pub(in crate::fit) struct NodeParameters {
+    pub uv: Vec<DVec2>,
+    pub remarks: Remarks,
 }
 
-fn node_parameters(
+pub(in crate::fit) fn node_parameters(
     mesh: &Mesh,
-    options: &TensorOptions,
+    options: &ParameterizeOptions,
+    when: Regularize,
     control: &mut Control,
 ) -> Result<NodeParameters, FitError> {
     let mut remarks = Remarks::default();
     let Some(given) = mesh.parameters() else {
-        let map = parameterize(mesh, &options.parameterize, control)?;
+        let map = parameterize(mesh, options, control)?;
         remarks.add_if(true, Remarks::PARAMETERIZED);
         remarks.add_if(has_high_stretch(&map.report), Remarks::SEGMENTATION_ADVISED);
         return Ok(NodeParameters { uv: map.uv, remarks });
     };
-    let when = match options.regularize {
+    let choice = match when {
         Regularize::Never => return Ok(NodeParameters { uv: given.to_vec(), remarks }),
         Regularize::Auto => crate::parameterize::RegularizeWhen::Auto,
         Regularize::Always => crate::parameterize::RegularizeWhen::Always,
     };
     // a mesh that is no disk keeps what was given: only regularizing needs its connectivity
-    match regularize(mesh, &RegularizeOptions::default().with_when(when), control) {
+    match regularize(mesh, &RegularizeOptions::default().with_when(choice), control) {
         Ok(map) => {
             remarks.add_if(map.report.replaced, Remarks::REGULARIZED);
             Ok(NodeParameters { uv: map.uv, remarks })
         }
         Err(ParameterizeError::Cancelled(cancelled)) => Err(cancelled.into()),
-        Err(error) if options.regularize == Regularize::Always => Err(error.into()),
+        Err(error) if when == Regularize::Always => Err(error.into()),
         Err(_) => Ok(NodeParameters { uv: given.to_vec(), remarks }),
     }
 }
@@ -354,7 +357,13 @@ fn check_options(options: &TensorOptions) -> Result<(), FitError> {
 /// Most knots along one direction that may be asked for.
 const LARGEST_GRID: usize = 8193;
 
-fn check_values(count: usize, values: &[f64], dim: usize, options: &TensorOptions) -> Result<(), FitError> {
+/// Values, and weights if there are any, that `count` data can have.
+pub(in crate::fit) fn check_values(
+    count: usize,
+    values: &[f64],
+    dim: usize,
+    weights: Option<&[f64]>,
+) -> Result<(), FitError> {
     if dim == 0 {
         return Err(FitError::Option { option: "dim", value: 0.0, range: "at least 1" });
     }
@@ -368,8 +377,8 @@ fn check_values(count: usize, values: &[f64], dim: usize, options: &TensorOption
     if let Some(index) = values.iter().position(|x| !x.is_finite()) {
         return Err(FitError::ValuesNotFinite { index: index / dim });
     }
-    let weights = options.weights.unwrap_or(&[]);
-    if options.weights.is_some() && weights.len() != count {
+    let Some(weights) = weights else { return Ok(()) };
+    if weights.len() != count {
         return Err(FitError::Count { what: "the weights", count: weights.len(), expected: count });
     }
     match weights.iter().position(|&w| !(w > 0.0 && w.is_finite())) {
@@ -380,7 +389,12 @@ fn check_values(count: usize, values: &[f64], dim: usize, options: &TensorOption
 
 fn check(uv: &[DVec2], values: &[f64], dim: usize, options: &TensorOptions) -> Result<(), FitError> {
     check_options(options)?;
-    check_values(uv.len(), values, dim, options)?;
+    check_values(uv.len(), values, dim, options.weights)?;
+    check_parameters(uv)
+}
+
+/// Parameters that a surface can be fitted over: finite, and of some range both ways.
+pub(in crate::fit) fn check_parameters(uv: &[DVec2]) -> Result<(), FitError> {
     if let Some(index) = uv.iter().position(|uv| !uv.is_finite()) {
         return Err(FitError::ParametersNotFinite { index });
     }
@@ -418,24 +432,24 @@ struct Problem<'a> {
 }
 
 /// Moves values into a box of size one around the origin, where sums of squares keep their digits.
-struct Frame {
+pub(in crate::fit) struct Frame {
     center: Vec<f64>,
-    scale: f64,
+    pub scale: f64,
 }
 
 impl Frame {
-    fn new(bounds: &Bounds) -> Self {
+    pub fn new(bounds: &Bounds) -> Self {
         let center = bounds.min.iter().zip(&bounds.max).map(|(a, b)| a + (b - a) / 2.0).collect();
         let diagonal = bounds.diagonal();
         Self { center, scale: if diagonal > 0.0 { diagonal } else { 1.0 } }
     }
 
-    fn inward(&self, values: &[f64]) -> Vec<f64> {
+    pub fn inward(&self, values: &[f64]) -> Vec<f64> {
         let center = self.center.iter().cycle();
         values.iter().zip(center).map(|(x, c)| (x - c) / self.scale).collect()
     }
 
-    fn outward(&self, values: &mut [f64]) {
+    pub fn outward(&self, values: &mut [f64]) {
         let center = self.center.iter().cycle();
         values.iter_mut().zip(center).for_each(|(x, c)| *x = *x * self.scale + c);
     }

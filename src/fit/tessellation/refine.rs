@@ -172,14 +172,7 @@ impl Problem<'_> {
         if !self.options.measure_distance || (self.mesh.is_some() && !self.is_shape) {
             return f64::NAN;
         }
-        let options = ProjectOptions { guesses: Some(&self.uv), keep_trims: false, ..Default::default() };
-        let count = self.uv.len();
-        let (mut uv, mut distances) = (vec![DVec2::ZERO; count], vec![0.0; count]);
-        let projector = Projector::new(surface);
-        match projector.and_then(|p| p.project(self.values, &options, &mut uv, &mut distances, pool)) {
-            Ok(_) => distances.into_iter().fold(0.0, f64::max),
-            Err(_) => f64::NAN,
-        }
+        max_distance(surface, self.values, &self.uv, pool)
     }
 
     fn finish(
@@ -228,6 +221,23 @@ impl Problem<'_> {
             parameters: std::mem::take(&mut self.uv),
             errors: best.errors.each,
         }
+    }
+}
+
+/// Largest closest-point distance from data to a surface; NaN if they cannot be projected.
+pub(in crate::fit) fn max_distance(
+    surface: &dyn Surface,
+    values: &[f64],
+    guesses: &[DVec2],
+    pool: &Pool,
+) -> f64 {
+    let options = ProjectOptions { guesses: Some(guesses), keep_trims: false, ..Default::default() };
+    let count = guesses.len();
+    let (mut uv, mut distances) = (vec![DVec2::ZERO; count], vec![0.0; count]);
+    let projector = Projector::new(surface);
+    match projector.and_then(|p| p.project(values, &options, &mut uv, &mut distances, pool)) {
+        Ok(_) => distances.into_iter().fold(0.0, f64::max),
+        Err(_) => f64::NAN,
     }
 }
 

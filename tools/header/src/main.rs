@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 /// The files of `src/ffi` in the order of the header.
-const SOURCES: [&str; 14] = [
+const SOURCES: [&str; 16] = [
     "status.rs",
     "progress.rs",
     "mesh.rs",
@@ -21,6 +21,8 @@ const SOURCES: [&str; 14] = [
     "step.rs",
     "curve.rs",
     "tspline.rs",
+    "pht.rs",
+    "pht_parts.rs",
 ];
 
 fn main() -> ExitCode {

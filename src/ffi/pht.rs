@@ -1,0 +1,629 @@
+//! PHT-splines: fits, parts in and out.
+
+use super::arguments::{
+    ArgumentError, array_len, choice, copy, copy_rows, deref, deref_mut, flag, init_options, options, out,
+    rows_mut, slice, slice_mut_or_none,
+};
+use super::guard::{Failure, guard};
+use super::mesh::planish_mesh;
+use super::progress::with_control;
+use super::report::{FitOutputs, planish_fit_report};
+use super::surface::planish_surface;
+use super::{planish_parameterize_options, planish_progress, planish_status};
+use crate::Control;
+use crate::fit::pht::{Estimator, PhtFit, PhtOptions, fit_field, fit_mesh, fit_points};
+use crate::fit::report::{Tolerance, ToleranceScale};
+use crate::fit::tessellation::{FitError, Regularize};
+use crate::surface::Domain;
+use crate::surface::pht::{BorderSide, Cell, ConvertOptions, PhtSurface, TMesh, stitch};
+use glam::DVec2;
+use std::ffi::c_void;
+
+/// What determines a PHT-spline at its vertices.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum planish_pht_estimator {
+    /// Least squares over all data with a weak bending energy: fewest coefficients.
+    Global = 0,
+    /// A quadratic fit around each datum, interpolated linearly (Deng et al., 2008): for comparison.
+    LocalQuadratic = 1,
+    /// A weighted cubic fit around each vertex: no system to solve, for very large data.
+    LocalCubic = 2,
+}
+
+/// Options of PHT fits. Fill with planish_pht_options_init(), then change what you need.
+///
+/// A datum is a node of the mesh, or a point; a sample is a datum, or the middle of a triangle.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct planish_pht_options {
+    /// Set by planish_pht_options_init().
+    pub struct_size: usize,
+    /// The largest error allowed at the data, positive, measured in tolerance_scale. Default 1e-3.
+    pub tolerance: f64,
+    /// Weight of the bending energy of each cell, mapped to the unit cell. Default 1e-3.
+    pub smoothing: f64,
+    /// How a mesh without parameters gets them; NULL (default) for a circle, with one stretch step unless the
+    /// tolerance is fine and the plain map even. Of this record progress, user and thread_count are not looked at, and node_weights must be
+    /// NULL. Not used for points.
+    pub parameterize: *const planish_parameterize_options,
+    /// A positive weight for each datum; NULL (default) for all 1.
+    pub weights: *const f64,
+    /// Hears of the progress and may cancel; NULL (default) for nobody.
+    pub progress: planish_progress,
+    /// Handed to progress as it is.
+    pub user: *mut c_void,
+    /// Receives the (u,v) at which the error of each datum is measured: two numbers for each datum, or NULL
+    /// (default). Written on success only.
+    pub out_parameters: *mut f64,
+    /// Receives the error of each datum in model units: one number for each datum, or NULL (default). Written
+    /// on success only.
+    pub out_errors: *mut f64,
+    /// Most cells, at least the initial ones. Default 200000.
+    pub max_cells: usize,
+    /// A planish_tolerance_scale. Default PLANISH_TOLERANCE_SCALE_RELATIVE.
+    pub tolerance_scale: u32,
+    /// A planish_pht_estimator. Default PLANISH_PHT_ESTIMATOR_GLOBAL.
+    pub estimator: u32,
+    /// A planish_regularize. Default PLANISH_REGULARIZE_AUTO.
+    pub regularize: u32,
+    /// Cells along u to start from, 1 to 4095. Default 1.
+    pub grid_u: u32,
+    /// Cells along v to start from, 1 to 4095. Default 1.
+    pub grid_v: u32,
+    /// Deepest level of a cell, at most 20. Default 12.
+    pub max_level: u32,
+    /// A cell with fewer samples is not split, at least 1. Default 2.
+    pub min_samples: u32,
+    /// Levels by which cells that share an edge may differ; 0 for any number. Default 1.
+    pub grade: u32,
+    /// Sweeps of parameter correction in each round of the fit of a shape. Default 1.
+    pub correction_sweeps: u32,
+    /// 1 measures the closest-point distance of the nodes for the report. Default 0.
+    pub measure_distance: u32,
+    /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+    pub thread_count: u32,
+    /// 0.
+    pub reserved: u32,
+}
+
+record!(planish_pht_options, 128, {
+    struct_size: 0, tolerance: 8, smoothing: 16, parameterize: 24, weights: 32, progress: 40, user: 48,
+    out_parameters: 56, out_errors: 64, max_cells: 72, tolerance_scale: 80, estimator: 84, regularize: 88,
+    grid_u: 92, grid_v: 96, max_level: 100, min_samples: 104, grade: 108, correction_sweeps: 112,
+    measure_distance: 116, thread_count: 120, reserved: 124,
+});
+
+impl Default for planish_pht_options {
+    fn default() -> Self {
+        let core = PhtOptions::default();
+        Self {
+            struct_size: size_of::<Self>(),
+            tolerance: core.tolerance.value,
+            smoothing: core.smoothing,
+            parameterize: std::ptr::null(),
+            weights: std::ptr::null(),
+            progress: None,
+            user: std::ptr::null_mut(),
+            out_parameters: std::ptr::null_mut(),
+            out_errors: std::ptr::null_mut(),
+            max_cells: core.max_cells,
+            tolerance_scale: 0,
+            estimator: planish_pht_estimator::Global as u32,
+            regularize: 0,
+            grid_u: core.initial_grid[0] as u32,
+            grid_v: core.initial_grid[1] as u32,
+            max_level: core.max_level,
+            min_samples: core.min_samples as u32,
+            grade: core.grade,
+            correction_sweeps: core.correction_sweeps as u32,
+            measure_distance: core.measure_distance.into(),
+            thread_count: 0,
+            reserved: 0,
+        }
+    }
+}
+
+impl planish_pht_options {
+    /// # Safety
+    /// The pointers are NULL or as the header says, for `count` data, until the options are no longer used.
+    unsafe fn to_core<'a>(self, count: usize) -> Result<PhtOptions<'a>, ArgumentError> {
+        if self.reserved != 0 {
+            return Err(ArgumentError::Reserved { record: "planish_pht_options", given: self.reserved });
+        }
+        let scales = [ToleranceScale::Relative, ToleranceScale::Absolute];
+        let scale = choice(self.tolerance_scale, &scales, "tolerance_scale")?;
+        let parameterize = match self.parameterize {
+            at if at.is_null() => None,
+            at => {
+                // SAFETY: the caller's promise.
+                let parameterize: planish_parameterize_options = unsafe { options(at) }?;
+                if !parameterize.node_weights.is_null() {
+                    return Err(ArgumentError::NotNull { name: "node_weights" });
+                }
+                Some(parameterize.to_core()?)
+            }
+        };
+        let weights = match self.weights {
+            at if at.is_null() => None,
+            // SAFETY: the caller's promise.
+            at => Some(unsafe { slice(at, count, "weights") }?),
+        };
+        let estimators = [Estimator::Global, Estimator::LocalQuadratic, Estimator::LocalCubic];
+        let regularize = [Regularize::Auto, Regularize::Never, Regularize::Always];
+        Ok(PhtOptions {
+            tolerance: Tolerance { value: self.tolerance, scale },
+            estimator: choice(self.estimator, &estimators, "estimator")?,
+            smoothing: self.smoothing,
+            initial_grid: [self.grid_u as usize, self.grid_v as usize],
+            max_level: self.max_level,
+            max_cells: self.max_cells,
+            min_samples: self.min_samples as usize,
+            grade: self.grade,
+            correction_sweeps: self.correction_sweeps as usize,
+            regularize: choice(self.regularize, &regularize, "regularize")?,
+            parameterize,
+            weights,
+            measure_distance: flag(self.measure_distance, "measure_distance")?,
+        })
+    }
+}
+
+/// Runs a fit of `count` data.
+///
+/// # Safety
+/// The pointers are NULL or as the header says.
+unsafe fn fit(
+    count: usize,
+    options: *const planish_pht_options,
+    out_surface: *mut *mut planish_surface,
+    out_report: *mut planish_fit_report,
+    method: impl FnOnce(&PhtOptions, &mut Control) -> Result<PhtFit, FitError>,
+) -> Result<planish_status, Failure> {
+    // SAFETY: the caller's promises.
+    unsafe {
+        let given = self::options(options)?;
+        let (parameters, errors) = (given.out_parameters, given.out_errors);
+        let outputs = FitOutputs::new((out_surface, "out_surface"), out_report, parameters, errors, count)?;
+        let options = given.to_core(count)?;
+        let fit = with_control(given.thread_count, given.progress, given.user, |control| {
+            method(&options, control)
+        })??;
+        Ok(outputs.store_surface(fit.surface, &fit.parameters, &fit.errors, &fit.report))
+    }
+}
+
+/// Fills options with the defaults.
+///
+/// options:     struct_size writable bytes.
+/// struct_size: sizeof(planish_pht_options).
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_pht_options_init(
+    options: *mut planish_pht_options,
+    struct_size: usize,
+) -> planish_status {
+    // SAFETY: the caller's promise.
+    guard(|| unsafe { init_options(options, struct_size) })
+}
+
+/// Fits a PHT-spline to the shape of a mesh: a smooth bicubic surface whose cells are as small as the shape asks,
+/// place by place. A mesh without parameters is parameterized first, which changes nothing in the mesh. The
+/// boundary loops become trims.
+///
+/// mesh:        not NULL.
+/// options:     NULL for the defaults.
+/// out_surface: receives a new surface of dim 3; destroy with planish_surface_free().
+/// out_report:  receives what the fit did and how good it is; NULL for no report.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_FOLDED_PARAMETERS, PLANISH_STATUS_TOLERANCE_NOT_MET,
+/// PLANISH_STATUS_STAGNATED (all three with the best surface found) or an error: PLANISH_STATUS_NULL_POINTER,
+/// PLANISH_STATUS_INVALID_ARGUMENT (an option, or fewer than 3 data), PLANISH_STATUS_NOT_FINITE (a weight; the
+/// index is the datum), PLANISH_STATUS_DEGENERATE (all data have the same u or the same v),
+/// PLANISH_STATUS_SINGULAR (the data do not determine a surface), PLANISH_STATUS_VERSION or
+/// PLANISH_STATUS_CANCELLED; for a mesh without parameters also what planish_mesh_parameterize() returns.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_pht_fit(
+    mesh: *const planish_mesh,
+    options: *const planish_pht_options,
+    out_surface: *mut *mut planish_surface,
+    out_report: *mut planish_fit_report,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let mesh = &deref(mesh, "mesh")?.0;
+        let count = mesh.points().len();
+        fit(count, options, out_surface, out_report, |options, control| fit_mesh(mesh, options, control))
+    })
+}
+
+/// Fits a PHT-spline to values at scattered parameters.
+///
+/// uv:          count rows of u, v.
+/// values:      count rows of dim numbers.
+/// count:       at least 3.
+/// dim:         numbers of a value, at least 1.
+/// options:     NULL for the defaults; parameterize, regularize and correction_sweeps are not used.
+/// out_surface: receives a new surface; destroy with planish_surface_free().
+/// out_report:  receives what the fit did and how good it is; NULL for no report.
+/// Returns what planish_pht_fit() returns; PLANISH_STATUS_NOT_FINITE also for uv and values (the index is the
+/// datum), PLANISH_STATUS_TOO_LARGE (count times dim) and PLANISH_STATUS_OUT_OF_MEMORY.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_pht_fit_points(
+    uv: *const f64,
+    values: *const f64,
+    count: usize,
+    dim: usize,
+    options: *const planish_pht_options,
+    out_surface: *mut *mut planish_surface,
+    out_report: *mut planish_fit_report,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let uv = copy_rows(uv, count, 2, "uv", DVec2::from_array)?;
+        let values = slice(values, array_len::<f64>(count, dim, "values")?, "values")?;
+        fit(count, options, out_surface, out_report, |options, control| {
+            fit_points(&uv, values, dim, options, control)
+        })
+    })
+}
+
+/// Fits a PHT-spline to values on the nodes of a mesh, over the same parameters as its shape.
+///
+/// mesh:        not NULL.
+/// values:      count rows of dim numbers.
+/// count:       planish_mesh_point_count().
+/// dim:         numbers of a value, at least 1.
+/// options:     NULL for the defaults; correction_sweeps is not used.
+/// out_surface: receives a new surface; destroy with planish_surface_free().
+/// out_report:  receives what the fit did and how good it is; NULL for no report.
+/// Returns what planish_pht_fit() returns; PLANISH_STATUS_INVALID_ARGUMENT also for count,
+/// PLANISH_STATUS_NOT_FINITE also for values (the index is the node), and PLANISH_STATUS_TOO_LARGE.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_pht_fit_field(
+    mesh: *const planish_mesh,
+    values: *const f64,
+    count: usize,
+    dim: usize,
+    options: *const planish_pht_options,
+    out_surface: *mut *mut planish_surface,
+    out_report: *mut planish_fit_report,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let mesh = &deref(mesh, "mesh")?.0;
+        let expected = mesh.points().len();
+        if count != expected {
+            return Err(FitError::Count { what: "the nodes", count, expected }.into());
+        }
+        let values = slice(values, array_len::<f64>(count, dim, "values")?, "values")?;
+        fit(count, options, out_surface, out_report, |options, control| {
+            fit_field(mesh, values, dim, options, control)
+        })
+    })
+}
+
+/// # Safety
+/// `cells` is NULL or points to `count` rows of three numbers.
+unsafe fn cells(at: *const u32, count: usize) -> Result<Vec<Cell>, ArgumentError> {
+    // SAFETY: the caller's promise.
+    unsafe { copy_rows(at, count, 3, "cells", |[level, i, j]| Cell { level, i, j }) }
+}
+
+/// Makes a PHT-spline from an initial grid and a list of splits.
+///
+/// dim:           numbers of a value, at least 1.
+/// is_rational:   1 if values are followed by a weight and multiplied by it, else 0.
+/// lines_u:       line_count_u increasing parameters.
+/// line_count_u:  2 to 4096.
+/// lines_v:       line_count_v increasing parameters.
+/// line_count_v:  2 to 4096.
+/// cells:         split_count rows of level, i, j: the cells to split, a cell before its quarters; i and j are
+///                counted along u and v over the cells of that level.
+/// split_count:   may be 0.
+/// data:          for each basis vertex, ordered along u, then along v, the rows f, f_u, f_v, f_uv of dim numbers
+///                (dim + 1 with weights); NULL for zeros, and weights of 1: the vertices are known afterwards.
+/// data_count:    numbers in data; 0 if it is NULL.
+/// out_surface:   receives a new surface; destroy with planish_surface_free().
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (dim, a count, a line
+/// that does not increase, a weight that is not positive everywhere), PLANISH_STATUS_NOT_FINITE (the index is the
+/// line or the vertex), PLANISH_STATUS_INDEX (a cell that is no leaf when its turn comes; the index is its row),
+/// PLANISH_STATUS_TOO_LARGE (lines, or a level above 20) or PLANISH_STATUS_OUT_OF_MEMORY.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_pht_new(
+    dim: usize,
+    is_rational: u32,
+    lines_u: *const f64,
+    line_count_u: usize,
+    lines_v: *const f64,
+    line_count_v: usize,
+    cells: *const u32,
+    split_count: usize,
+    data: *const f64,
+    data_count: usize,
+    out_surface: *mut *mut planish_surface,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let out_surface = out(out_surface, "out_surface")?;
+        let is_rational = flag(is_rational, "is_rational")?;
+        let lines_u = slice(lines_u, line_count_u, "lines_u")?;
+        let lines_v = slice(lines_v, line_count_v, "lines_v")?;
+        let mut mesh = TMesh::new(lines_u, lines_v)?;
+        mesh.split_all(&self::cells(cells, split_count)?)?;
+        let surface = if data.is_null() && data_count == 0 {
+            PhtSurface::zero(dim, is_rational, mesh)?
+        } else {
+            PhtSurface::new(dim, is_rational, mesh, &copy(data, data_count, "data")?)?
+        };
+        out_surface.write(planish_surface::into_raw(surface));
+        Ok(())
+    })
+}
+
+/// Splits cells of a PHT-spline at their middles; the surface stays the same, all cells or none are split.
+///
+/// surface: not NULL; changed.
+/// cells:   count rows of level, i, j: leaves when their turn comes, so quarters may follow their cell.
+/// count:   may be 0.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX (a cell
+/// is no leaf; the index is its row), PLANISH_STATUS_TOO_LARGE (a level above 20) or
+/// PLANISH_STATUS_OUT_OF_MEMORY.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_pht_split(
+    surface: *mut planish_surface,
+    cells: *const u32,
+    count: usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe { Ok(deref_mut(surface, "surface")?.pht_mut()?.split(&self::cells(cells, count)?)?) })
+}
+
+/// Merges the quarters of cells of a PHT-spline: the exact inverse of planish_pht_split(). The surface changes
+/// where the vertices that vanish acted, which may reach beyond the neighbours. All cells or none are merged.
+///
+/// surface: not NULL; changed.
+/// cells:   count rows of level, i, j: cells whose quarters are four leaves when their turn comes.
+/// count:   may be 0.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX (the
+/// quarters are not four leaves; the index is the row) or PLANISH_STATUS_OUT_OF_MEMORY.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_pht_merge(
+    surface: *mut planish_surface,
+    cells: *const u32,
+    count: usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe { Ok(deref_mut(surface, "surface")?.pht_mut()?.merge(&self::cells(cells, count)?)?) })
+}
+
+/// Merges as many cells of a PHT-spline as it can while no point moves by more than a tolerance.
+///
+/// surface:       not NULL; changed.
+/// tolerance:     in model units, not negative.
+/// out_deviation: receives a bound of how far a point has moved; NULL for none.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
+/// PLANISH_STATUS_INVALID_ARGUMENT (tolerance).
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_pht_simplify(
+    surface: *mut planish_surface,
+    tolerance: f64,
+    out_deviation: *mut f64,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let out_deviation = slice_mut_or_none(out_deviation, 1, "out_deviation")?;
+        let result = deref_mut(surface, "surface")?.pht_mut()?.simplify(tolerance)?;
+        if let Some(out) = out_deviation {
+            out[0] = result.deviation;
+        }
+        Ok(())
+    })
+}
+
+/// Splits all cells of a PHT-spline that meet the inside of a rectangle until they have at least some level; the
+/// surface stays the same.
+///
+/// surface:   not NULL; changed.
+/// region:    least u, largest u, least v, largest v.
+/// level:     at most 20.
+/// max_cells: with more cells the call fails.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
+/// PLANISH_STATUS_TOO_LARGE (level, cells).
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_pht_refine_region(
+    surface: *mut planish_surface,
+    region: *const f64,
+    level: u32,
+    max_cells: usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let region = self::region(slice(region, 4, "region")?);
+        Ok(deref_mut(surface, "surface")?.pht_mut()?.refine_region(region, level, max_cells)?)
+    })
+}
+
+fn region(numbers: &[f64]) -> Domain {
+    Domain { min: DVec2::new(numbers[0], numbers[2]), max: DVec2::new(numbers[1], numbers[3]) }
+}
+
+/// How a tensor surface becomes a PHT-spline. Fill with planish_pht_convert_options_init(), then change what you
+/// need.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct planish_pht_convert_options {
+    /// Set by planish_pht_convert_options_init().
+    pub struct_size: usize,
+    /// Largest distance at equal parameters, in model units; 0 (default) takes all knot lines, which is exact up to
+    /// degree 3.
+    pub tolerance: f64,
+    /// Most cells; with more the call fails. Default 200000.
+    pub max_cells: usize,
+    /// Deepest level of a cell, at most 20. Default 12.
+    pub max_level: u32,
+    /// 0.
+    pub reserved: u32,
+}
+
+record!(planish_pht_convert_options, 32, {
+    struct_size: 0, tolerance: 8, max_cells: 16, max_level: 24, reserved: 28,
+});
+
+impl Default for planish_pht_convert_options {
+    fn default() -> Self {
+        let core = ConvertOptions::default();
+        Self {
+            struct_size: size_of::<Self>(),
+            tolerance: core.tolerance,
+            max_cells: core.max_cells,
+            max_level: core.max_level,
+            reserved: 0,
+        }
+    }
+}
+
+/// Fills options with the defaults.
+///
+/// options:     struct_size writable bytes.
+/// struct_size: sizeof(planish_pht_convert_options).
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_pht_convert_options_init(
+    options: *mut planish_pht_convert_options,
+    struct_size: usize,
+) -> planish_status {
+    // SAFETY: the caller's promise.
+    guard(|| unsafe { init_options(options, struct_size) })
+}
+
+/// Makes a PHT-spline of a tensor surface, with its weights and trims.
+///
+/// surface:     not NULL, a tensor surface without creases: no knot inside occurs degree times.
+/// options:     NULL for the defaults.
+/// out_surface: receives a new surface; destroy with planish_surface_free().
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND (a PHT-spline is refused as
+/// well), PLANISH_STATUS_INVALID_ARGUMENT (an option; a crease, the index is the knot: convert the parts of
+/// planish_tensor_split()), PLANISH_STATUS_TOO_LARGE (the limits do not allow the tolerance) or
+/// PLANISH_STATUS_VERSION.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_pht_from_surface(
+    surface: *const planish_surface,
+    options: *const planish_pht_convert_options,
+    out_surface: *mut *mut planish_surface,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let tensor = deref(surface, "surface")?.tensor()?;
+        let out_surface = out(out_surface, "out_surface")?;
+        let given: planish_pht_convert_options = self::options(options)?;
+        if given.reserved != 0 {
+            let record = "planish_pht_convert_options";
+            return Err(ArgumentError::Reserved { record, given: given.reserved }.into());
+        }
+        let options = ConvertOptions {
+            tolerance: given.tolerance,
+            max_level: given.max_level,
+            max_cells: given.max_cells,
+        };
+        let pht = PhtSurface::from_tensor(tensor, &options)?;
+        out_surface.write(planish_surface::into_raw(pht));
+        Ok(())
+    })
+}
+
+/// Makes tensor surfaces that together are a PHT-spline exactly. They meet with equal parameters, each over cells
+/// whose levels differ by at most sigma: many small ones for 0, one for 20. They have no trims.
+///
+/// surface:      not NULL.
+/// sigma:        levels.
+/// out_surfaces: receives new surfaces; destroy each with planish_surface_free(). NULL asks for the number.
+/// count:        handles that out_surfaces has room for.
+/// out_count:    receives the number of surfaces.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND,
+/// PLANISH_STATUS_BUFFER_TOO_SMALL (nothing is made) or PLANISH_STATUS_NOT_FINITE (a number would overflow).
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_pht_to_tensor_patches(
+    surface: *const planish_surface,
+    sigma: u32,
+    out_surfaces: *mut *mut planish_surface,
+    count: usize,
+    out_count: *mut usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let pht = deref(surface, "surface")?.pht()?;
+        let out_count = out(out_count, "out_count")?;
+        let patches = pht.to_tensor_patches(sigma)?;
+        if !out_surfaces.is_null() {
+            let handles = rows_mut(out_surfaces, count, patches.len(), 1, "out_surfaces")?;
+            out_count.write(patches.len());
+            for (handle, patch) in handles.iter_mut().zip(patches) {
+                *handle = planish_surface::into_raw(patch);
+            }
+        } else {
+            out_count.write(patches.len());
+        }
+        Ok(())
+    })
+}
+
+/// An edge of a surface's domain.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum planish_border_side {
+    /// Least u.
+    LowU = 0,
+    /// Largest u.
+    HighU = 1,
+    /// Least v.
+    LowV = 2,
+    /// Largest v.
+    HighV = 3,
+}
+
+/// Makes two PHT-splines meet with common tangents along an edge of each: both get the same vertices there, by
+/// splits, and the means of their positions and derivatives. Changes neither if they cannot be stitched.
+///
+/// first:       not NULL, not second; changed.
+/// first_side:  a planish_border_side.
+/// second:      not NULL; changed.
+/// second_side: a planish_border_side.
+/// is_reversed: 1 if the edges run in opposite directions, else 0.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
+/// PLANISH_STATUS_INVALID_ARGUMENT (a side; the dimensions or the initial grids along the edges differ).
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_pht_stitch(
+    first: *mut planish_surface,
+    first_side: u32,
+    second: *mut planish_surface,
+    second_side: u32,
+    is_reversed: u32,
+) -> planish_status {
+    // SAFETY: the caller's promises; that the handles differ is checked first.
+    guard(|| unsafe {
+        if std::ptr::eq(first, second) && !first.is_null() {
+            return Err(ArgumentError::NotTwo { name: "second" }.into());
+        }
+        let side = |given, name| {
+            use BorderSide::{HighU, HighV, LowU, LowV};
+            choice(given, &[LowU, HighU, LowV, HighV], name)
+        };
+        let first_side = side(first_side, "first_side")?;
+        let second_side = side(second_side, "second_side")?;
+        let is_reversed = flag(is_reversed, "is_reversed")?;
+        let first = deref_mut(first, "first")?.pht_mut()?;
+        let second = deref_mut(second, "second")?.pht_mut()?;
+        Ok(stitch((first, first_side), (second, second_side), is_reversed)?)
+    })
+}

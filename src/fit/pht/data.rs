@@ -1,0 +1,124 @@
+//! What is fitted: nodes or points, and the middles of triangles.
+//!
+//! With more coefficients than nodes the nodes alone say nothing (`parameterization.md` 6). The middle of a
+//! triangle of a shape is taken where a smooth surface would have it, above the facet.
+
+use super::super::tessellation::Frame;
+use super::super::tessellation::interior::{MeshData, heights_over, node_normals, triangle_sagittas};
+use super::super::tessellation::samples::bulge;
+use crate::control::Pool;
+use crate::geometry::{Bounds, Domain};
+use crate::mesh::Mesh;
+use crate::surface::Surface;
+use glam::{DVec2, DVec3};
+
+/// Weight of the middle of a triangle against that of a node: an estimate, which must not pull the surface off the
+/// nodes.
+const MIDDLE_WEIGHT: f64 = 0.3;
+
+/// The data of a fit.
+pub struct Data<'a> {
+    pub mesh: Option<&'a Mesh>,
+    /// Whether the values are the nodes' places in space.
+    pub is_shape: bool,
+    /// Rows of `dim` numbers, as given.
+    pub values: &'a [f64],
+    pub dim: usize,
+    /// Parameters of the data; sweeps move them.
+    pub uv: Vec<DVec2>,
+    /// Parameters as they were at first.
+    pub first_uv: Vec<DVec2>,
+    /// The box of `uv` as it was at first.
+    pub data_box: Domain,
+    pub frame: Frame,
+    pub bounds: Bounds,
+    /// Values of the samples in the frame: those of the data, then those of the middles of triangles.
+    pub sample_values: Vec<f64>,
+    /// A weight for each sample; empty for all 1.
+    pub sample_weights: Vec<f64>,
+    /// Height of the shape above each triangle; empty for what is no shape.
+    sagittas: Vec<f64>,
+}
+
+impl<'a> Data<'a> {
+    pub fn of_points(uv: Vec<DVec2>, values: &'a [f64], dim: usize, weights: Option<&[f64]>) -> Self {
+        let (bounds, data_box) = (Bounds::of_rows(values, dim), Domain::around(uv.iter().copied()));
+        let frame = Frame::new(&bounds);
+        Self {
+            mesh: None,
+            is_shape: false,
+            sample_values: frame.inward(values),
+            sample_weights: weights.map_or(Vec::new(), <[f64]>::to_vec),
+            sagittas: Vec::new(),
+            values,
+            dim,
+            first_uv: uv.clone(),
+            uv,
+            data_box,
+            frame,
+            bounds,
+        }
+    }
+
+    pub fn of_mesh(
+        mesh: &'a Mesh,
+        uv: Vec<DVec2>,
+        values: &'a [f64],
+        dim: usize,
+        is_shape: bool,
+        weights: Option<&[f64]>,
+    ) -> Self {
+        let mut data = Self { mesh: Some(mesh), is_shape, ..Self::of_points(uv, values, dim, weights) };
+        let middles = if is_shape { bulged_middles(mesh, &data) } else { flat_middles(mesh, &data) };
+        data.sample_values.extend(middles);
+        if is_shape {
+            data.sagittas = triangle_sagittas(mesh);
+        }
+        let weight = |n: u32| weights.map_or(1.0, |weights| weights[n as usize]);
+        let mean = |nodes: &[u32; 3]| nodes.iter().map(|&n| weight(n)).sum::<f64>() / 3.0;
+        data.sample_weights.resize(mesh.points().len(), 1.0);
+        data.sample_weights.extend(mesh.triangles().iter().map(|nodes| MIDDLE_WEIGHT * mean(nodes)));
+        data
+    }
+
+    /// Parameters of all samples.
+    pub fn sample_uv(&self) -> Vec<DVec2> {
+        let triangles = self.mesh.map_or(&[][..], Mesh::triangles);
+        let middle = |nodes: &[u32; 3]| nodes.iter().map(|&n| self.uv[n as usize]).sum::<DVec2>() / 3.0;
+        self.uv.iter().copied().chain(triangles.iter().map(middle)).collect()
+    }
+
+    /// By how much the middle of each triangle of a shape misses the surface beyond its sagitta; `sample_uv` are
+    /// the parameters of all samples.
+    pub fn excesses(&self, surface: &dyn Surface, sample_uv: &[DVec2], pool: &Pool) -> Vec<f64> {
+        let Some(mesh) = self.mesh.filter(|_| self.is_shape) else { return Vec::new() };
+        let place = |n: u32| DVec3::from_slice(&self.values[3 * n as usize..]);
+        let middle = |&[a, b, c]: &[u32; 3]| ((place(a) + place(b) + place(c)) / 3.0).to_array();
+        let middles: Vec<f64> = mesh.triangles().iter().flat_map(middle).collect();
+        let heights = heights_over(surface, &sample_uv[self.uv.len()..], &middles, pool);
+        heights.into_iter().zip(&self.sagittas).map(|(height, sagitta)| height - sagitta).collect()
+    }
+
+    pub fn on_mesh(&self) -> Option<MeshData<'_>> {
+        let is_shape = self.is_shape;
+        self.mesh.map(|mesh| MeshData { mesh, uv: &self.uv, values: self.values, is_shape })
+    }
+}
+
+fn bulged_middles(mesh: &Mesh, data: &Data) -> Vec<f64> {
+    let normals = node_normals(mesh);
+    let middle = |nodes: &[u32; 3]| {
+        let nodes = nodes.map(|node| node as usize);
+        let corners = nodes.map(|n| DVec3::from_slice(&data.sample_values[3 * n..]));
+        let normals = nodes.map(|n| normals[n].normalize_or_zero());
+        bulge(corners, normals, [1.0 / 3.0; 3]).to_array()
+    };
+    mesh.triangles().iter().flat_map(middle).collect()
+}
+
+fn flat_middles(mesh: &Mesh, data: &Data) -> Vec<f64> {
+    let row = |n: u32| &data.sample_values[n as usize * data.dim..][..data.dim];
+    let middle =
+        |&[a, b, c]: &[u32; 3]| (0..data.dim).map(move |k| (row(a)[k] + row(b)[k] + row(c)[k]) / 3.0);
+    mesh.triangles().iter().flat_map(middle).collect()
+}

@@ -1,0 +1,278 @@
+//! Least squares over all samples in the jets of the basis vertices: `pht.md` 4.
+//!
+//! ```text
+//! minimize  sum_n w_n |S(u_n,v_n) - P_n|^2 + smoothing sum_cells plate energy of the unit cell
+//! ```
+//! Unknowns are the jets times 1, h_u, h_v, h_u h_v with the size of the largest cell at the vertex. The sums of a
+//! cell go to its corners, and from T-vertices on to the basis vertices that they are made of. The matrix is made
+//! of blocks of four by four.
+
+use super::data::Data;
+use super::hermite_cell::{COUNT, CellSums, weights};
+use crate::control::{Pool, Watch};
+use crate::fit::tessellation::FitError;
+use crate::linalg::SymbolicCholesky;
+use crate::surface::pht::{Matrix, TMesh, Topology};
+use glam::DVec2;
+use rayon::prelude::*;
+use sprs::CsMat;
+
+/// Samples sorted by leaf: `order[starts[leaf]..starts[leaf + 1]]` lie in a leaf.
+struct ByLeaf {
+    starts: Vec<u32>,
+    order: Vec<u32>,
+}
+
+impl ByLeaf {
+    fn sort(mesh: &TMesh, topology: &Topology, uv: &[DVec2], pool: &Pool) -> Self {
+        let leaf = |&uv: &DVec2| topology.leaf_of(mesh.locate(uv)) as u32;
+        let leaves: Vec<u32> = pool.run(|| uv.par_iter().with_min_len(4096).map(leaf).collect());
+        let mut starts = vec![0u32; topology.leaves.len() + 1];
+        leaves.iter().for_each(|&leaf| starts[leaf as usize + 1] += 1);
+        for leaf in 1..starts.len() {
+            starts[leaf] += starts[leaf - 1];
+        }
+        let mut next = starts.clone();
+        let mut order = vec![0; uv.len()];
+        for (sample, &leaf) in leaves.iter().enumerate() {
+            order[next[leaf as usize] as usize] = sample as u32;
+            next[leaf as usize] += 1;
+        }
+        Self { starts, order }
+    }
+
+    fn of(&self, leaf: usize) -> &[u32] {
+        &self.order[self.starts[leaf] as usize..self.starts[leaf + 1] as usize]
+    }
+}
+
+/// Leaves summed in one piece of work; what they add is kept at once.
+const PIECE: usize = 64;
+
+type Block = [[f64; 4]; 4];
+
+/// The matrix of one mesh: what stays when samples move.
+pub struct System<'a> {
+    mesh: &'a TMesh,
+    topology: &'a Topology,
+    expansions: Vec<Vec<(u32, Matrix)>>,
+    /// Size of the largest cell at each basis vertex.
+    sizes: Vec<DVec2>,
+    /// Blocks of the lower triangle by columns: the rows of column `c` are `rows[starts[c]..starts[c + 1]]`.
+    starts: Vec<u32>,
+    rows: Vec<u32>,
+    symbolic: SymbolicCholesky,
+}
+
+/// What one leaf adds.
+struct Share {
+    blocks: Vec<(u32, Block)>,
+    right: Vec<(u32, Vec<f64>)>,
+}
+
+impl<'a> System<'a> {
+    pub fn new(mesh: &'a TMesh, topology: &'a Topology) -> Self {
+        let expansions = topology.expansions(mesh);
+        let mut sizes = vec![DVec2::ZERO; topology.basis.len()];
+        let mut pairs: Vec<(u32, u32)> = Vec::new();
+        for (&node, corners) in topology.leaves.iter().zip(&topology.corners) {
+            let size = mesh.cell_domain(mesh.cell(node)).size();
+            let expanded = corners.iter().flat_map(|&vertex| &expansions[vertex as usize]);
+            let mut ranks: Vec<u32> = expanded.map(|&(rank, _)| rank).collect();
+            ranks.sort_unstable();
+            ranks.dedup();
+            for (k, &column) in ranks.iter().enumerate() {
+                sizes[column as usize] = sizes[column as usize].max(size);
+                pairs.extend(ranks[k..].iter().map(|&row| (column, row)));
+            }
+        }
+        pairs.sort_unstable();
+        pairs.dedup();
+        let mut starts = vec![0u32; topology.basis.len() + 1];
+        pairs.iter().for_each(|&(column, _)| starts[column as usize + 1] += 1);
+        for column in 1..starts.len() {
+            starts[column] += starts[column - 1];
+        }
+        let rows: Vec<u32> = pairs.into_iter().map(|(_, row)| row).collect();
+        let zeros = vec![[[0.0; 4]; 4]; rows.len()];
+        let symbolic = SymbolicCholesky::new(&lower_triangle(&starts, &rows, &zeros).view(), None);
+        Self { mesh, topology, expansions, sizes, starts, rows, symbolic }
+    }
+
+    /// The jets in the frame of the data: for each basis vertex four rows of `dim` numbers.
+    pub fn solve(
+        &self,
+        data: &Data,
+        smoothing: f64,
+        pool: &Pool,
+        watch: &Watch,
+    ) -> Result<Vec<f64>, FitError> {
+        let uv = data.sample_uv();
+        let by_leaf = ByLeaf::sort(self.mesh, self.topology, &uv, pool);
+        let (dim, n) = (data.dim, 4 * self.topology.basis.len());
+        let mut blocks = vec![[[0.0; 4]; 4]; self.rows.len()];
+        let mut right = vec![0.0; n * dim];
+        let leaves: Vec<usize> = (0..self.topology.leaves.len()).collect();
+        // pieces of a batch are kept at once: the batch bounds the memory, and is fixed
+        for batch in leaves.chunks(16 * PIECE) {
+            watch.check()?;
+            let shares: Vec<Share> = pool.run(|| {
+                let pieces = batch.par_chunks(PIECE);
+                let share = |leaf: &usize| self.share(*leaf, data, &uv, &by_leaf, smoothing);
+                pieces.flat_map_iter(|piece| piece.iter().map(share).collect::<Vec<_>>()).collect()
+            });
+            for share in shares {
+                for (place, block) in share.blocks {
+                    let sums = blocks[place as usize].iter_mut().flatten();
+                    sums.zip(block.iter().flatten()).for_each(|(sum, x)| *sum += x);
+                }
+                for (rank, rows) in share.right {
+                    for (unknown, row) in (4 * rank as usize..).zip(rows.chunks_exact(dim)) {
+                        (0..dim).for_each(|k| right[k * n + unknown] += row[k]);
+                    }
+                }
+            }
+        }
+        watch.check()?;
+        let matrix = lower_triangle(&self.starts, &self.rows, &blocks);
+        let factor = self.symbolic.factor(&matrix.view()).map_err(|_| FitError::Singular)?;
+        factor.solve(&mut right, dim);
+        watch.check()?;
+        Ok(self.jets(&right, dim))
+    }
+
+    fn jets(&self, unknowns: &[f64], dim: usize) -> Vec<f64> {
+        let n = 4 * self.topology.basis.len();
+        let mut jets = Vec::with_capacity(n * dim);
+        for (rank, size) in self.sizes.iter().enumerate() {
+            for (row, scale) in units(*size).into_iter().enumerate() {
+                jets.extend((0..dim).map(|k| unknowns[k * n + 4 * rank + row] / scale));
+            }
+        }
+        jets
+    }
+
+    fn share(&self, leaf: usize, data: &Data, uv: &[DVec2], by_leaf: &ByLeaf, smoothing: f64) -> Share {
+        let domain = self.mesh.cell_domain(self.mesh.cell(self.topology.leaves[leaf]));
+        let mut sums = CellSums::new(data.dim);
+        pulp::Arch::new().dispatch(
+            #[inline(always)]
+            || {
+                for &sample in by_leaf.of(leaf) {
+                    let sample = sample as usize;
+                    let at = (uv[sample] - domain.min) / domain.size();
+                    let value = &data.sample_values[sample * data.dim..][..data.dim];
+                    let weight = data.sample_weights.get(sample).copied().unwrap_or(1.0);
+                    sums.add(&weights(at.x, at.y), value, weight);
+                }
+            },
+        );
+        sums.add_energy(smoothing);
+        self.expand(leaf, &sums, units(domain.size()), data.dim)
+    }
+
+    /// From the unknowns of a cell to those of the basis vertices that its corners are made of.
+    fn expand(&self, leaf: usize, sums: &CellSums, cell_units: [f64; 4], dim: usize) -> Share {
+        let corners = self.topology.corners[leaf].map(|vertex| &self.expansions[vertex as usize]);
+        let transforms: Vec<(usize, u32, Block)> = corners
+            .iter()
+            .enumerate()
+            .flat_map(|(corner, expansion)| {
+                expansion.iter().map(move |(rank, matrix)| {
+                    let vertex_units = units(self.sizes[*rank as usize]);
+                    let scaled = |r: usize, c: usize| cell_units[r] * matrix[r][c] / vertex_units[c];
+                    (corner, *rank, std::array::from_fn(|r| std::array::from_fn(|c| scaled(r, c))))
+                })
+            })
+            .collect();
+        let mut share = Share { blocks: Vec::with_capacity(10), right: Vec::with_capacity(4) };
+        for (corner_b, column, b) in &transforms {
+            let rows = sums.right[4 * corner_b * dim..][..4 * dim].chunks_exact(dim);
+            let mut right = vec![0.0; 4 * dim];
+            for (row, weights) in rows.zip(b) {
+                for (sum, weight) in right.chunks_exact_mut(dim).zip(weights) {
+                    sum.iter_mut().zip(row).for_each(|(sum, x)| *sum += weight * x);
+                }
+            }
+            share.right.push((*column, right));
+            for (corner_a, row, a) in &transforms {
+                if row < column {
+                    continue;
+                }
+                let product = congruence(&sums.matrix, *corner_a, a, *corner_b, b);
+                let place = self.place(*row, *column);
+                match share.blocks.iter_mut().find(|(other, _)| *other == place) {
+                    Some((_, sum)) => {
+                        let sums = sum.iter_mut().flatten();
+                        sums.zip(product.iter().flatten()).for_each(|(sum, x)| *sum += x);
+                    }
+                    None => share.blocks.push((place, product)),
+                }
+            }
+        }
+        share
+    }
+
+    /// The number of a block of the lower triangle.
+    fn place(&self, row: u32, column: u32) -> u32 {
+        let [from, to] = [0, 1].map(|k| self.starts[column as usize + k] as usize);
+        let found = self.rows[from..to].binary_search(&row);
+        (from + found.expect("the pattern holds all pairs of a leaf")) as u32
+    }
+}
+
+/// What the four unknowns of a jet are multiplied by.
+fn units(size: DVec2) -> [f64; 4] {
+    [1.0, size.x, size.y, size.x * size.y]
+}
+
+/// `a^T M b` for the part of `M` that belongs to two corners.
+fn congruence(
+    matrix: &[[f64; COUNT]; COUNT],
+    corner_a: usize,
+    a: &Block,
+    corner_b: usize,
+    b: &Block,
+) -> Block {
+    let mut half = [[0.0; 4]; 4];
+    for r in 0..4 {
+        let part = &matrix[4 * corner_a + r][4 * corner_b..][..4];
+        for k in 0..4 {
+            for c in 0..4 {
+                half[r][c] += part[k] * b[k][c];
+            }
+        }
+    }
+    let mut whole = [[0.0; 4]; 4];
+    for k in 0..4 {
+        for r in 0..4 {
+            for c in 0..4 {
+                whole[r][c] += a[k][r] * half[k][c];
+            }
+        }
+    }
+    whole
+}
+
+/// The scalar matrix: its lower triangle in columns.
+fn lower_triangle(starts: &[u32], rows: &[u32], blocks: &[Block]) -> CsMat<f64> {
+    let n = 4 * (starts.len() - 1);
+    let mut pointers = Vec::with_capacity(n + 1);
+    let (mut indices, mut values) =
+        (Vec::with_capacity(16 * rows.len()), Vec::with_capacity(16 * rows.len()));
+    pointers.push(0);
+    for column in 0..starts.len() - 1 {
+        let range = starts[column] as usize..starts[column + 1] as usize;
+        for c in 0..4 {
+            for (row, block) in rows[range.clone()].iter().zip(&blocks[range.clone()]) {
+                let first = if *row as usize == column { c } else { 0 };
+                for r in first..4 {
+                    indices.push(4 * *row as usize + r);
+                    values.push(block[r][c]);
+                }
+            }
+            pointers.push(indices.len());
+        }
+    }
+    CsMat::new_csc((n, n), pointers, indices, values)
+}

@@ -1,0 +1,141 @@
+//! Sums over one cell: least squares in the sixteen Hermite unknowns of its corners, and its plate energy.
+//!
+//! Unknowns are in units of the cell: at each corner, in the order of the quadrants, `f, H_u f_u, H_v f_v,
+//! H_u H_v f_uv`. In these the energy is the same matrix for all cells.
+
+use crate::hermite::shape_functions;
+use std::sync::LazyLock;
+
+/// Unknowns of a cell.
+pub const COUNT: usize = 16;
+
+/// A matrix over the unknowns of a cell.
+pub type CellMatrix = [[f64; COUNT]; COUNT];
+
+/// Weights of the unknowns at the place `x`, `y` of the unit cell.
+#[inline(always)]
+pub fn weights(x: f64, y: f64) -> [f64; COUNT] {
+    let ([a, b, c, d], [e, f, g, h]) = (shape_functions(x), shape_functions(y));
+    let (along_u, along_v) = ([[a, c], [b, d]], [[e, g], [f, h]]);
+    let mut weights = [0.0; COUNT];
+    for i in 0..2 {
+        for j in 0..2 {
+            let corner = &mut weights[4 * (2 * i + j)..][..4];
+            corner[0] = along_u[i][0] * along_v[j][0];
+            corner[1] = along_u[i][1] * along_v[j][0];
+            corner[2] = along_u[i][0] * along_v[j][1];
+            corner[3] = along_u[i][1] * along_v[j][1];
+        }
+    }
+    weights
+}
+
+/// Normal equations of one cell.
+pub struct CellSums {
+    /// Products of the unknowns' weights.
+    pub matrix: CellMatrix,
+    /// A row of `dim` numbers for each unknown.
+    pub right: Vec<f64>,
+}
+
+impl CellSums {
+    pub fn new(dim: usize) -> Self {
+        Self { matrix: [[0.0; COUNT]; COUNT], right: vec![0.0; COUNT * dim] }
+    }
+
+    /// Adds a sample.
+    #[inline(always)]
+    pub fn add(&mut self, n: &[f64; COUNT], value: &[f64], weight: f64) {
+        for i in 0..COUNT {
+            let scaled = weight * n[i];
+            for j in 0..COUNT {
+                self.matrix[i][j] += scaled * n[j];
+            }
+        }
+        for (row, n) in self.right.chunks_exact_mut(value.len()).zip(n) {
+            row.iter_mut().zip(value).for_each(|(sum, x)| *sum += weight * n * x);
+        }
+    }
+
+    /// Adds `weight` times the plate energy.
+    pub fn add_energy(&mut self, weight: f64) {
+        for (row, energy) in self.matrix.iter_mut().zip(PLATE.iter()) {
+            row.iter_mut().zip(energy).for_each(|(sum, e)| *sum += weight * e);
+        }
+    }
+}
+
+/// The integral of `f_xx^2 + 2 f_xy^2 + f_yy^2` over the unit cell.
+static PLATE: LazyLock<CellMatrix> = LazyLock::new(|| {
+    let gram = [0, 1, 2].map(gram);
+    // the place of unknown k of a line: value and slope at its begin, then at its end
+    let mut energy = [[0.0; COUNT]; COUNT];
+    let parts = |unknown: usize| {
+        let (corner, row) = (unknown / 4, unknown % 4);
+        (2 * (corner / 2) + row % 2, 2 * (corner % 2) + row / 2)
+    };
+    for i in 0..COUNT {
+        for j in 0..COUNT {
+            let ((a, b), (c, d)) = (parts(i), parts(j));
+            energy[i][j] = gram[2][a][c] * gram[0][b][d]
+                + 2.0 * gram[1][a][c] * gram[1][b][d]
+                + gram[0][a][c] * gram[2][b][d];
+        }
+    }
+    energy
+});
+
+/// Integrals over the unit interval of products of derivatives of the cubics that have value or slope 1 at one
+/// end: value and slope at 0, value and slope at 1.
+fn gram(order: usize) -> [[f64; 4]; 4] {
+    // coefficients of 1, x, x^2, x^3
+    const CUBICS: [[f64; 4]; 4] =
+        [[1.0, 0.0, -3.0, 2.0], [0.0, 1.0, -2.0, 1.0], [0.0, 0.0, 3.0, -2.0], [0.0, 0.0, -1.0, 1.0]];
+    let derivative = |c: [f64; 4]| [c[1], 2.0 * c[2], 3.0 * c[3], 0.0];
+    let cubics = CUBICS.map(|cubic| (0..order).fold(cubic, |c, _| derivative(c)));
+    let product = |a: [f64; 4], b: [f64; 4]| -> f64 {
+        let pairs = (0..4).flat_map(|i| (0..4).map(move |j| (i, j)));
+        pairs.map(|(i, j)| a[i] * b[j] / (i + j + 1) as f64).sum()
+    };
+    cubics.map(|a| cubics.map(|b| product(a, b)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Unknowns of a polynomial x^p y^q.
+    fn unknowns(p: i32, q: i32) -> [f64; COUNT] {
+        let slope = |x: f64, p: i32| if p == 0 { 0.0 } else { f64::from(p) * x.powi(p - 1) };
+        let mut unknowns = [0.0; COUNT];
+        for (corner, [x, y]) in [[0.0_f64, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0]].into_iter().enumerate() {
+            let (fx, fy) = ([x.powi(p), slope(x, p)], [y.powi(q), slope(y, q)]);
+            unknowns[4 * corner..][..4].copy_from_slice(&[
+                fx[0] * fy[0],
+                fx[1] * fy[0],
+                fx[0] * fy[1],
+                fx[1] * fy[1],
+            ]);
+        }
+        unknowns
+    }
+
+    #[test]
+    fn bicubics_have_their_values_and_energies() {
+        // integrals of (x^p y^q)_xx^2 + 2 _xy^2 + _yy^2 worked out by hand
+        for (p, q, energy) in
+            [(0, 0, 0.0), (1, 0, 0.0), (1, 1, 2.0), (2, 0, 4.0), (0, 3, 12.0), (2, 1, 4.0 / 3.0 + 8.0 / 3.0)]
+        {
+            let x = unknowns(p, q);
+            let at = weights(0.3, 0.8);
+            let value: f64 = at.iter().zip(x).map(|(w, x)| w * x).sum();
+            assert!((value - 0.3f64.powi(p) * 0.8f64.powi(q)).abs() <= 16.0 * f64::EPSILON);
+            let measured: f64 = (0..COUNT)
+                .flat_map(|i| (0..COUNT).map(move |j| (i, j)))
+                .map(|(i, j)| x[i] * PLATE[i][j] * x[j])
+                .sum();
+            // 256 terms of at most 12 * 3 * 3
+            assert!((measured - energy).abs() <= 256.0 * 108.0 * f64::EPSILON, "{p} {q}: {measured}");
+        }
+    }
+}

@@ -1,0 +1,263 @@
+//! Jets from polynomials fitted to the data around a place: `pht.md` 4.
+//!
+//! The paper's quadratic fits know nothing of the size of cells: one around each datum, carried to the vertices by
+//! linear interpolation. Weighted cubics around each vertex, over a circle as large as the cells there, do. Both
+//! work in the unit square of the data's box.
+
+use super::data::Data;
+use crate::control::Pool;
+use crate::fit::tessellation::FitError;
+use crate::surface::pht::{TMesh, Topology, VertexKind};
+use glam::DVec2;
+use rayon::prelude::*;
+use spade::{DelaunayTriangulation, FloatTriangulation, HasPosition, Point2, Triangulation};
+
+/// Neighbours of a datum, itself included, in a quadratic fit.
+const QUADRATIC_NEIGHBOURS: usize = 18;
+/// Least data of a cubic fit with its ten coefficients.
+const CUBIC_NEIGHBOURS: usize = 24;
+/// Radius of a cubic fit, in mean widths of the cells at the vertex.
+const CUBIC_RADIUS: f64 = 0.75;
+/// Data at the radius weigh exp(-3).
+const CUBIC_DECAY: f64 = 3.0;
+
+/// Jets of weighted cubics around the basis vertices, in the frame of the data.
+pub fn cubic(data: &Data, mesh: &TMesh, topology: &Topology, pool: &Pool) -> Vec<f64> {
+    let buckets = Buckets::new(data);
+    let mut widths = vec![(0.0, 0.0); topology.basis.len()];
+    for (&node, corners) in topology.leaves.iter().zip(&topology.corners) {
+        let size = buckets.to_unit_size(mesh.cell_domain(mesh.cell(node)).size());
+        for &vertex in corners {
+            if let VertexKind::Basis(rank) = topology.kinds[vertex as usize] {
+                let (sum, count) = &mut widths[rank as usize];
+                *sum += size.element_product().sqrt();
+                *count += 1.0;
+            }
+        }
+    }
+    let jet = |(&vertex, &(sum, count)): (&u32, &(f64, f64))| {
+        let center = buckets.to_unit(mesh.parameters(topology.vertices[vertex as usize]));
+        let near = buckets.around(center, CUBIC_RADIUS * sum / count, CUBIC_NEIGHBOURS);
+        let weight = |distance: f64| (-CUBIC_DECAY * distance * distance).exp();
+        buckets.jet(polynomial_jet::<10>(data, &buckets, center, &near, weight))
+    };
+    pool.run(|| topology.basis.par_iter().zip(&widths).with_min_len(16).map(jet).flatten().collect())
+}
+
+/// Jets of quadratics around the data, interpolated linearly over their Delaunay triangles.
+pub fn quadratic(data: &Data, mesh: &TMesh, topology: &Topology, pool: &Pool) -> Result<Vec<f64>, FitError> {
+    let buckets = Buckets::new(data);
+    let length = 4 * data.dim;
+    let at_datum = |&center: &DVec2| {
+        let near = buckets.around(center, 0.0, QUADRATIC_NEIGHBOURS);
+        polynomial_jet::<6>(data, &buckets, center, &near, |_| 1.0)
+    };
+    let jets: Vec<Vec<f64>> = pool.run(|| buckets.uv.par_iter().with_min_len(64).map(at_datum).collect());
+    let sites = buckets.uv.iter().enumerate().map(|(index, &uv)| Site { uv, index }).collect();
+    let triangles = DelaunayTriangulation::<Site>::bulk_load_stable(sites).map_err(|_| FitError::Singular)?;
+    let barycentric = triangles.barycentric();
+    let mut shares = Vec::new();
+    let mut all = Vec::with_capacity(topology.basis.len() * length);
+    for &vertex in &topology.basis {
+        let place = buckets.to_unit(mesh.parameters(topology.vertices[vertex as usize]));
+        barycentric.get_weights(Point2::new(place.x, place.y), &mut shares);
+        let mut jet = vec![0.0; length];
+        for (vertex, share) in &shares {
+            let near = &jets[triangles.vertex(*vertex).data().index];
+            jet.iter_mut().zip(near).for_each(|(sum, x)| *sum += share * x);
+        }
+        if shares.is_empty() {
+            // beyond the data: those of the nearest datum
+            let near = buckets.around(place, 0.0, 1);
+            jet.clone_from(&jets[near.data[0].1]);
+        }
+        all.extend(buckets.jet(jet));
+    }
+    Ok(all)
+}
+
+/// A datum of the triangulation.
+struct Site {
+    uv: DVec2,
+    index: usize,
+}
+
+impl HasPosition for Site {
+    type Scalar = f64;
+    fn position(&self) -> Point2<f64> {
+        Point2::new(self.uv.x, self.uv.y)
+    }
+}
+
+/// The jet of the polynomial with `N` coefficients that fits the data near `center` best, `weight` of the distance
+/// in radii; parameters in the unit square.
+fn polynomial_jet<const N: usize>(
+    data: &Data,
+    buckets: &Buckets,
+    center: DVec2,
+    near: &Near,
+    weight: impl Fn(f64) -> f64,
+) -> Vec<f64> {
+    let dim = data.dim;
+    let radius = if near.radius > 0.0 { near.radius } else { 1.0 };
+    let (mut matrix, mut right) = ([[0.0; N]; N], vec![0.0; N * dim]);
+    for &(distance, datum) in &near.data {
+        let d = (buckets.uv[datum] - center) / radius;
+        let monomials = monomials::<N>(d);
+        let given = data.sample_weights.get(datum).copied().unwrap_or(1.0);
+        let weight = given * weight(distance / radius);
+        let value = &data.sample_values[datum * dim..][..dim];
+        for i in 0..N {
+            for j in 0..N {
+                matrix[i][j] += weight * monomials[i] * monomials[j];
+            }
+            let row = &mut right[i * dim..][..dim];
+            row.iter_mut().zip(value).for_each(|(sum, x)| *sum += weight * monomials[i] * x);
+        }
+    }
+    solve(&mut matrix, &mut right, dim);
+    let scales = [1.0, radius, radius, radius * radius];
+    // 1, x, y and xy are the first, second, third and fifth monomial
+    let rows = [0, 1, 2, 4].into_iter().zip(scales);
+    rows.flat_map(|(row, scale)| right[row * dim..][..dim].iter().map(move |x| x / scale)).collect()
+}
+
+/// 1, x, y, x^2, xy, y^2, x^3, x^2 y, x y^2, y^3.
+fn monomials<const N: usize>(DVec2 { x, y }: DVec2) -> [f64; N] {
+    let all = [1.0, x, y, x * x, x * y, y * y, x * x * x, x * x * y, x * y * y, y * y * y];
+    std::array::from_fn(|k| all[k])
+}
+
+/// Share of the trace that is added to the diagonal: data on a line leave coefficients undetermined, which then
+/// are zero.
+const RIDGE: f64 = 1e-12;
+
+/// Cholesky's method for a small system with rows of `dim` right-hand sides.
+fn solve<const N: usize>(matrix: &mut [[f64; N]; N], right: &mut [f64], dim: usize) {
+    let trace: f64 = (0..N).map(|k| matrix[k][k]).sum();
+    (0..N).for_each(|k| matrix[k][k] += RIDGE * trace.max(f64::MIN_POSITIVE));
+    for k in 0..N {
+        let pivot = matrix[k][k];
+        for i in k + 1..N {
+            let factor = matrix[i][k] / pivot;
+            for j in k..N {
+                matrix[i][j] -= factor * matrix[k][j];
+            }
+            for c in 0..dim {
+                right[i * dim + c] -= factor * right[k * dim + c];
+            }
+        }
+    }
+    for i in (0..N).rev() {
+        for c in 0..dim {
+            let later: f64 = (i + 1..N).map(|j| matrix[i][j] * right[j * dim + c]).sum();
+            right[i * dim + c] = (right[i * dim + c] - later) / matrix[i][i];
+        }
+    }
+}
+
+/// Data near a place.
+struct Near {
+    /// Distances and numbers.
+    data: Vec<(f64, usize)>,
+    /// Of the circle that holds them.
+    radius: f64,
+}
+
+/// Data in a grid of buckets over the unit square.
+struct Buckets {
+    min: DVec2,
+    size: DVec2,
+    /// Parameters in the unit square.
+    uv: Vec<DVec2>,
+    /// Buckets along each direction.
+    count: usize,
+    starts: Vec<u32>,
+    order: Vec<u32>,
+}
+
+/// Data of a bucket, on average.
+const BUCKET: usize = 2;
+
+impl Buckets {
+    fn new(data: &Data) -> Self {
+        let (min, size) = (data.data_box.min, data.data_box.size());
+        let uv: Vec<DVec2> = data.uv.iter().map(|&uv| (uv - min) / size).collect();
+        let count = ((uv.len() / BUCKET) as f64).sqrt().ceil().max(1.0) as usize;
+        let mut buckets =
+            Self { min, size, count, starts: vec![0; count * count + 1], order: Vec::new(), uv };
+        let places: Vec<usize> = buckets.uv.iter().map(|&uv| buckets.bucket(uv)).collect();
+        places.iter().for_each(|&place| buckets.starts[place + 1] += 1);
+        for place in 1..buckets.starts.len() {
+            buckets.starts[place] += buckets.starts[place - 1];
+        }
+        let mut next = buckets.starts.clone();
+        buckets.order = vec![0; places.len()];
+        for (datum, place) in places.into_iter().enumerate() {
+            buckets.order[next[place] as usize] = datum as u32;
+            next[place] += 1;
+        }
+        buckets
+    }
+
+    fn to_unit(&self, uv: DVec2) -> DVec2 {
+        (uv - self.min) / self.size
+    }
+
+    fn to_unit_size(&self, size: DVec2) -> DVec2 {
+        size / self.size
+    }
+
+    /// From derivatives in the unit square to those in the parameters.
+    fn jet(&self, mut jet: Vec<f64>) -> Vec<f64> {
+        let scales = [1.0, self.size.x, self.size.y, self.size.x * self.size.y];
+        let length = jet.len() / 4;
+        for (row, scale) in jet.chunks_exact_mut(length).zip(scales) {
+            row.iter_mut().for_each(|x| *x /= scale);
+        }
+        jet
+    }
+
+    fn line(&self, x: f64) -> usize {
+        ((x.max(0.0) * self.count as f64) as usize).min(self.count - 1)
+    }
+
+    fn bucket(&self, uv: DVec2) -> usize {
+        self.line(uv.x) * self.count + self.line(uv.y)
+    }
+
+    /// The data within `radius`, or the `least` nearest if those are more.
+    fn around(&self, center: DVec2, radius: f64, least: usize) -> Near {
+        let least = least.min(self.uv.len());
+        let mut reach = radius.max(1.0 / self.count as f64);
+        loop {
+            let mut data = self.within(center, reach);
+            if data.len() < least {
+                reach *= 1.5;
+                continue;
+            }
+            data.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            let inside = data.partition_point(|&(distance, _)| distance <= radius);
+            data.truncate(inside.max(least));
+            let farthest = data.last().map_or(0.0, |&(distance, _)| distance);
+            return Near { data, radius: radius.max(farthest) };
+        }
+    }
+
+    fn within(&self, center: DVec2, reach: f64) -> Vec<(f64, usize)> {
+        let range = |x: f64| self.line(x - reach)..=self.line(x + reach);
+        let mut data = Vec::new();
+        for i in range(center.x) {
+            for j in range(center.y) {
+                let place = i * self.count + j;
+                for &datum in &self.order[self.starts[place] as usize..self.starts[place + 1] as usize] {
+                    let distance = self.uv[datum as usize].distance(center);
+                    if distance <= reach {
+                        data.push((distance, datum as usize));
+                    }
+                }
+            }
+        }
+        data
+    }
+}

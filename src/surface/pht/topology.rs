@@ -1,0 +1,205 @@
+//! Leaves, vertices and hosts of a T-mesh as tables, in orders that do not depend on its history.
+
+use super::jet::{Line, ROWS, between, row_pairs};
+use super::mesh::{EDGES, NodeId, QUADRANTS, Role, TMesh, Vertex};
+use crate::surface::tensor::Axis;
+
+/// What a vertex of the tables is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum VertexKind {
+    /// Basis vertex of this rank.
+    Basis(u32),
+    /// It lies inside an edge of a leaf.
+    Hanging(Hanging),
+}
+
+/// A T-vertex.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Hanging {
+    /// The leaf whose edge it lies in.
+    pub host: u32,
+    /// Direction of that edge.
+    pub axis: Axis,
+    /// The vertices at the ends of the edge.
+    pub ends: [u32; 2],
+}
+
+/// The tables of one mesh.
+#[derive(Debug, Clone)]
+pub struct Topology {
+    /// The node of each leaf, in the order of [`TMesh::leaves`].
+    pub leaves: Vec<NodeId>,
+    /// The vertices at the corners of each leaf, in the order of the quadrants.
+    pub corners: Vec<[u32; 4]>,
+    /// All vertices in their order.
+    pub vertices: Vec<Vertex>,
+    /// What each of them is.
+    pub kinds: Vec<VertexKind>,
+    /// The vertex of each basis rank, in order.
+    pub basis: Vec<u32>,
+    /// T-vertices in an order in which the ends of an edge come before what lies in it.
+    pub hanging: Vec<u32>,
+    leaf_of_node: Vec<u32>,
+}
+
+impl Topology {
+    /// Derives the tables: time n log n.
+    pub fn new(mesh: &TMesh) -> Self {
+        let leaves: Vec<NodeId> = mesh.leaves().collect();
+        let mut leaf_of_node = vec![u32::MAX; mesh.node_count()];
+        leaves.iter().enumerate().for_each(|(leaf, node)| leaf_of_node[node.index()] = leaf as u32);
+        let mut incidences: Vec<(Vertex, u32)> = leaves
+            .iter()
+            .zip((0..).step_by(4))
+            .flat_map(|(&node, first)| mesh.cell(node).corners().into_iter().zip(first..))
+            .collect();
+        incidences.sort_unstable();
+        let mut tables = Self {
+            corners: vec![[0; 4]; leaves.len()],
+            leaves,
+            vertices: Vec::new(),
+            kinds: Vec::new(),
+            basis: Vec::new(),
+            hanging: Vec::new(),
+            leaf_of_node,
+        };
+        for around in incidences.chunk_by(|a, b| a.0 == b.0) {
+            let (number, vertex) = (tables.vertices.len() as u32, around[0].0);
+            for &(_, corner) in around {
+                tables.corners[corner as usize / 4][corner as usize % 4] = number;
+            }
+            if around.len() == QUADRANTS.len() || mesh.is_border(vertex) {
+                tables.kinds.push(VertexKind::Basis(tables.basis.len() as u32));
+                tables.basis.push(number);
+            } else {
+                // the host is looked up below, when all corners have their numbers
+                tables.kinds.push(VertexKind::Basis(u32::MAX));
+                tables.hanging.push(number);
+            }
+            tables.vertices.push(vertex);
+        }
+        tables.find_hosts(mesh);
+        tables
+    }
+
+    fn find_hosts(&mut self, mesh: &TMesh) {
+        for &number in &self.hanging {
+            let vertex = self.vertices[number as usize];
+            let Role::Hanging(node) = mesh.role(vertex) else { unreachable!("{vertex:?} has no host") };
+            let host = self.leaf_of_node[node.index()];
+            let corners = mesh.cell(node).corners();
+            let lies_in = |axis: Axis, end: usize| {
+                let across = if axis == Axis::U { Axis::V } else { Axis::U };
+                vertex.along(across) == corners[end].along(across)
+            };
+            let edge = EDGES.iter().find(|edge| lies_in(edge.along, edge.ends[0]));
+            let edge = edge.expect("a T-vertex lies in an edge of its host");
+            let ends = edge.ends.map(|corner| self.corners[host as usize][corner]);
+            self.kinds[number as usize] = VertexKind::Hanging(Hanging { host, axis: edge.along, ends });
+        }
+        // hosts are strictly larger than the leaves that have the vertex as a corner
+        let host_level = |&number: &u32| match self.kinds[number as usize] {
+            VertexKind::Hanging(hanging) => mesh.cell(self.leaves[hanging.host as usize]).level,
+            VertexKind::Basis(_) => 0,
+        };
+        let mut order = std::mem::take(&mut self.hanging);
+        order.sort_by_key(host_level);
+        self.hanging = order;
+    }
+
+    /// The leaf of a node.
+    #[inline]
+    pub fn leaf_of(&self, node: NodeId) -> usize {
+        self.leaf_of_node[node.index()] as usize
+    }
+
+    /// How a T-vertex lies on the edge of its host.
+    pub fn line(&self, mesh: &TMesh, number: u32, hanging: &Hanging) -> Line {
+        let [at, from, to] = [number, hanging.ends[0], hanging.ends[1]]
+            .map(|vertex| self.vertices[vertex as usize].along(hanging.axis));
+        line_between(mesh, hanging.axis, at, [from, to])
+    }
+
+    /// From the jets of the basis vertices to those of all vertices.
+    pub fn all_jets(&self, mesh: &TMesh, jets: &[f64], width: usize) -> Vec<f64> {
+        let length = ROWS * width;
+        let mut all = vec![0.0; self.vertices.len() * length];
+        for (&vertex, jet) in self.basis.iter().zip(jets.chunks_exact(length)) {
+            all[vertex as usize * length..][..length].copy_from_slice(jet);
+        }
+        for &number in &self.hanging {
+            let VertexKind::Hanging(hanging) = self.kinds[number as usize] else { continue };
+            let line = self.line(mesh, number, &hanging);
+            let ends = hanging.ends.map(|end| &all[end as usize * length..][..length]);
+            let jet = between(hanging.axis, &line, ends, width);
+            all[number as usize * length..][..length].copy_from_slice(&jet);
+        }
+        all
+    }
+
+    /// For each vertex, the basis vertices its jet is made of with their 4 by 4 matrices, ranks ascending.
+    pub fn expansions(&self, mesh: &TMesh) -> Vec<Vec<(u32, Matrix)>> {
+        let mut expansions: Vec<Vec<(u32, Matrix)>> = vec![Vec::new(); self.vertices.len()];
+        for (rank, &vertex) in self.basis.iter().enumerate() {
+            expansions[vertex as usize].push((rank as u32, IDENTITY));
+        }
+        for &number in &self.hanging {
+            let VertexKind::Hanging(hanging) = self.kinds[number as usize] else { continue };
+            let line = self.line(mesh, number, &hanging);
+            let mut sum: Vec<(u32, Matrix)> = Vec::new();
+            for (end, &vertex) in hanging.ends.iter().enumerate() {
+                let share = end_matrix(hanging.axis, &line, end);
+                for (rank, matrix) in &expansions[vertex as usize] {
+                    let product = multiply(&share, matrix);
+                    match sum.iter_mut().find(|(other, _)| other == rank) {
+                        Some((_, total)) => add(total, &product),
+                        None => sum.push((*rank, product)),
+                    }
+                }
+            }
+            sum.sort_unstable_by_key(|&(rank, _)| rank);
+            expansions[number as usize] = sum;
+        }
+        expansions
+    }
+}
+
+/// How the coordinate `at` lies on the line from one coordinate to another.
+pub fn line_between(mesh: &TMesh, axis: Axis, at: u32, [from, to]: [u32; 2]) -> Line {
+    let length = mesh.parameter(axis, to) - mesh.parameter(axis, from);
+    Line::at(f64::from(at - from) / f64::from(to - from), length)
+}
+
+/// Maps one jet into another, row by row.
+pub type Matrix = [[f64; ROWS]; ROWS];
+
+const IDENTITY: Matrix =
+    [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
+
+/// What one end of a line contributes to the jet on it.
+fn end_matrix(axis: Axis, line: &Line, end: usize) -> Matrix {
+    let mut matrix = [[0.0; ROWS]; ROWS];
+    for [row, derivative] in row_pairs(axis) {
+        (matrix[row][row], matrix[row][derivative]) = (line.value[end][0], line.value[end][1]);
+        (matrix[derivative][row], matrix[derivative][derivative]) = (line.slope[end][0], line.slope[end][1]);
+    }
+    matrix
+}
+
+fn multiply(a: &Matrix, b: &Matrix) -> Matrix {
+    let mut product = [[0.0; ROWS]; ROWS];
+    for i in 0..ROWS {
+        for k in 0..ROWS {
+            for j in 0..ROWS {
+                product[i][j] += a[i][k] * b[k][j];
+            }
+        }
+    }
+    product
+}
+
+fn add(sum: &mut Matrix, other: &Matrix) {
+    for (sum, other) in sum.iter_mut().flatten().zip(other.iter().flatten()) {
+        *sum += other;
+    }
+}
