@@ -466,8 +466,6 @@ fn resample(curve: &[DVec3], start: DVec3, spacing: f64) -> Vec<DVec3> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::{MeshOptions, read};
-    use std::path::Path;
 
     /// A tube of uneven triangles round the z axis, open at both ends, or closed by a node at the upper one.
     fn tube(is_capped: bool) -> Mesh {
@@ -565,30 +563,5 @@ mod tests {
         let error = refuse(Source::Node(410), Source::Node(430), 4);
         assert!(matches!(error, SampleRowsError::Curves { row: 0.., .. }), "{error}");
         assert_eq!(error.kind(), crate::ErrorKind::Topology);
-    }
-
-    #[test]
-    fn rows_of_real_meshes_are_taken() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
-        for name in ["mannequin_disk_13k.off", "hammer_closed_30k.ply"] {
-            let path = folder.join(name);
-            if !path.exists() {
-                eprintln!("skipped: {} is not there", path.display());
-                continue;
-            }
-            let (mesh, _) = read(&path, &MeshOptions::default()).unwrap();
-            // from the loop, or the lowest node along the longest side, to the node farthest the other way
-            let sides: Vec<f64> = mesh.bounds().sides().collect();
-            let axis = (0..3).max_by(|&a, &b| sides[a].total_cmp(&sides[b])).unwrap();
-            let along = |&node: &u32| mesh.points()[node as usize][axis];
-            let nodes = 0..mesh.points().len() as u32;
-            let by_place = |a: &u32, b: &u32| along(a).total_cmp(&along(b));
-            let (lowest, highest) =
-                (nodes.clone().min_by(by_place).unwrap(), nodes.max_by(by_place).unwrap());
-            let begin = if mesh.loops().is_empty() { Source::Node(lowest) } else { Source::Loop(0) };
-            let sampled = sample(&mesh, begin, Source::Node(highest), 60).unwrap();
-            assert_eq!(sampled.counts.len(), 60);
-            println!("{name}: {} points", sampled.points.len());
-        }
     }
 }
