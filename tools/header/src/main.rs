@@ -17,6 +17,7 @@ const SOURCES: [&str; 16] = [
     "tensor.rs",
     "field.rs",
     "query.rs",
+    "rows.rs",
     "export.rs",
     "step.rs",
     "curve.rs",
