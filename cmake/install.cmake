@@ -3,9 +3,9 @@
 include(CMakePackageConfigHelpers)
 set(_config_dir "${CMAKE_INSTALL_LIBDIR}/cmake/Planish")
 
-install(FILES include/planish.h include/planish.hpp DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT Development)
 # the Fortran module is installed as source: a compiled one fits a single compiler
-install(FILES include/planish.f90 DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT Development OPTIONAL)
+install(FILES include/planish.h include/planish.hpp include/planish.f90 DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
+        COMPONENT Development)
 
 # PROGRAMS, because a shared library is executable; FILES copies links as links
 if(WIN32)
@@ -45,4 +45,5 @@ else()
 endif()
 write_basic_package_version_file(PlanishConfigVersion.cmake COMPATIBILITY ${_compatible})
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/PlanishConfig.cmake" "${CMAKE_CURRENT_BINARY_DIR}/PlanishConfigVersion.cmake"
+              cmake/fortran.cmake
         DESTINATION "${_config_dir}" COMPONENT Development)

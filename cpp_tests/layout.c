@@ -160,7 +160,8 @@ FOLLOWS(planish_tessellate_options, chord_tolerance, max_edge_length);
 FOLLOWS(planish_tessellate_options, max_edge_length, max_point_count);
 FOLLOWS(planish_tessellate_options, max_point_count, keep_trims);
 FOLLOWS(planish_tessellate_options, keep_trims, reserved);
-LAST(planish_tessellate_options, reserved);
+FOLLOWS(planish_tessellate_options, reserved, out_report);
+LAST(planish_tessellate_options, out_report);
 
 FIRST(planish_project_options);
 FOLLOWS(planish_project_options, struct_size, guesses);
@@ -193,8 +194,9 @@ FIRST(planish_vtk_options);
 FOLLOWS(planish_vtk_options, struct_size, deviation_from);
 FOLLOWS(planish_vtk_options, deviation_from, tessellate);
 FOLLOWS(planish_vtk_options, tessellate, thread_count);
-FOLLOWS(planish_vtk_options, thread_count, reserved);
-LAST(planish_vtk_options, reserved);
+FOLLOWS(planish_vtk_options, thread_count, content);
+LAST(planish_vtk_options, content);
+
 FIRST(planish_step_options);
 FOLLOWS(planish_step_options, struct_size, product);
 FOLLOWS(planish_step_options, product, author);
@@ -215,3 +217,25 @@ LAST(planish_step_report, edge_count);
 
 int planish_layout_holds(void);
 int planish_layout_holds(void) { return 1; }
+
+FIRST(planish_patch);
+FOLLOWS(planish_patch, struct_size, u_min);
+FOLLOWS(planish_patch, u_min, u_max);
+FOLLOWS(planish_patch, u_max, v_min);
+FOLLOWS(planish_patch, v_min, v_max);
+FOLLOWS(planish_patch, v_max, ordinate_count);
+FOLLOWS(planish_patch, ordinate_count, ordinate_width);
+FOLLOWS(planish_patch, ordinate_width, degree_u);
+FOLLOWS(planish_patch, degree_u, degree_v);
+FOLLOWS(planish_patch, degree_v, is_rational);
+FOLLOWS(planish_patch, is_rational, reserved);
+LAST(planish_patch, reserved);
+
+FIRST(planish_convert_options);
+FOLLOWS(planish_convert_options, struct_size, max_coefficients);
+LAST(planish_convert_options, max_coefficients);
+
+FIRST(planish_tessellate_report);
+FOLLOWS(planish_tessellate_report, struct_size, smallest_angle);
+FOLLOWS(planish_tessellate_report, smallest_angle, chord_error);
+LAST(planish_tessellate_report, chord_error);

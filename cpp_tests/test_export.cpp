@@ -116,6 +116,15 @@ TEST(Vtk, WritesATessellationOrADeviation) {
   CHECK(text.find("\"deviation\"") != std::string::npos);
   CHECK(text.find("NumberOfPoints=\"25\"") != std::string::npos);
 
+  options = vtk_options();
+  for (const auto &[what, array] : {std::pair(PLANISH_VTK_CONTENT_CONTROL_NET, "\"connectivity\""),
+                                    std::pair(PLANISH_VTK_CONTENT_PATCHES, "\"HigherOrderDegrees\"")}) {
+    options.content = what;
+    CHECK(planish_surface_write_vtk(surface.get(), path, &options) == PLANISH_STATUS_OK);
+    text = content(path);
+    CHECK(text.find(array) != std::string::npos);
+  }
+
   // a failure leaves the file as it was
   planish_tessellate_options tessellate;
   CHECK(planish_tessellate_options_init(&tessellate, sizeof tessellate) == PLANISH_STATUS_OK);
@@ -125,9 +134,8 @@ TEST(Vtk, WritesATessellationOrADeviation) {
   const auto invalid = PLANISH_STATUS_INVALID_ARGUMENT, null = PLANISH_STATUS_NULL_POINTER;
   CHECK_FAILS(planish_surface_write_vtk(surface.get(), path, &options), invalid, -1, "chord_tolerance is -1");
   options = vtk_options();
-  options.reserved = 1;
-  CHECK_FAILS(planish_surface_write_vtk(surface.get(), path, &options), PLANISH_STATUS_VERSION, -1,
-              "planish_vtk_options");
+  options.content = 3;
+  CHECK_FAILS(planish_surface_write_vtk(surface.get(), path, &options), invalid, -1, "content is 3");
   CHECK_FAILS(planish_surface_write_vtk(nullptr, path, nullptr), null, -1, "surface is NULL");
   CHECK_FAILS(planish_surface_write_vtk(surface.get(), nullptr, nullptr), null, -1, "path is NULL");
   CHECK_FAILS(planish_surface_write_vtk(surface.get(), "no/such/folder/x.vtu", nullptr), PLANISH_STATUS_FILE, -1,

@@ -35,12 +35,13 @@ struct written {
   planish_step_report report;
 };
 
-written write(const Surface &surface, const char *name, std::uint32_t unit) {
+written write(const Surface &surface, const char *name, std::uint32_t unit, std::uint32_t schema) {
   written file{std::string("occt_") + name + ".step", fresh<planish_step_report>()};
   planish_step_options options;
   CHECK_EQUAL(planish_step_options_init(&options, sizeof options), PLANISH_STATUS_OK);
   options.product = name;
   options.unit = unit;
+  options.schema = schema;
   options.out_report = &file.report;
   const planish_status status = planish_surface_write_step(surface.get(), file.path.c_str(), &options);
   if (status != PLANISH_STATUS_OK) std::printf("%s\n", check::last_sentence().c_str());
@@ -130,8 +131,9 @@ int hits(const TopoDS_Face &face, double x, double y) {
 }
 
 // Everything that holds for any file; the face, for more.
-TopoDS_Face check_file(const Surface &surface, const char *name, std::uint32_t unit, int wires) {
-  const written file = write(surface, name, unit);
+TopoDS_Face check_file(const Surface &surface, const char *name, std::uint32_t unit, int wires,
+                       std::uint32_t schema = PLANISH_STEP_SCHEMA_AP214) {
+  const written file = write(surface, name, unit, schema);
   const double scale = unit == PLANISH_UNIT_METRE ? millimetres_per_metre : unit == PLANISH_UNIT_INCH ? 25.4 : 1.0;
   const TopoDS_Shape shape = read(file.path);
   CHECK(!shape.IsNull());
@@ -303,6 +305,29 @@ TEST(OcctStep, PoleOfASphere) {
   CHECK_EQUAL(planish_tensor_new(3, 2, 2, knots, 6, knots, 6, points.data(), weights.data(), &out), PLANISH_STATUS_OK);
   const TopoDS_Face face = check_file(Surface(out), "pole", PLANISH_UNIT_MILLIMETRE, 1);
   CHECK_NEAR(area(face), M_PI / 2, 1e-6);
+}
+
+TEST(OcctStep, ReadsTheNewerSchema) {
+  const Surface piece = torus(0.1, 1.4, -0.6, 1.2);
+  set_trims(piece, {polygon({0.1, 0.1, 0.1, 0.9, 0.9, 0.9, 0.9, 0.1}), circle(0.5, 0.5, 0.2, 90)});
+  check_file(piece, "torus_242", PLANISH_UNIT_MILLIMETRE, 2, PLANISH_STEP_SCHEMA_AP242);
+}
+
+// A whole turn: the sides at the seam lie on each other in space.
+TEST(OcctStep, TubeWithASeam) {
+  const double knots[12] = {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4}, ends[4] = {0, 0, 1, 1}, w = std::sqrt(0.5);
+  const double xs[9] = {1, 1, 0, -1, -1, -1, 0, 1, 1}, ys[9] = {0, 1, 1, 1, 0, -1, -1, -1, 0};
+  std::vector<double> points, weights;
+  for (int i = 0; i < 9; ++i) {
+    for (int j = 0; j < 2; ++j) {
+      points.insert(points.end(), {xs[i], ys[i], 3.0 * j});
+      weights.push_back(i % 2 == 1 ? w : 1);
+    }
+  }
+  planish_surface *out = nullptr;
+  CHECK_EQUAL(planish_tensor_new(3, 2, 1, knots, 12, ends, 4, points.data(), weights.data(), &out), PLANISH_STATUS_OK);
+  const TopoDS_Face face = check_file(Surface(out), "tube", PLANISH_UNIT_MILLIMETRE, 1);
+  CHECK_NEAR(area(face), 6 * M_PI, 1e-5);
 }
 
 int main() { return check::run(); }

@@ -428,4 +428,93 @@ TEST(TensorNew, RefusesByName) {
   CHECK_FAILS(planish_tensor_new(3, 1, 1, ends, 4, ends, 4, points, nullptr, nullptr), null, -1, "out_surface is NULL");
 }
 
+TEST(Tensor, ChangesItsNetAndNotItsShape) {
+  Surface surface = saddle();
+  const double uv[2] = {0.3, 0.6}, knots[2] = {0.5, 0.25}, twice[2] = {0.75, 0.75}, bad = nan_, far = 2;
+  double before[3], after[3];
+  CHECK(planish_surface_eval(surface.get(), uv, 1, nullptr, before) == PLANISH_STATUS_OK);
+  CHECK(planish_tensor_insert_knots(surface.get(), PLANISH_AXIS_U, knots, 2) == PLANISH_STATUS_OK);
+  CHECK(planish_tensor_insert_knots(surface.get(), PLANISH_AXIS_U, nullptr, 0) == PLANISH_STATUS_OK);
+  CHECK(planish_tensor_elevate_degree(surface.get(), PLANISH_AXIS_V, 3) == PLANISH_STATUS_OK);
+  CHECK_EQUAL(planish_surface_coefficient_count(surface.get()), 4u * 4u);
+  CHECK(planish_surface_eval(surface.get(), uv, 1, nullptr, after) == PLANISH_STATUS_OK);
+  for (int k = 0; k < 3; ++k) CHECK_NEAR(after[k], before[k], 1e-15);
+  CHECK(planish_tensor_insert_knots(surface.get(), PLANISH_AXIS_U, twice, 2) == PLANISH_STATUS_INVALID_ARGUMENT);
+  CHECK(planish_tensor_insert_knots(surface.get(), PLANISH_AXIS_U, &bad, 1) == PLANISH_STATUS_NOT_FINITE);
+  CHECK_EQUAL(planish_error_index(), 0);
+  CHECK(planish_tensor_insert_knots(surface.get(), PLANISH_AXIS_U, &far, 1) == PLANISH_STATUS_OUTSIDE);
+  CHECK(planish_tensor_insert_knots(surface.get(), 2, knots, 1) == PLANISH_STATUS_INVALID_ARGUMENT);
+  CHECK(planish_tensor_insert_knots(surface.get(), PLANISH_AXIS_U, nullptr, 1) == PLANISH_STATUS_NULL_POINTER);
+  CHECK(planish_tensor_insert_knots(nullptr, PLANISH_AXIS_U, knots, 1) == PLANISH_STATUS_NULL_POINTER);
+  CHECK(planish_tensor_elevate_degree(nullptr, PLANISH_AXIS_U, 3) == PLANISH_STATUS_NULL_POINTER);
+  CHECK(planish_tensor_elevate_degree(surface.get(), PLANISH_AXIS_V, 2) == PLANISH_STATUS_INVALID_ARGUMENT);
+  CHECK(planish_tensor_elevate_degree(surface.get(), PLANISH_AXIS_V, 10) == PLANISH_STATUS_INVALID_ARGUMENT);
+  CHECK_EQUAL(planish_surface_coefficient_count(surface.get()), 4u * 4u);
+  CHECK(planish_tensor_reverse(nullptr, PLANISH_AXIS_U) == PLANISH_STATUS_NULL_POINTER);
+  CHECK(planish_tensor_reverse(surface.get(), 2) == PLANISH_STATUS_INVALID_ARGUMENT);
+  CHECK(planish_tensor_reverse(surface.get(), PLANISH_AXIS_U) == PLANISH_STATUS_OK);
+  const double mirrored[2] = {0.7, 0.6};
+  CHECK(planish_surface_eval(surface.get(), mirrored, 1, nullptr, after) == PLANISH_STATUS_OK);
+  for (int k = 0; k < 3; ++k) CHECK_NEAR(after[k], before[k], 1e-15);
+}
+
+TEST(Tensor, SplitsInTwo) {
+  const Surface surface = cylinder();
+  planish_surface *const none = nullptr;
+  planish_surface *lower = none, *upper = none;
+  CHECK(planish_tensor_split(nullptr, PLANISH_AXIS_U, 0.5, &lower, &upper) == PLANISH_STATUS_NULL_POINTER);
+  CHECK(planish_tensor_split(surface.get(), PLANISH_AXIS_U, 0.5, nullptr, &upper) == PLANISH_STATUS_NULL_POINTER);
+  CHECK(planish_tensor_split(surface.get(), PLANISH_AXIS_U, 0.5, &lower, nullptr) == PLANISH_STATUS_NULL_POINTER);
+  CHECK(planish_tensor_split(surface.get(), PLANISH_AXIS_U, 1.0, &lower, &upper) == PLANISH_STATUS_OUTSIDE);
+  CHECK(planish_tensor_split(surface.get(), 2, 0.5, &lower, &upper) == PLANISH_STATUS_INVALID_ARGUMENT);
+  CHECK(lower == none && upper == none);
+  CHECK(planish_tensor_split(surface.get(), PLANISH_AXIS_U, 0.5, &lower, &upper) == PLANISH_STATUS_OK);
+  const Surface parts[2] = {Surface(lower), Surface(upper)};
+  for (int side = 0; side < 2; ++side) {
+    const double uv[2] = {side == 0 ? 0.2 : 0.8, 0.5};
+    double whole[3], part[3];
+    CHECK(planish_surface_eval(surface.get(), uv, 1, nullptr, whole) == PLANISH_STATUS_OK);
+    CHECK(planish_surface_eval(parts[side].get(), uv, 1, nullptr, part) == PLANISH_STATUS_OK);
+    for (int k = 0; k < 3; ++k) CHECK_NEAR(part[k], whole[k], 1e-14);
+    CHECK_NEAR(std::hypot(part[0], part[1]), 2.0, 1e-14);
+  }
+}
+
+TEST(Patches, AreTheSurface) {
+  const Surface surface = cylinder();
+  CHECK_EQUAL(planish_surface_patch_count(surface.get()), 1u);
+  CHECK_EQUAL(planish_surface_patch_count(nullptr), 0u);
+  CHECK_EQUAL(planish_surface_patch_at(surface.get(), 0.5, 0.5), 0u);
+  planish_patch patch{};
+  patch.struct_size = sizeof patch;
+  CHECK(planish_surface_copy_patch(surface.get(), 0, &patch, nullptr, 0) == PLANISH_STATUS_OK);
+  CHECK(patch.degree_u == 2 && patch.degree_v == 1 && patch.is_rational == 1);
+  CHECK(patch.ordinate_count == 6 && patch.ordinate_width == 4 && patch.u_max == 1);
+  std::vector<double> ordinates(6 * 4);
+  CHECK(planish_surface_copy_patch(surface.get(), 0, nullptr, ordinates.data(), 6) == PLANISH_STATUS_OK);
+  CHECK_NEAR(ordinates[2 * 4 + 3], std::sqrt(0.5), 1e-15);
+  CHECK_NEAR(ordinates[2 * 4], 2 * std::sqrt(0.5), 1e-15);
+  CHECK(planish_surface_copy_patch(surface.get(), 1, &patch, nullptr, 0) == PLANISH_STATUS_INDEX);
+  CHECK(planish_surface_copy_patch(surface.get(), 0, &patch, ordinates.data(), 5) == PLANISH_STATUS_BUFFER_TOO_SMALL);
+  CHECK(planish_surface_copy_patch(nullptr, 0, &patch, nullptr, 0) == PLANISH_STATUS_NULL_POINTER);
+  patch.struct_size = 0;
+  CHECK(planish_surface_copy_patch(surface.get(), 0, &patch, nullptr, 0) == PLANISH_STATUS_INVALID_ARGUMENT);
+}
+
+TEST(ToTensor, KeepsToItsLimit) {
+  const Surface surface = saddle();
+  planish_convert_options options;
+  CHECK(planish_convert_options_init(&options, sizeof options) == PLANISH_STATUS_OK);
+  CHECK(planish_convert_options_init(nullptr, sizeof options) == PLANISH_STATUS_NULL_POINTER);
+  planish_surface *made = nullptr;
+  options.max_coefficients = 3;
+  CHECK(planish_surface_to_tensor(surface.get(), &options, &made) == PLANISH_STATUS_TOO_LARGE);
+  CHECK(planish_surface_to_tensor(nullptr, nullptr, &made) == PLANISH_STATUS_NULL_POINTER);
+  CHECK(made == nullptr);
+  CHECK(planish_surface_to_tensor(surface.get(), nullptr, nullptr) == PLANISH_STATUS_NULL_POINTER);
+  CHECK(planish_surface_to_tensor(surface.get(), nullptr, &made) == PLANISH_STATUS_OK);
+  const Surface tensor(made);
+  CHECK_EQUAL(planish_surface_coefficient_count(tensor.get()), 4u);
+}
+
 int main() { return check::run(); }

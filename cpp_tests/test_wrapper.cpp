@@ -190,6 +190,28 @@ TEST(WrapperSurface, EvaluatesAndTakesParts) {
   CHECK(degree.status() == PLANISH_STATUS_INVALID_ARGUMENT);
 }
 
+TEST(WrapperSurface, TakesOtherForms) {
+  const double ends[4] = {0, 0, 1, 1}, points[12] = {0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 1};
+  planish_surface *handle = nullptr;
+  CHECK(planish_tensor_new(3, 1, 1, ends, 4, ends, 4, points, nullptr, &handle) == PLANISH_STATUS_OK);
+  planish::surface surface(handle);
+  surface.insert_knots(PLANISH_AXIS_U, std::array<double, 2>{0.25, 0.5});
+  surface.elevate_degree(PLANISH_AXIS_V, 2);
+  CHECK_EQUAL(surface.patch_count(), 3u);
+  CHECK_EQUAL(surface.patch_at(0.3, 0.5), 1u);
+  const planish::patch patch = surface.patch(2);
+  CHECK(patch.record.u_min == 0.5 && patch.record.degree_v == 2);
+  CHECK_EQUAL(patch.ordinates.size(), 2u * 3u * 3u);
+  const auto [lower, upper] = surface.split(PLANISH_AXIS_V, 0.5);
+  CHECK_NEAR(lower.point(0.4, 0.5)[2], 0.2, 1e-15);
+  CHECK_NEAR(upper.point(0.4, 0.5)[2], 0.2, 1e-15);
+  surface.reverse(PLANISH_AXIS_U);
+  CHECK_NEAR(surface.point(0.6, 0.5)[2], 0.2, 1e-15);
+  CHECK_EQUAL(surface.to_tensor().coefficient_count(), surface.coefficient_count());
+  CHECK(thrown_by([&] { surface.patch(3); }).status() == PLANISH_STATUS_INDEX);
+  CHECK(thrown_by([&] { surface.reverse(2); }).status() == PLANISH_STATUS_INVALID_ARGUMENT);
+}
+
 TEST(WrapperSurface, ProjectsMeasuresAndTravels) {
   const planish::mesh mesh = make(shapes::graph(20, 20, 0.2, 8));
   const planish::surface surface = planish::tensor_fit(mesh).surface;

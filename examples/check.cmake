@@ -1,7 +1,7 @@
-# Runs PROGRAM and compares what it prints with the last comment of SOURCE, which begins with "Output: ". Numbers
+# Runs PROGRAM, which may have arguments, and compares what it prints with the last comment of SOURCE, which begins with "Output: ". Numbers
 # may differ, words may not.
 cmake_policy(VERSION 3.22)
-execute_process(COMMAND "${PROGRAM}" OUTPUT_VARIABLE printed RESULT_VARIABLE failed)
+execute_process(COMMAND ${PROGRAM} OUTPUT_VARIABLE printed RESULT_VARIABLE failed)
 if(failed)
   message(FATAL_ERROR "${PROGRAM} ended with ${failed}: ${printed}")
 endif()

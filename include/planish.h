@@ -183,6 +183,22 @@ typedef enum planish_remark {
      */
     PLANISH_REMARK_PLATE_ENERGY_USED = 512,
     /**
+     * Points that lay on the one before them in their row have been merged with it.
+     */
+    PLANISH_REMARK_MERGED_POINTS = 1048576,
+    /**
+     * A row looks reversed or shifted against the one before it: see align in planish_skin_options.
+     */
+    PLANISH_REMARK_TWISTED_ROWS = 2097152,
+    /**
+     * Some rows are much nearer to one another than to the next: control curves overshoot.
+     */
+    PLANISH_REMARK_CLUSTERED_ROWS = 4194304,
+    /**
+     * The end points of rows are too near to those of the next to say how far apart rows are; mean distances do.
+     */
+    PLANISH_REMARK_MEAN_STEPS = 8388608,
+    /**
      * Holes were closed by fans of triangles while the map was computed.
      */
     PLANISH_REMARK_HOLES_FILLED = 65536,
@@ -313,6 +329,25 @@ typedef enum planish_outside {
 } planish_outside;
 
 /**
+ * What a VTK file holds of a surface.
+ */
+typedef enum planish_vtk_content {
+    /**
+     * Triangles of the part inside the trims, or of deviation_from.
+     */
+    PLANISH_VTK_CONTENT_TRIANGLES = 0,
+    /**
+     * Its Bezier patches as cells of type VTK_BEZIER_QUADRILATERAL (VTK 9): the surface itself. Trims are not
+     * shown; cell data "parameters" has least and largest u, least and largest v of each patch.
+     */
+    PLANISH_VTK_CONTENT_PATCHES = 1,
+    /**
+     * Its control points, joined by polylines as neighbours in the control net.
+     */
+    PLANISH_VTK_CONTENT_CONTROL_NET = 2,
+} planish_vtk_content;
+
+/**
  * Flags of a point: bits of the elements of out_flags.
  */
 typedef enum planish_flag {
@@ -421,6 +456,60 @@ typedef enum planish_regularize {
      */
     PLANISH_REGULARIZE_ALWAYS = 2,
 } planish_regularize;
+
+/**
+ * Which knots the control curves of a skin get.
+ */
+typedef enum planish_skin_method {
+    /**
+     * Each its own, as few as the tolerance allows.
+     */
+    PLANISH_SKIN_METHOD_CONTROL_CURVES = 0,
+    /**
+     * All the same: the classical skin, for comparison.
+     */
+    PLANISH_SKIN_METHOD_COMMON_KNOTS = 1,
+} planish_skin_method;
+
+/**
+ * What happens at the ends of rows.
+ */
+typedef enum planish_section_ends {
+    /**
+     * Periodic for closed rows, parabolic for open ones.
+     */
+    PLANISH_SECTION_ENDS_AUTO = 0,
+    /**
+     * The slope of the parabola through three points; at the seam of closed rows a kink may remain.
+     */
+    PLANISH_SECTION_ENDS_PARABOLIC = 1,
+    /**
+     * No curvature.
+     */
+    PLANISH_SECTION_ENDS_NATURAL = 2,
+    /**
+     * The slopes in end_slopes.
+     */
+    PLANISH_SECTION_ENDS_SLOPES = 3,
+    /**
+     * Closed rows go on over the seam without a break in two derivatives.
+     */
+    PLANISH_SECTION_ENDS_PERIODIC = 4,
+} planish_section_ends;
+
+/**
+ * How far apart rows are along v.
+ */
+typedef enum planish_v_rule {
+    /**
+     * As their first and last points are; where that gives a step of next to nothing, as PLANISH_V_RULE_MEAN.
+     */
+    PLANISH_V_RULE_ENDPOINTS = 0,
+    /**
+     * As points at equal fractions of their lengths are on average.
+     */
+    PLANISH_V_RULE_MEAN = 1,
+} planish_v_rule;
 
 /**
  * The application protocol of a STEP file.
@@ -1006,134 +1095,6 @@ typedef struct planish_fit_report {
 } planish_fit_report;
 
 /**
- * Options of PHT fits. Fill with planish_pht_options_init(), then change what you need.
- *
- * A datum is a node of the mesh, or a point; a sample is a datum, or the middle of a triangle.
- */
-typedef struct planish_pht_options {
-    /**
-     * Set by planish_pht_options_init().
-     */
-    size_t struct_size;
-    /**
-     * The largest error allowed at the data, positive, measured in tolerance_scale. Default 1e-3.
-     */
-    double tolerance;
-    /**
-     * Weight of the bending energy of each cell, mapped to the unit cell. Default 1e-3.
-     */
-    double smoothing;
-    /**
-     * How a mesh without parameters gets them; NULL (default) for a circle, with one stretch step unless the
-     * tolerance is fine and the plain map even. Of this record progress, user and thread_count are not looked at, and node_weights must be
-     * NULL. Not used for points.
-     */
-    const struct planish_parameterize_options *parameterize;
-    /**
-     * A positive weight for each datum; NULL (default) for all 1.
-     */
-    const double *weights;
-    /**
-     * Hears of the progress and may cancel; NULL (default) for nobody.
-     */
-    planish_progress progress;
-    /**
-     * Handed to progress as it is.
-     */
-    void *user;
-    /**
-     * Receives the (u,v) at which the error of each datum is measured: two numbers for each datum, or NULL
-     * (default). Written on success only.
-     */
-    double *out_parameters;
-    /**
-     * Receives the error of each datum in model units: one number for each datum, or NULL (default). Written
-     * on success only.
-     */
-    double *out_errors;
-    /**
-     * Most cells, at least the initial ones. Default 200000.
-     */
-    size_t max_cells;
-    /**
-     * A planish_tolerance_scale. Default PLANISH_TOLERANCE_SCALE_RELATIVE.
-     */
-    uint32_t tolerance_scale;
-    /**
-     * A planish_pht_estimator. Default PLANISH_PHT_ESTIMATOR_GLOBAL.
-     */
-    uint32_t estimator;
-    /**
-     * A planish_regularize. Default PLANISH_REGULARIZE_AUTO.
-     */
-    uint32_t regularize;
-    /**
-     * Cells along u to start from, 1 to 4095. Default 1.
-     */
-    uint32_t grid_u;
-    /**
-     * Cells along v to start from, 1 to 4095. Default 1.
-     */
-    uint32_t grid_v;
-    /**
-     * Deepest level of a cell, at most 20. Default 12.
-     */
-    uint32_t max_level;
-    /**
-     * A cell with fewer samples is not split, at least 1. Default 2.
-     */
-    uint32_t min_samples;
-    /**
-     * Levels by which cells that share an edge may differ; 0 for any number. Default 1.
-     */
-    uint32_t grade;
-    /**
-     * Sweeps of parameter correction in each round of the fit of a shape. Default 1.
-     */
-    uint32_t correction_sweeps;
-    /**
-     * 1 measures the closest-point distance of the nodes for the report. Default 0.
-     */
-    uint32_t measure_distance;
-    /**
-     * Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
-     */
-    uint32_t thread_count;
-    /**
-     * 0.
-     */
-    uint32_t reserved;
-} planish_pht_options;
-
-/**
- * How a tensor surface becomes a PHT-spline. Fill with planish_pht_convert_options_init(), then change what you
- * need.
- */
-typedef struct planish_pht_convert_options {
-    /**
-     * Set by planish_pht_convert_options_init().
-     */
-    size_t struct_size;
-    /**
-     * Largest distance at equal parameters, in model units; 0 (default) takes all knot lines, which is exact up to
-     * degree 3.
-     */
-    double tolerance;
-    /**
-     * Most cells; with more the call fails. Default 200000.
-     */
-    size_t max_cells;
-    /**
-     * Deepest level of a cell, at most 20. Default 12.
-     */
-    uint32_t max_level;
-    /**
-     * 0.
-     */
-    uint32_t reserved;
-} planish_pht_convert_options;
-
-/**
  * How good a tessellation is. Set struct_size to sizeof(planish_tessellate_report) before the call; filled as far
  * as that goes.
  */
@@ -1396,6 +1357,310 @@ typedef struct planish_step_options {
      */
     uint32_t unit;
 } planish_step_options;
+
+/**
+ * What a skin did beside what every fit reports. Lengths are in model units.
+ */
+typedef struct planish_skin_report {
+    /**
+     * Set this to sizeof(planish_skin_report) before the call.
+     */
+    size_t struct_size;
+    /**
+     * By how much control curves may be larger than the rows, 1 at least. Equal steps give 3 at most; rows much
+     * nearer to one another than to the next make it large.
+     */
+    double overshoot;
+    /**
+     * A bound of the distance between the surface and the skin through the section curves at any (u,v); NaN unless
+     * certify asked for it, or if a section is no cubic.
+     */
+    double certified_distance;
+    /**
+     * The part of the error that fewer knots along v leave; 0 with a knot for each row.
+     */
+    double v_error;
+    /**
+     * The first row that looks reversed or shifted against the one before it, counted from 0; -1 if there is none.
+     */
+    int64_t twisted_row;
+    /**
+     * Control curves of the surface.
+     */
+    size_t curve_count;
+    /**
+     * Control points of the shortest control curve.
+     */
+    size_t least_count;
+    /**
+     * Control points of the longest control curve.
+     */
+    size_t largest_count;
+    /**
+     * Control points of the same surface as a tensor surface: what planish_surface_to_tensor() makes.
+     */
+    size_t tensor_count;
+    /**
+     * Control points of the same surface in strips: what PLANISH_STEP_FORM_STRIPS writes.
+     */
+    size_t strip_count;
+    /**
+     * Control points of the skin over common knots; 0 unless compare asked for it.
+     */
+    size_t common_count;
+    /**
+     * Knots that the removal pass took out.
+     */
+    size_t removed_knot_count;
+    /**
+     * Points that lay on the one before them.
+     */
+    size_t merged_point_count;
+    /**
+     * Rows that were turned round or given another first point.
+     */
+    size_t aligned_row_count;
+} planish_skin_report;
+
+/**
+ * Options of skins. Fill with planish_skin_options_init(), then change what you need.
+ */
+typedef struct planish_skin_options {
+    /**
+     * Set by planish_skin_options_init().
+     */
+    size_t struct_size;
+    /**
+     * The largest error allowed at the points, positive, measured in tolerance_scale. Default 1e-3.
+     */
+    double tolerance;
+    /**
+     * For each row two vectors of dim numbers, the slopes at its begin and its end, derivatives with respect to
+     * chord length (a unit tangent keeps the pace); NULL (default) unless ends is PLANISH_SECTION_ENDS_SLOPES. Not
+     * used for curves.
+     */
+    const double *end_slopes;
+    /**
+     * For each point of the first row, or each different knot of the first curve, a vector of dim numbers: the
+     * derivative across it with respect to length along v; NULL (default) for no curvature there.
+     */
+    const double *begin_tangents;
+    /**
+     * The same at the last row.
+     */
+    const double *end_tangents;
+    /**
+     * Hears of the progress and may cancel; NULL (default) for nobody.
+     */
+    planish_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *user;
+    /**
+     * Receives the (u,v) at which the error of each point is measured: two numbers for each point, or NULL
+     * (default; for curves it must be). Written on success only.
+     */
+    double *out_parameters;
+    /**
+     * Receives the error of each point in model units, or NULL (default; for curves it must be). Written on success
+     * only.
+     */
+    double *out_errors;
+    /**
+     * Receives what only skins report, or NULL (default). Set its struct_size before. Filled on success only.
+     */
+    struct planish_skin_report *out_report;
+    /**
+     * Numbers of a point, at least 1. Default 3. Not used for curves.
+     */
+    size_t dim;
+    /**
+     * A planish_tolerance_scale. Default PLANISH_TOLERANCE_SCALE_RELATIVE.
+     */
+    uint32_t tolerance_scale;
+    /**
+     * A planish_skin_method. Default PLANISH_SKIN_METHOD_CONTROL_CURVES.
+     */
+    uint32_t method;
+    /**
+     * 1 if rows are closed: their first point is not repeated. Default 0.
+     */
+    uint32_t closed;
+    /**
+     * A planish_section_ends. Default PLANISH_SECTION_ENDS_AUTO. Not used for curves.
+     */
+    uint32_t ends;
+    /**
+     * 1 if the last row is followed by the first one; needs three rows, and no tangents. Default 0.
+     */
+    uint32_t closed_v;
+    /**
+     * A planish_v_rule. Default PLANISH_V_RULE_ENDPOINTS.
+     */
+    uint32_t v_rule;
+    /**
+     * 1 turns rows round, and moves the first point of closed ones, where that brings them nearer to the row
+     * before. Default 0. Not used for curves.
+     */
+    uint32_t align;
+    /**
+     * 1 looks for fewer knots along v than rows. Default 0.
+     */
+    uint32_t approximate_v;
+    /**
+     * Places between two data at which a control curve is checked too, at most 100; 0 as in the paper. Default 3.
+     */
+    uint32_t extra_checks;
+    /**
+     * 1 inserts a knot into every span that needs one in each pass: faster, some more control points. Default 0.
+     */
+    uint32_t batch;
+    /**
+     * 1 takes knots out again that turn out not to be needed. Default 0.
+     */
+    uint32_t removal;
+    /**
+     * 1 bounds the distance from the skin through the section curves. Default 0.
+     */
+    uint32_t certify;
+    /**
+     * 1 counts the control points of PLANISH_SKIN_METHOD_COMMON_KNOTS for the report. Default 0.
+     */
+    uint32_t compare;
+    /**
+     * Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+     */
+    uint32_t thread_count;
+} planish_skin_options;
+
+/**
+ * Options of PHT fits. Fill with planish_pht_options_init(), then change what you need.
+ *
+ * A datum is a node of the mesh, or a point; a sample is a datum, or the middle of a triangle.
+ */
+typedef struct planish_pht_options {
+    /**
+     * Set by planish_pht_options_init().
+     */
+    size_t struct_size;
+    /**
+     * The largest error allowed at the data, positive, measured in tolerance_scale. Default 1e-3.
+     */
+    double tolerance;
+    /**
+     * Weight of the bending energy of each cell, mapped to the unit cell. Default 1e-3.
+     */
+    double smoothing;
+    /**
+     * How a mesh without parameters gets them; NULL (default) for a circle, with one stretch step unless the
+     * tolerance is fine and the plain map even. Of this record progress, user and thread_count are not looked at, and node_weights must be
+     * NULL. Not used for points.
+     */
+    const struct planish_parameterize_options *parameterize;
+    /**
+     * A positive weight for each datum; NULL (default) for all 1.
+     */
+    const double *weights;
+    /**
+     * Hears of the progress and may cancel; NULL (default) for nobody.
+     */
+    planish_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *user;
+    /**
+     * Receives the (u,v) at which the error of each datum is measured: two numbers for each datum, or NULL
+     * (default). Written on success only.
+     */
+    double *out_parameters;
+    /**
+     * Receives the error of each datum in model units: one number for each datum, or NULL (default). Written
+     * on success only.
+     */
+    double *out_errors;
+    /**
+     * Most cells, at least the initial ones. Default 200000.
+     */
+    size_t max_cells;
+    /**
+     * A planish_tolerance_scale. Default PLANISH_TOLERANCE_SCALE_RELATIVE.
+     */
+    uint32_t tolerance_scale;
+    /**
+     * A planish_pht_estimator. Default PLANISH_PHT_ESTIMATOR_GLOBAL.
+     */
+    uint32_t estimator;
+    /**
+     * A planish_regularize. Default PLANISH_REGULARIZE_AUTO.
+     */
+    uint32_t regularize;
+    /**
+     * Cells along u to start from, 1 to 4095. Default 1.
+     */
+    uint32_t grid_u;
+    /**
+     * Cells along v to start from, 1 to 4095. Default 1.
+     */
+    uint32_t grid_v;
+    /**
+     * Deepest level of a cell, at most 20. Default 12.
+     */
+    uint32_t max_level;
+    /**
+     * A cell with fewer samples is not split, at least 1. Default 2.
+     */
+    uint32_t min_samples;
+    /**
+     * Levels by which cells that share an edge may differ; 0 for any number. Default 1.
+     */
+    uint32_t grade;
+    /**
+     * Sweeps of parameter correction in each round of the fit of a shape. Default 1.
+     */
+    uint32_t correction_sweeps;
+    /**
+     * 1 measures the closest-point distance of the nodes for the report. Default 0.
+     */
+    uint32_t measure_distance;
+    /**
+     * Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+     */
+    uint32_t thread_count;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} planish_pht_options;
+
+/**
+ * How a tensor surface becomes a PHT-spline. Fill with planish_pht_convert_options_init(), then change what you
+ * need.
+ */
+typedef struct planish_pht_convert_options {
+    /**
+     * Set by planish_pht_convert_options_init().
+     */
+    size_t struct_size;
+    /**
+     * Largest distance at equal parameters, in model units; 0 (default) takes all knot lines, which is exact up to
+     * degree 3.
+     */
+    double tolerance;
+    /**
+     * Most cells; with more the call fails. Default 200000.
+     */
+    size_t max_cells;
+    /**
+     * Deepest level of a cell, at most 20. Default 12.
+     */
+    uint32_t max_level;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} planish_pht_convert_options;
 
 #ifdef __cplusplus
 extern "C" {
@@ -2337,6 +2602,530 @@ enum planish_status planish_tensor_split(const struct planish_surface *surface,
 /**
  * Fills options with the defaults.
  *
+ * options: not NULL.
+ * size:    sizeof(planish_tessellate_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ */
+PLANISH_API
+enum planish_status planish_tessellate_options_init(struct planish_tessellate_options *options,
+                                                    size_t size);
+
+/**
+ * Makes a triangle mesh of a surface in space. Its nodes lie on the surface and carry their (u,v) as
+ * parameters; the trims become its boundary loops.
+ *
+ * surface:  not NULL, of dimension 3.
+ * options:  NULL for the defaults.
+ * out_mesh: receives a new mesh; destroy with planish_mesh_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, or the
+ * dimension), PLANISH_STATUS_TOPOLOGY (the trims cross), PLANISH_STATUS_DEGENERATE (they enclose no area),
+ * PLANISH_STATUS_TOO_LARGE (more than max_point_count nodes) or PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_tessellate(const struct planish_surface *surface,
+                                               const struct planish_tessellate_options *options,
+                                               struct planish_mesh **out_mesh);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options: not NULL.
+ * size:    sizeof(planish_project_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ */
+PLANISH_API
+enum planish_status planish_project_options_init(struct planish_project_options *options,
+                                                 size_t size);
+
+/**
+ * Finds the place on a surface nearest to each point, anywhere on the surface: there is no start to choose,
+ * and no local minimum to fall into.
+ *
+ * surface:       not NULL.
+ * points:        count rows of planish_surface_dim() doubles.
+ * count:         number of points; with 0 nothing is done.
+ * options:       NULL for the defaults.
+ * out_uv:        receives count rows u, v; NULL for none.
+ * out_distances: receives count distances; NULL for none.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_POINTS_OUTSIDE (some points are farther than max_distance),
+ * PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_NOT_FINITE (the index is the point),
+ * PLANISH_STATUS_INVALID_ARGUMENT, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOO_LARGE or
+ * PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_project(const struct planish_surface *surface,
+                                            const double *points,
+                                            size_t count,
+                                            const struct planish_project_options *options,
+                                            double *out_uv,
+                                            double *out_distances);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options: not NULL.
+ * size:    sizeof(planish_deviation_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ */
+PLANISH_API
+enum planish_status planish_deviation_options_init(struct planish_deviation_options *options,
+                                                   size_t size);
+
+/**
+ * Measures how far the nodes of a mesh lie from a surface in space: closest-point distances.
+ *
+ * surface:       not NULL, of dimension 3.
+ * mesh:          not NULL.
+ * options:       NULL for the defaults.
+ * out_distances: receives planish_mesh_point_count() distances; NULL for none.
+ * count:         doubles that out_distances has room for.
+ * out_report:    receives the sizes of the distances; NULL for none.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, or the
+ * dimension), PLANISH_STATUS_BUFFER_TOO_SMALL, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOPOLOGY or
+ * PLANISH_STATUS_TOO_LARGE (measuring back only), or PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_deviation(const struct planish_surface *surface,
+                                              const struct planish_mesh *mesh,
+                                              const struct planish_deviation_options *options,
+                                              double *out_distances,
+                                              size_t count,
+                                              struct planish_deviation_report *out_report);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options: not NULL.
+ * size:    sizeof(planish_vtk_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ */
+PLANISH_API enum planish_status planish_vtk_options_init(struct planish_vtk_options *options, size_t size);
+
+/**
+ * Writes a surface in space as a VTK file (.vtu): triangles with their (u,v) as point data "uv", the patches, or
+ * the control net. The file appears whole or not at all.
+ *
+ * surface: not NULL, of dimension 3.
+ * path:    UTF-8, ends with a NUL; an existing file is replaced.
+ * options: NULL for the defaults.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension, an
+ * option, a path that is not UTF-8), PLANISH_STATUS_WRONG_KIND (a family without patches or control net, where these
+ * are asked for), PLANISH_STATUS_FILE, or what planish_surface_tessellate() or
+ * planish_surface_deviation() return.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_write_vtk(const struct planish_surface *surface,
+                                              const char *path,
+                                              const struct planish_vtk_options *options);
+
+/**
+ * How many bytes planish_surface_save() writes; 0 for NULL.
+ */
+PLANISH_API size_t planish_surface_save_size(const struct planish_surface *surface);
+
+/**
+ * Writes everything a surface is into a buffer, to the bit. The layout is documented in docs/format.md; it is
+ * the same on all machines.
+ *
+ * surface: not NULL.
+ * buffer:  receives planish_surface_save_size() bytes.
+ * size:    bytes that the buffer has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_save(const struct planish_surface *surface,
+                                         void *buffer,
+                                         size_t size);
+
+/**
+ * Makes a surface from bytes of planish_surface_save(). Damaged bytes are refused, sizes are checked before
+ * memory is asked for.
+ *
+ * buffer:      size bytes.
+ * out_surface: receives a new surface; destroy with planish_surface_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_FORMAT (the index is the byte) or
+ * PLANISH_STATUS_VERSION (a later library made it).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_load(const void *buffer,
+                                         size_t size,
+                                         struct planish_surface **out_surface);
+
+/**
+ * Writes the bytes of planish_surface_save() to a file, which appears whole or not at all.
+ *
+ * surface: not NULL.
+ * path:    UTF-8, ends with a NUL; an existing file is replaced.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the path is not
+ * UTF-8) or PLANISH_STATUS_FILE.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_save_file(const struct planish_surface *surface,
+                                              const char *path);
+
+/**
+ * Makes a surface from a file of planish_surface_save_file().
+ *
+ * path:        UTF-8, ends with a NUL.
+ * out_surface: receives a new surface; destroy with planish_surface_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the path is not
+ * UTF-8), PLANISH_STATUS_FILE, PLANISH_STATUS_FORMAT (the index is the byte) or PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_load_file(const char *path,
+                                              struct planish_surface **out_surface);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options: not NULL.
+ * size:    sizeof(planish_step_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ */
+PLANISH_API enum planish_status planish_step_options_init(struct planish_step_options *options, size_t size);
+
+/**
+ * Writes a tensor surface in space as a STEP file with one face, bounded by the surface's trims or, if it has
+ * none, by its domain. P-curves are the trims themselves, of degree 1; curves in space are cubic and follow
+ * them over the same parameters within the uncertainty that the file states. The file appears whole or not at
+ * all; equal input gives equal bytes.
+ *
+ * surface: not NULL, a tensor surface of dimension 3.
+ * path:    UTF-8, ends with a NUL; an existing file is replaced.
+ * options: NULL for the defaults.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension, an
+ * option, a text that is not UTF-8), PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOPOLOGY (trims that cross or
+ * touch, the index is one of them; trims around several pieces; a knot inside the domain that occurs more often
+ * than the degree), PLANISH_STATUS_DEGENERATE (a trim without area, the index; a face without size) or
+ * PLANISH_STATUS_FILE.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_write_step(const struct planish_surface *surface,
+                                               const char *path,
+                                               const struct planish_step_options *options);
+
+/**
+ * Fits a cubic curve to values at parameters, by the method of planish_tensor_fit() in one parameter.
+ *
+ * u:          count parameters, in any order.
+ * values:     count rows of dim numbers.
+ * count:      at least 3.
+ * dim:        numbers of a value, at least 1.
+ * options:    NULL for the defaults. grid_u fixes the grid, and 0 refines; energy, grid_v, max_coefficients,
+ *             correction_sweeps, regularize, parameterize and measure_distance are not used; out_parameters
+ *             must be NULL.
+ * out_curve:  receives a new curve; destroy with planish_curve_free().
+ * out_report: receives what the fit did and how good it is; grid_v is 1. NULL for no report.
+ * Returns what planish_tensor_fit_points() returns.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_curve_fit(const double *u,
+                                      const double *values,
+                                      size_t count,
+                                      size_t dim,
+                                      const struct planish_tensor_options *options,
+                                      struct planish_curve **out_curve,
+                                      struct planish_fit_report *out_report);
+
+/**
+ * Makes a curve from its parts, which are copied.
+ *
+ * dim:            numbers of a control point, at least 1.
+ * degree:         1 to 9.
+ * knots:          knot_count knots, never falling.
+ * knot_count:     at least 2 * (degree + 1).
+ * control_points: knot_count - degree - 1 rows of dim numbers.
+ * out_curve:      receives a new curve; destroy with planish_curve_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (dim, degree or knots),
+ * PLANISH_STATUS_NOT_FINITE (the index is the knot or the control point), PLANISH_STATUS_DEGENERATE (the knots span
+ * no interval), PLANISH_STATUS_TOO_LARGE or PLANISH_STATUS_OUT_OF_MEMORY.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_curve_new(size_t dim,
+                                      uint32_t degree,
+                                      const double *knots,
+                                      size_t knot_count,
+                                      const double *control_points,
+                                      struct planish_curve **out_curve);
+
+/**
+ * Numbers of a value; 0 for NULL.
+ */
+PLANISH_API size_t planish_curve_dim(const struct planish_curve *curve);
+
+/**
+ * Degree of the polynomial pieces; 0 for NULL.
+ */
+PLANISH_API uint32_t planish_curve_degree(const struct planish_curve *curve);
+
+/**
+ * Number of knots, each as often as it occurs; 0 for NULL.
+ */
+PLANISH_API size_t planish_curve_knot_count(const struct planish_curve *curve);
+
+/**
+ * Number of control points; 0 for NULL.
+ */
+PLANISH_API size_t planish_curve_control_point_count(const struct planish_curve *curve);
+
+/**
+ * Copies the knots of a curve.
+ *
+ * curve:     not NULL.
+ * out_knots: receives planish_curve_knot_count() knots.
+ * count:     knots that out_knots has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_curve_copy_knots(const struct planish_curve *curve,
+                                             double *out_knots,
+                                             size_t count);
+
+/**
+ * Copies the control points of a curve.
+ *
+ * curve:              not NULL.
+ * out_control_points: receives planish_curve_control_point_count() rows of dim numbers.
+ * count:              rows that out_control_points has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_curve_copy_control_points(const struct planish_curve *curve,
+                                                      double *out_control_points,
+                                                      size_t count);
+
+/**
+ * The interval on which the curve is defined.
+ *
+ * curve:        not NULL.
+ * out_interval: receives 2 numbers: least u, largest u.
+ * Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_curve_domain(const struct planish_curve *curve,
+                                         double *out_interval);
+
+/**
+ * Evaluates the curve and its derivatives at parameters.
+ *
+ * curve:          not NULL.
+ * u:              count parameters, options->uv_stride doubles apart (0 for 1).
+ * count:          may be 0.
+ * max_derivative: 0 to 3.
+ * options:        NULL for the defaults; thread_count is not used.
+ * out:            receives for each parameter max_derivative + 1 rows of dim numbers: C, C', C'', C''';
+ *                 parameters start options->out_stride doubles apart. It must not overlap u.
+ * Returns what planish_surface_eval() returns; PLANISH_STATUS_INVALID_ARGUMENT also for max_derivative.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_curve_eval(const struct planish_curve *curve,
+                                       const double *u,
+                                       size_t count,
+                                       uint32_t max_derivative,
+                                       const struct planish_eval_options *options,
+                                       double *out);
+
+/**
+ * Makes a copy of a curve.
+ *
+ * curve:     not NULL.
+ * out_curve: receives a new curve; destroy with planish_curve_free().
+ * Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_curve_clone(const struct planish_curve *curve,
+                                        struct planish_curve **out_curve);
+
+/**
+ * Destroys a curve.
+ *
+ * curve: from this library and not destroyed yet; NULL does nothing.
+ */
+PLANISH_API void planish_curve_free(struct planish_curve *curve);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options: not NULL.
+ * size:    sizeof(planish_skin_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ */
+PLANISH_API enum planish_status planish_skin_options_init(struct planish_skin_options *options, size_t size);
+
+/**
+ * Skins rows of points: a surface over the unit square on which row after row lies within the tolerance, u along
+ * the rows and v across them. Rows may have any counts, one point included.
+ *
+ * points:      rows of dim numbers (3 unless the options say otherwise), row after row.
+ * row_counts:  row_count numbers of points, each at least 1.
+ * row_count:   at least 2; at least 3 for a surface closed along v.
+ * options:     NULL for the defaults.
+ * out_surface: receives a new T-spline; destroy with planish_surface_free().
+ * out_report:  receives what the fit did and how good it is; grid_u is the largest number of knots of a control
+ *              curve. NULL for no report.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_TOLERANCE_NOT_MET, PLANISH_STATUS_STAGNATED (points are so near to one
+ * another that no knot fits between), PLANISH_STATUS_INPUT_REPAIRED (points on the one before were merged) or an
+ * error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, too few rows, or a row without
+ * points, the index is the row), PLANISH_STATUS_NOT_FINITE (the index is the point, or the vector of an option),
+ * PLANISH_STATUS_DEGENERATE (a row lies on the one before, the index is the row), PLANISH_STATUS_TOO_LARGE,
+ * PLANISH_STATUS_VERSION or PLANISH_STATUS_CANCELLED.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tspline_skin(const double *points,
+                                         const size_t *row_counts,
+                                         size_t row_count,
+                                         const struct planish_skin_options *options,
+                                         struct planish_surface **out_surface,
+                                         struct planish_fit_report *out_report);
+
+/**
+ * Skins section curves of any degree, over any domains. Their data are their values at their different knots.
+ *
+ * curves:      curve_count curves of one dimension, none of them NULL.
+ * curve_count: at least 2; at least 3 for a surface closed along v.
+ * options:     NULL for the defaults. closed says that the curves are closed, and smooth there.
+ * out_surface: receives a new T-spline; destroy with planish_surface_free().
+ * out_report:  receives what the fit did and how good it is; NULL for no report.
+ * Returns what planish_tspline_skin() returns; PLANISH_STATUS_INVALID_ARGUMENT also for a curve of another dimension
+ * than the first, the index is the curve.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tspline_skin_curves(const struct planish_curve *const *curves,
+                                                size_t curve_count,
+                                                const struct planish_skin_options *options,
+                                                struct planish_surface **out_surface,
+                                                struct planish_fit_report *out_report);
+
+/**
+ * Makes a T-spline from its parts, which are copied.
+ *
+ * knots:       the knots along v, never falling, cubic.
+ * knot_count:  at least 8.
+ * curves:      knot_count - 4 control curves: cubic, their end knots repeated four times, all over one domain and of
+ *              one dimension; none of them NULL.
+ * curve_count: knot_count - 4.
+ * out_surface: receives a new surface; destroy with planish_surface_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (knots or curves, the index
+ * is the one), PLANISH_STATUS_NOT_FINITE or PLANISH_STATUS_DEGENERATE (the knots span no interval).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tspline_new(const double *knots,
+                                        size_t knot_count,
+                                        const struct planish_curve *const *curves,
+                                        size_t curve_count,
+                                        struct planish_surface **out_surface);
+
+/**
+ * Number of control curves of a T-spline; 0 for NULL and other families.
+ */
+PLANISH_API size_t planish_tspline_curve_count(const struct planish_surface *surface);
+
+/**
+ * Makes a copy of a control curve, whose knots and control points the functions of planish_curve hand out.
+ *
+ * surface:   not NULL.
+ * curve:     below planish_tspline_curve_count().
+ * out_curve: receives a new curve; destroy with planish_curve_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or PLANISH_STATUS_INDEX.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tspline_clone_curve(const struct planish_surface *surface,
+                                                size_t curve,
+                                                struct planish_curve **out_curve);
+
+/**
+ * Number of knots of a T-spline along v, each as often as it occurs; 0 for NULL and other families.
+ */
+PLANISH_API size_t planish_tspline_knot_count(const struct planish_surface *surface);
+
+/**
+ * Copies the knots of a T-spline along v.
+ *
+ * surface:   not NULL.
+ * out_knots: receives planish_tspline_knot_count() knots.
+ * count:     knots that out_knots has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
+ * PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tspline_copy_knots(const struct planish_surface *surface,
+                                               double *out_knots,
+                                               size_t count);
+
+/**
+ * Inserts a knot into one control curve of a T-spline, which stays the same surface; all other curves stay as they
+ * are.
+ *
+ * surface: not NULL; changed.
+ * curve:   below planish_tspline_curve_count().
+ * u:       inside the domain, where the curve has no more than two knots yet.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX,
+ * PLANISH_STATUS_OUTSIDE (u, also if it is NaN) or PLANISH_STATUS_INVALID_ARGUMENT (the knot would occur too often).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tspline_insert_knot_u(struct planish_surface *surface,
+                                                  size_t curve,
+                                                  double u);
+
+/**
+ * Inserts a knot along v into a T-spline, which stays the same surface and has one control curve more.
+ *
+ * surface: not NULL; changed.
+ * v:       inside the domain, where there are no more than two knots yet.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_OUTSIDE (v, also
+ * if it is NaN) or PLANISH_STATUS_INVALID_ARGUMENT (the knot would occur too often).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tspline_insert_knot_v(struct planish_surface *surface,
+                                                  double v);
+
+/**
+ * Removes a knot from one control curve of a T-spline if the surface then moves by no more than a tolerance.
+ *
+ * surface:   not NULL; changed unless PLANISH_STATUS_TOLERANCE_NOT_MET is returned.
+ * curve:     below planish_tspline_curve_count().
+ * knot:      index of a knot of that curve inside the domain, counted from 0 over all its knots.
+ * tolerance: in model units; 0 or more, or the knot stays.
+ * out_error: receives a bound of the distance that the surface moves at any (u,v), or would have moved; NULL for
+ *            none.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_TOLERANCE_NOT_MET (the knot stays) or an error:
+ * PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or PLANISH_STATUS_INDEX (no such curve, or no such knot
+ * inside the domain).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tspline_remove_knot_u(struct planish_surface *surface,
+                                                  size_t curve,
+                                                  size_t knot,
+                                                  double tolerance,
+                                                  double *out_error);
+
+/**
+ * Fills options with the defaults.
+ *
  * options:     struct_size writable bytes.
  * struct_size: sizeof(planish_pht_options).
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
@@ -2773,344 +3562,6 @@ PLANISH_API
 size_t planish_pht_cell_at(const struct planish_surface *surface,
                            double u,
                            double v);
-
-/**
- * Fills options with the defaults.
- *
- * options: not NULL.
- * size:    sizeof(planish_tessellate_options).
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
- */
-PLANISH_API
-enum planish_status planish_tessellate_options_init(struct planish_tessellate_options *options,
-                                                    size_t size);
-
-/**
- * Makes a triangle mesh of a surface in space. Its nodes lie on the surface and carry their (u,v) as
- * parameters; the trims become its boundary loops.
- *
- * surface:  not NULL, of dimension 3.
- * options:  NULL for the defaults.
- * out_mesh: receives a new mesh; destroy with planish_mesh_free().
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, or the
- * dimension), PLANISH_STATUS_TOPOLOGY (the trims cross), PLANISH_STATUS_DEGENERATE (they enclose no area),
- * PLANISH_STATUS_TOO_LARGE (more than max_point_count nodes) or PLANISH_STATUS_VERSION.
- */
-PLANISH_API
-PLANISH_NODISCARD
-enum planish_status planish_surface_tessellate(const struct planish_surface *surface,
-                                               const struct planish_tessellate_options *options,
-                                               struct planish_mesh **out_mesh);
-
-/**
- * Fills options with the defaults.
- *
- * options: not NULL.
- * size:    sizeof(planish_project_options).
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
- */
-PLANISH_API
-enum planish_status planish_project_options_init(struct planish_project_options *options,
-                                                 size_t size);
-
-/**
- * Finds the place on a surface nearest to each point, anywhere on the surface: there is no start to choose,
- * and no local minimum to fall into.
- *
- * surface:       not NULL.
- * points:        count rows of planish_surface_dim() doubles.
- * count:         number of points; with 0 nothing is done.
- * options:       NULL for the defaults.
- * out_uv:        receives count rows u, v; NULL for none.
- * out_distances: receives count distances; NULL for none.
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_POINTS_OUTSIDE (some points are farther than max_distance),
- * PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_NOT_FINITE (the index is the point),
- * PLANISH_STATUS_INVALID_ARGUMENT, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOO_LARGE or
- * PLANISH_STATUS_VERSION.
- */
-PLANISH_API
-PLANISH_NODISCARD
-enum planish_status planish_surface_project(const struct planish_surface *surface,
-                                            const double *points,
-                                            size_t count,
-                                            const struct planish_project_options *options,
-                                            double *out_uv,
-                                            double *out_distances);
-
-/**
- * Fills options with the defaults.
- *
- * options: not NULL.
- * size:    sizeof(planish_deviation_options).
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
- */
-PLANISH_API
-enum planish_status planish_deviation_options_init(struct planish_deviation_options *options,
-                                                   size_t size);
-
-/**
- * Measures how far the nodes of a mesh lie from a surface in space: closest-point distances.
- *
- * surface:       not NULL, of dimension 3.
- * mesh:          not NULL.
- * options:       NULL for the defaults.
- * out_distances: receives planish_mesh_point_count() distances; NULL for none.
- * count:         doubles that out_distances has room for.
- * out_report:    receives the sizes of the distances; NULL for none.
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, or the
- * dimension), PLANISH_STATUS_BUFFER_TOO_SMALL, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOPOLOGY or
- * PLANISH_STATUS_TOO_LARGE (measuring back only), or PLANISH_STATUS_VERSION.
- */
-PLANISH_API
-PLANISH_NODISCARD
-enum planish_status planish_surface_deviation(const struct planish_surface *surface,
-                                              const struct planish_mesh *mesh,
-                                              const struct planish_deviation_options *options,
-                                              double *out_distances,
-                                              size_t count,
-                                              struct planish_deviation_report *out_report);
-
-/**
- * Fills options with the defaults.
- *
- * options: not NULL.
- * size:    sizeof(planish_vtk_options).
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
- */
-PLANISH_API enum planish_status planish_vtk_options_init(struct planish_vtk_options *options, size_t size);
-
-/**
- * Writes a surface in space as a VTK file (.vtu): triangles with their (u,v) as point data "uv", the patches, or
- * the control net. The file appears whole or not at all.
- *
- * surface: not NULL, of dimension 3.
- * path:    UTF-8, ends with a NUL; an existing file is replaced.
- * options: NULL for the defaults.
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension, an
- * option, a path that is not UTF-8), PLANISH_STATUS_WRONG_KIND (a family without patches or control net, where these
- * are asked for), PLANISH_STATUS_FILE, or what planish_surface_tessellate() or
- * planish_surface_deviation() return.
- */
-PLANISH_API
-PLANISH_NODISCARD
-enum planish_status planish_surface_write_vtk(const struct planish_surface *surface,
-                                              const char *path,
-                                              const struct planish_vtk_options *options);
-
-/**
- * How many bytes planish_surface_save() writes; 0 for NULL.
- */
-PLANISH_API size_t planish_surface_save_size(const struct planish_surface *surface);
-
-/**
- * Writes everything a surface is into a buffer, to the bit. The layout is documented in docs/format.md; it is
- * the same on all machines.
- *
- * surface: not NULL.
- * buffer:  receives planish_surface_save_size() bytes.
- * size:    bytes that the buffer has room for.
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
- */
-PLANISH_API
-PLANISH_NODISCARD
-enum planish_status planish_surface_save(const struct planish_surface *surface,
-                                         void *buffer,
-                                         size_t size);
-
-/**
- * Makes a surface from bytes of planish_surface_save(). Damaged bytes are refused, sizes are checked before
- * memory is asked for.
- *
- * buffer:      size bytes.
- * out_surface: receives a new surface; destroy with planish_surface_free().
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_FORMAT (the index is the byte) or
- * PLANISH_STATUS_VERSION (a later library made it).
- */
-PLANISH_API
-PLANISH_NODISCARD
-enum planish_status planish_surface_load(const void *buffer,
-                                         size_t size,
-                                         struct planish_surface **out_surface);
-
-/**
- * Writes the bytes of planish_surface_save() to a file, which appears whole or not at all.
- *
- * surface: not NULL.
- * path:    UTF-8, ends with a NUL; an existing file is replaced.
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the path is not
- * UTF-8) or PLANISH_STATUS_FILE.
- */
-PLANISH_API
-PLANISH_NODISCARD
-enum planish_status planish_surface_save_file(const struct planish_surface *surface,
-                                              const char *path);
-
-/**
- * Makes a surface from a file of planish_surface_save_file().
- *
- * path:        UTF-8, ends with a NUL.
- * out_surface: receives a new surface; destroy with planish_surface_free().
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the path is not
- * UTF-8), PLANISH_STATUS_FILE, PLANISH_STATUS_FORMAT (the index is the byte) or PLANISH_STATUS_VERSION.
- */
-PLANISH_API
-PLANISH_NODISCARD
-enum planish_status planish_surface_load_file(const char *path,
-                                              struct planish_surface **out_surface);
-
-/**
- * Fills options with the defaults.
- *
- * options: not NULL.
- * size:    sizeof(planish_step_options).
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
- */
-PLANISH_API enum planish_status planish_step_options_init(struct planish_step_options *options, size_t size);
-
-/**
- * Writes a tensor surface in space as a STEP file with one face, bounded by the surface's trims or, if it has
- * none, by its domain. P-curves are the trims themselves, of degree 1; curves in space are cubic and follow
- * them over the same parameters within the uncertainty that the file states. The file appears whole or not at
- * all; equal input gives equal bytes.
- *
- * surface: not NULL, a tensor surface of dimension 3.
- * path:    UTF-8, ends with a NUL; an existing file is replaced.
- * options: NULL for the defaults.
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension, an
- * option, a text that is not UTF-8), PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOPOLOGY (trims that cross or
- * touch, the index is one of them; trims around several pieces; a knot inside the domain that occurs more often
- * than the degree), PLANISH_STATUS_DEGENERATE (a trim without area, the index; a face without size) or
- * PLANISH_STATUS_FILE.
- */
-PLANISH_API
-PLANISH_NODISCARD
-enum planish_status planish_surface_write_step(const struct planish_surface *surface,
-                                               const char *path,
-                                               const struct planish_step_options *options);
-
-/**
- * Fits a cubic curve to values at parameters, by the method of planish_tensor_fit() in one parameter.
- *
- * u:          count parameters, in any order.
- * values:     count rows of dim numbers.
- * count:      at least 3.
- * dim:        numbers of a value, at least 1.
- * options:    NULL for the defaults. grid_u fixes the grid, and 0 refines; energy, grid_v, max_coefficients,
- *             correction_sweeps, regularize, parameterize and measure_distance are not used; out_parameters
- *             must be NULL.
- * out_curve:  receives a new curve; destroy with planish_curve_free().
- * out_report: receives what the fit did and how good it is; grid_v is 1. NULL for no report.
- * Returns what planish_tensor_fit_points() returns.
- */
-PLANISH_API
-PLANISH_NODISCARD
-enum planish_status planish_curve_fit(const double *u,
-                                      const double *values,
-                                      size_t count,
-                                      size_t dim,
-                                      const struct planish_tensor_options *options,
-                                      struct planish_curve **out_curve,
-                                      struct planish_fit_report *out_report);
-
-/**
- * Numbers of a value; 0 for NULL.
- */
-PLANISH_API size_t planish_curve_dim(const struct planish_curve *curve);
-
-/**
- * Degree of the polynomial pieces; 0 for NULL.
- */
-PLANISH_API uint32_t planish_curve_degree(const struct planish_curve *curve);
-
-/**
- * Number of knots, each as often as it occurs; 0 for NULL.
- */
-PLANISH_API size_t planish_curve_knot_count(const struct planish_curve *curve);
-
-/**
- * Number of control points; 0 for NULL.
- */
-PLANISH_API size_t planish_curve_control_point_count(const struct planish_curve *curve);
-
-/**
- * Copies the knots of a curve.
- *
- * curve:     not NULL.
- * out_knots: receives planish_curve_knot_count() knots.
- * count:     knots that out_knots has room for.
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
- */
-PLANISH_API
-PLANISH_NODISCARD
-enum planish_status planish_curve_copy_knots(const struct planish_curve *curve,
-                                             double *out_knots,
-                                             size_t count);
-
-/**
- * Copies the control points of a curve.
- *
- * curve:              not NULL.
- * out_control_points: receives planish_curve_control_point_count() rows of dim numbers.
- * count:              rows that out_control_points has room for.
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
- */
-PLANISH_API
-PLANISH_NODISCARD
-enum planish_status planish_curve_copy_control_points(const struct planish_curve *curve,
-                                                      double *out_control_points,
-                                                      size_t count);
-
-/**
- * The interval on which the curve is defined.
- *
- * curve:        not NULL.
- * out_interval: receives 2 numbers: least u, largest u.
- * Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
- */
-PLANISH_API
-PLANISH_NODISCARD
-enum planish_status planish_curve_domain(const struct planish_curve *curve,
-                                         double *out_interval);
-
-/**
- * Evaluates the curve and its derivatives at parameters.
- *
- * curve:          not NULL.
- * u:              count parameters, options->uv_stride doubles apart (0 for 1).
- * count:          may be 0.
- * max_derivative: 0 to 3.
- * options:        NULL for the defaults; thread_count is not used.
- * out:            receives for each parameter max_derivative + 1 rows of dim numbers: C, C', C'', C''';
- *                 parameters start options->out_stride doubles apart. It must not overlap u.
- * Returns what planish_surface_eval() returns; PLANISH_STATUS_INVALID_ARGUMENT also for max_derivative.
- */
-PLANISH_API
-PLANISH_NODISCARD
-enum planish_status planish_curve_eval(const struct planish_curve *curve,
-                                       const double *u,
-                                       size_t count,
-                                       uint32_t max_derivative,
-                                       const struct planish_eval_options *options,
-                                       double *out);
-
-/**
- * Makes a copy of a curve.
- *
- * curve:     not NULL.
- * out_curve: receives a new curve; destroy with planish_curve_free().
- * Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
- */
-PLANISH_API
-PLANISH_NODISCARD
-enum planish_status planish_curve_clone(const struct planish_curve *curve,
-                                        struct planish_curve **out_curve);
-
-/**
- * Destroys a curve.
- *
- * curve: from this library and not destroyed yet; NULL does nothing.
- */
-PLANISH_API void planish_curve_free(struct planish_curve *curve);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -144,6 +144,9 @@ inline planish_status init(planish_deviation_options &options) {
 inline planish_status init(planish_tessellate_options &options) {
   return planish_tessellate_options_init(&options, sizeof options);
 }
+inline planish_status init(planish_convert_options &options) {
+  return planish_convert_options_init(&options, sizeof options);
+}
 inline planish_status init(planish_step_options &options) {
   return planish_step_options_init(&options, sizeof options);
 }
@@ -465,6 +468,14 @@ struct deviated {
   planish_deviation_report report;
 };
 
+/// A Bezier patch of a surface.
+struct patch {
+  /// Its rectangle of parameters, its degrees and sizes.
+  planish_patch record;
+  /// Rows of record.ordinate_width numbers, v running fastest.
+  std::vector<double> ordinates;
+};
+
 /// A surface: a map from a rectangle of parameters (u,v) to R^dim. Copies are deep; one that was moved from may
 /// only be assigned to or destroyed.
 ///
@@ -645,7 +656,7 @@ class surface {
     return mesh(made);
   }
 
-  /// Writes a VTK file of triangles (.vtu); `path` is UTF-8.
+  /// Writes a VTK file (.vtu) of triangles, patches or the control net; `path` is UTF-8.
   void write_vtk(const std::string &path,
                  const planish_vtk_options &options = defaults<planish_vtk_options>()) const {
     detail::checked(planish_surface_write_vtk(get(), path.c_str(), &options));
@@ -684,6 +695,49 @@ class surface {
     planish_surface *made = nullptr;
     detail::checked(planish_surface_load_file(path.c_str(), &made));
     return surface(made);
+  }
+
+  /// Number of Bezier patches; 0 for a family that is not polynomial on rectangles.
+  std::size_t patch_count() const noexcept { return planish_surface_patch_count(get()); }
+
+  /// The number of the patch over a parameter pair.
+  std::size_t patch_at(double u, double v) const noexcept { return planish_surface_patch_at(get(), u, v); }
+
+  /// The exact Bezier patch of a number below patch_count().
+  planish::patch patch(std::size_t index) const {
+    planish::patch result{detail::sized<planish_patch>(), {}};
+    detail::checked(planish_surface_copy_patch(get(), index, &result.record, nullptr, 0));
+    result.ordinates.resize(result.record.ordinate_count * result.record.ordinate_width);
+    detail::checked(planish_surface_copy_patch(get(), index, nullptr, result.ordinates.data(),
+                                               result.record.ordinate_count));
+    return result;
+  }
+
+  /// The same surface as a tensor surface.
+  surface to_tensor(const planish_convert_options &options = defaults<planish_convert_options>()) const {
+    planish_surface *made = nullptr;
+    detail::checked(planish_surface_to_tensor(get(), &options, &made));
+    return surface(made);
+  }
+
+  /// Inserts knots into a tensor surface along a planish_axis; the surface stays the same.
+  void insert_knots(std::uint32_t axis, const values<double> &knots) {
+    detail::checked(planish_tensor_insert_knots(get(), axis, knots.data(), knots.count()));
+  }
+
+  /// Raises the degree of a tensor surface along a planish_axis; the surface stays the same.
+  void elevate_degree(std::uint32_t axis, std::uint32_t degree) {
+    detail::checked(planish_tensor_elevate_degree(get(), axis, degree));
+  }
+
+  /// Turns a tensor surface round along a planish_axis.
+  void reverse(std::uint32_t axis) { detail::checked(planish_tensor_reverse(get(), axis)); }
+
+  /// The parts of a tensor surface below and above a parameter along a planish_axis.
+  std::array<surface, 2> split(std::uint32_t axis, double at) const {
+    planish_surface *lower = nullptr, *upper = nullptr;
+    detail::checked(planish_tensor_split(get(), axis, at, &lower, &upper));
+    return {surface(lower), surface(upper)};
   }
 
   /// Degree of a tensor surface along a planish_axis; 0 for other families.

@@ -132,13 +132,18 @@ impl BezierPatch {
 /// The ordinates of one polynomial piece of a spline: row `j` weighs the control points
 /// `span - degree ..= span`.
 pub fn extraction(knots: &KnotVector, span: usize) -> Vec<f64> {
+    extraction_over(knots, span, [knots.knots()[span], knots.knots()[span + 1]])
+}
+
+/// The same for the piece's polynomial over any interval.
+pub fn extraction_over(knots: &KnotVector, span: usize, [from, to]: [f64; 2]) -> Vec<f64> {
     let (t, degree) = (knots.knots(), knots.degree());
     let mut matrix = Vec::with_capacity((degree + 1) * (degree + 1));
     for j in 0..=degree {
         let mut values = [0.0; MAX_DEGREE + 1];
         values[0] = 1.0;
         for p in 1..=degree {
-            raise(t, span, if p <= j { t[span + 1] } else { t[span] }, p, &mut values);
+            raise(t, span, if p <= j { to } else { from }, p, &mut values);
         }
         matrix.extend_from_slice(&values[..=degree]);
     }

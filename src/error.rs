@@ -9,6 +9,7 @@ use crate::curve::CurveError;
 use crate::export::ExportError;
 use crate::export::native::LoadError;
 use crate::export::step::StepError;
+use crate::fit::skin::SkinError;
 use crate::fit::tessellation::FitError;
 use crate::knots::KnotError;
 use crate::mesh::{CutError, MeshError, ReadError};
@@ -19,6 +20,7 @@ use crate::query::tessellate::TessellateError;
 use crate::surface::evaluate::EvalError;
 use crate::surface::pht::PhtError;
 use crate::surface::tensor::TensorError;
+use crate::surface::tspline::TSplineError;
 use crate::surface::{ConvertError, TrimError};
 
 /// The class of an error: what a program can act upon without reading the sentence.
@@ -71,6 +73,9 @@ pub enum Error {
     /// A fit is not possible.
     #[error(transparent)]
     Fit(#[from] FitError),
+    /// Rows cannot be skinned.
+    #[error(transparent)]
+    Skin(#[from] SkinError),
     /// Knots are not a knot vector.
     #[error(transparent)]
     Knots(#[from] KnotError),
@@ -83,6 +88,9 @@ pub enum Error {
     /// A PHT-spline is not one, or cannot be changed as asked.
     #[error(transparent)]
     Pht(#[from] PhtError),
+    /// A T-spline is not one, or cannot be changed as asked.
+    #[error(transparent)]
+    TSpline(#[from] TSplineError),
     /// Points cannot be evaluated.
     #[error(transparent)]
     Eval(#[from] EvalError),
@@ -135,10 +143,12 @@ impl Error {
             Self::Read(error) => (error.kind(), error.index()),
             Self::Parameterize(error) => (error.kind(), error.index()),
             Self::Fit(error) => (error.kind(), error.index()),
+            Self::Skin(error) => (error.kind(), error.index()),
             Self::Knots(error) => (error.kind(), error.index()),
             Self::Curve(error) => (error.kind(), error.index()),
             Self::Tensor(error) => (error.kind(), error.index()),
             Self::Pht(error) => (error.kind(), error.index()),
+            Self::TSpline(error) => (error.kind(), error.index()),
             Self::Eval(error) => (error.kind(), error.index()),
             Self::Deviation(error) => (error.kind(), error.index()),
             Self::Project(error) => (error.kind(), error.index()),

@@ -18,9 +18,10 @@ pub fn shape_functions(s: f64) -> [f64; 4] {
     [1.0 - 3.0 * s2 + 2.0 * s3, 3.0 * s2 - 2.0 * s3, s - 2.0 * s2 + s3, s3 - s2]
 }
 
-/// The derivatives of [`shape_functions`].
+/// Their derivatives with respect to `s`.
 pub fn shape_slopes(s: f64) -> [f64; 4] {
-    [6.0 * s * (s - 1.0), 6.0 * s * (1.0 - s), (1.0 - s) * (1.0 - 3.0 * s), s * (3.0 * s - 2.0)]
+    let s2 = s * s;
+    [6.0 * (s2 - s), 6.0 * (s - s2), 1.0 - 4.0 * s + 3.0 * s2, 3.0 * s2 - 2.0 * s]
 }
 
 /// The slopes of the natural C2 cubic spline through `values` on uniform knots.

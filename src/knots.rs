@@ -65,6 +65,12 @@ pub enum KnotError {
         /// End of the domain.
         to: f64,
     },
+    /// Only knots inside the domain at which the spline is continuous can be removed.
+    #[error("there is no knot {index} inside the domain at which the spline is continuous")]
+    NotRemovable {
+        /// The knot asked for.
+        index: usize,
+    },
 }
 
 impl KnotError {
@@ -74,6 +80,7 @@ impl KnotError {
             Self::NotFinite { .. } => crate::ErrorKind::NotFinite,
             Self::Empty { .. } => crate::ErrorKind::Degenerate,
             Self::Outside { .. } => crate::ErrorKind::Outside,
+            Self::NotRemovable { .. } => crate::ErrorKind::Index,
             _ => crate::ErrorKind::InvalidArgument,
         }
     }
@@ -81,9 +88,10 @@ impl KnotError {
     /// The offending knot.
     pub fn index(&self) -> Option<usize> {
         match *self {
-            Self::NotFinite { index } | Self::Decreasing { index } | Self::Multiplicity { index, .. } => {
-                Some(index)
-            }
+            Self::NotFinite { index }
+            | Self::Decreasing { index }
+            | Self::Multiplicity { index, .. }
+            | Self::NotRemovable { index } => Some(index),
             _ => None,
         }
     }

@@ -3,6 +3,8 @@
 //! Each is a tessellation with exact places; those with natural parameters carry them. The same seed gives the
 //! same bits on every machine.
 
+pub mod rows;
+
 use crate::mesh::{Mesh, MeshError};
 use crate::surface::{Domain, Trims};
 use glam::{DVec2, DVec3};

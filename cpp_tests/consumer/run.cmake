@@ -2,11 +2,12 @@
 # the tree: by find_package, by pkg-config, and as a part of the project by FetchContent; each with the shared and
 # the static library.
 #
-# Needs BUILD (the build tree), SOURCE, SCRATCH, LIBDIR, CC, CXX, GENERATOR, BUILD_TYPE; PKG_CONFIG may be empty.
+# Needs BUILD (the build tree), SOURCE, SCRATCH, LIBDIR, CC, CXX, GENERATOR, BUILD_TYPE; PKG_CONFIG may be empty, and
+# FC, which is for the Fortran module.
 cmake_policy(VERSION 3.22)
 set(here "${CMAKE_CURRENT_LIST_DIR}")
 file(REMOVE_RECURSE "${SCRATCH}")
-file(COPY "${here}/CMakeLists.txt" "${here}/use.c" "${here}/use.cpp" DESTINATION "${SCRATCH}/project")
+file(COPY "${here}/CMakeLists.txt" "${here}/use.c" "${here}/use.cpp" "${here}/use.f90" DESTINATION "${SCRATCH}/project")
 
 function(run)
   execute_process(COMMAND ${ARGV} OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE failed)
@@ -16,10 +17,15 @@ function(run)
   endif()
 endfunction()
 
+set(fortran)
+if(FC)
+  set(fortran "-DUSE_FORTRAN=ON" "-DCMAKE_Fortran_COMPILER=${FC}")
+endif()
+
 function(build_and_test name)
   message(STATUS "${name}")
   run(${CMAKE_COMMAND} -S "${SCRATCH}/project" -B "${SCRATCH}/${name}" -G "${GENERATOR}" "-DCMAKE_C_COMPILER=${CC}"
-      "-DCMAKE_CXX_COMPILER=${CXX}" "-DCMAKE_BUILD_TYPE=${BUILD_TYPE}" ${ARGN})
+      "-DCMAKE_CXX_COMPILER=${CXX}" "-DCMAKE_BUILD_TYPE=${BUILD_TYPE}" ${fortran} ${ARGN})
   run(${CMAKE_COMMAND} --build "${SCRATCH}/${name}")
   run(${CMAKE_CTEST_COMMAND} --test-dir "${SCRATCH}/${name}" --output-on-failure)
 endfunction()
@@ -59,6 +65,14 @@ if(PKG_CONFIG)
     set(program "${SCRATCH}/use_pkg_config_${kind}")
     run(${CC} "${SCRATCH}/project/use.c" -o "${program}" ${flags} "-Wl,-rpath,${SCRATCH}/${kind}/${LIBDIR}")
     run("${program}")
+    if(FC)
+      # the module is a source file beside the headers
+      execute_process(COMMAND ${PKG_CONFIG} --variable=includedir planish OUTPUT_VARIABLE include
+                      OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+      run(${FC} "-J${SCRATCH}" "${include}/planish.f90" "${SCRATCH}/project/use.f90" -o "${program}_fortran" ${flags}
+          "-Wl,-rpath,${SCRATCH}/${kind}/${LIBDIR}")
+      run("${program}_fortran")
+    endif()
   endforeach()
 endif()
 message(STATUS "every way works")

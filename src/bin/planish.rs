@@ -10,6 +10,8 @@ mod fit;
 mod info;
 #[path = "planish/output.rs"]
 mod output;
+#[path = "planish/render.rs"]
+mod render;
 #[path = "planish/sample.rs"]
 mod sample;
 
@@ -32,6 +34,8 @@ enum Command {
     Info(info::InfoArguments),
     /// Evaluate a saved surface.
     Eval(eval::EvalArguments),
+    /// Draw a picture of a saved surface.
+    Render(render::RenderArguments),
     /// Write one of the seeded sample meshes.
     Sample(sample::SampleArguments),
 }
@@ -77,6 +81,7 @@ fn main() -> ExitCode {
         Command::Fit(arguments) => fit::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
+        Command::Render(arguments) => render::run(&arguments),
         Command::Sample(arguments) => sample::run(&arguments),
     };
     match outcome {

@@ -1,7 +1,13 @@
 //! B-spline curves in any dimension.
 
+mod interpolate;
+mod refine;
+
+pub use interpolate::{EndRule, Interpolant};
+pub use refine::{KNOT_TOLERANCE, common_breaks, common_knots, on_common_knots};
+
 use crate::basis::basis_derivatives;
-use crate::knots::KnotVector;
+use crate::knots::{KnotError, KnotVector};
 
 /// A curve is not one.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -39,6 +45,15 @@ pub enum CurveError {
         /// Its parameter.
         u: f64,
     },
+    /// The parameters of points to interpolate must rise.
+    #[error("parameter {index} is not above the one before it")]
+    NotRising {
+        /// The point.
+        index: usize,
+    },
+    /// The knots are none.
+    #[error(transparent)]
+    Knots(#[from] KnotError),
 }
 
 impl CurveError {
@@ -47,6 +62,8 @@ impl CurveError {
         match self {
             Self::NotFinite { .. } | Self::ParameterNotFinite { .. } => crate::ErrorKind::NotFinite,
             Self::Outside { .. } => crate::ErrorKind::Outside,
+            Self::NotRising { .. } => crate::ErrorKind::Degenerate,
+            Self::Knots(error) => error.kind(),
             _ => crate::ErrorKind::InvalidArgument,
         }
     }
@@ -54,9 +71,11 @@ impl CurveError {
     /// The offending control point, or point to evaluate.
     pub fn index(&self) -> Option<usize> {
         match *self {
-            Self::NotFinite { index } | Self::ParameterNotFinite { index } | Self::Outside { index, .. } => {
-                Some(index)
-            }
+            Self::NotFinite { index }
+            | Self::ParameterNotFinite { index }
+            | Self::Outside { index, .. }
+            | Self::NotRising { index } => Some(index),
+            Self::Knots(ref error) => error.index(),
             _ => None,
         }
     }
@@ -87,6 +106,12 @@ impl Curve {
             Some(index) => Err(CurveError::NotFinite { index: index / dim }),
             None => Ok(Self { dim, knots, control_points }),
         }
+    }
+
+    /// Another curve over the same knots.
+    pub(crate) fn with_control_points(&self, control_points: Vec<f64>) -> Self {
+        debug_assert_eq!(control_points.len(), self.control_points.len());
+        Self { control_points, ..self.clone() }
     }
 
     /// Components of a value.

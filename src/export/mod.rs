@@ -4,6 +4,7 @@ mod error;
 pub mod native;
 pub mod obj;
 pub mod picture;
+pub mod render;
 pub mod step;
 pub mod vtk;
 

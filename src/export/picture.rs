@@ -21,6 +21,8 @@ const INK: [f64; 3] = [0.15, 0.15, 0.15];
 
 /// Samples along each side of a pixel.
 const OVERSAMPLING: usize = 2;
+/// Samples across a dot.
+const DOT_SAMPLES: i32 = 7;
 /// Lines lie this share of the scene's size in front of what they are drawn on.
 const LINE_LIFT: f64 = 2e-3;
 
@@ -31,6 +33,15 @@ pub struct View {
     pub direction: DVec3,
     /// What should point upwards.
     pub up: DVec3,
+}
+
+/// From a direction, z upwards, or y when looking along z.
+impl From<[f64; 3]> for View {
+    fn from(direction: [f64; 3]) -> Self {
+        let direction = DVec3::from(direction);
+        let is_steep = direction.truncate().length() < 1e-3 * direction.length();
+        Self { direction, up: if is_steep { DVec3::Y } else { DVec3::Z } }
+    }
 }
 
 impl View {
@@ -122,6 +133,22 @@ impl Picture {
                 for (dx, dy) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
                     self.set(p.x + dx, p.y + dy, p.z + self.lift, color);
                 }
+            }
+        }
+    }
+
+    /// Draws a dot at a place in space.
+    pub fn draw_dot(&mut self, place: DVec3, color: [f64; 3]) {
+        let center = self.project(place);
+        let reach = DOT_SAMPLES / 2;
+        for dx in -reach..=reach {
+            for dy in -reach..=reach {
+                self.set(
+                    center.x + f64::from(dx),
+                    center.y + f64::from(dy),
+                    center.z + 1.5 * self.lift,
+                    color,
+                );
             }
         }
     }

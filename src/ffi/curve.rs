@@ -1,8 +1,8 @@
 //! B-spline curves.
 
 use super::arguments::{
-    ArgumentError, array_len, choice, deref, options, out, rows_mut, slice, slice_mut, slice_mut_or_none,
-    stride, strided_len,
+    ArgumentError, array_len, choice, copy, deref, options, out, rows_mut, slice, slice_mut,
+    slice_mut_or_none, stride, strided_len,
 };
 use super::guard::{Failure, guard};
 use super::progress::{thread_count, with_control};
@@ -11,6 +11,7 @@ use super::status::query;
 use super::{planish_eval_options, planish_flag, planish_status, planish_tensor_options};
 use crate::curve::{Curve, MAX_DERIVATIVE};
 use crate::fit::tessellation::fit_curve;
+use crate::knots::KnotVector;
 use crate::surface::evaluate::OutsideRule;
 
 /// A B-spline curve: a map from an interval of parameters u to R^dim. Made by planish_curve_fit(), destroyed by
@@ -27,6 +28,10 @@ const _: () = {
 impl planish_curve {
     pub(super) fn into_raw(curve: Curve) -> *mut Self {
         Box::into_raw(Box::new(Self(curve)))
+    }
+
+    pub(super) fn core(&self) -> &Curve {
+        &self.0
     }
 }
 
@@ -69,6 +74,38 @@ pub unsafe extern "C" fn planish_curve_fit(
             fit_curve(u, values, dim, &options, control)
         })??;
         Ok(outputs.store_curve(fit))
+    })
+}
+
+/// Makes a curve from its parts, which are copied.
+///
+/// dim:            numbers of a control point, at least 1.
+/// degree:         1 to 9.
+/// knots:          knot_count knots, never falling.
+/// knot_count:     at least 2 * (degree + 1).
+/// control_points: knot_count - degree - 1 rows of dim numbers.
+/// out_curve:      receives a new curve; destroy with planish_curve_free().
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (dim, degree or knots),
+/// PLANISH_STATUS_NOT_FINITE (the index is the knot or the control point), PLANISH_STATUS_DEGENERATE (the knots span
+/// no interval), PLANISH_STATUS_TOO_LARGE or PLANISH_STATUS_OUT_OF_MEMORY.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_curve_new(
+    dim: usize,
+    degree: u32,
+    knots: *const f64,
+    knot_count: usize,
+    control_points: *const f64,
+    out_curve: *mut *mut planish_curve,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let out_curve = out(out_curve, "out_curve")?;
+        let knots = KnotVector::new(copy(knots, knot_count, "knots")?, degree as usize)?;
+        let len = array_len::<f64>(knots.basis_count(), dim, "control_points")?;
+        let curve = Curve::new(dim, knots, copy(control_points, len, "control_points")?)?;
+        out_curve.write(planish_curve::into_raw(curve));
+        Ok(())
     })
 }
 

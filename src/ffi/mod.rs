@@ -31,6 +31,7 @@ mod surface;
 mod tensor;
 #[cfg(test)]
 mod tests;
+mod tspline;
 
 pub use curve::*;
 pub use export::*;
@@ -46,3 +47,4 @@ pub use status::*;
 pub use step::*;
 pub use surface::*;
 pub use tensor::*;
+pub use tspline::*;

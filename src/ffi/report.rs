@@ -5,6 +5,7 @@ use super::curve::planish_curve;
 use super::planish_status;
 use super::surface::planish_surface;
 use crate::fit::report::{FitReport, Remarks, StopReason};
+use crate::fit::skin::SkinFit;
 use crate::fit::tessellation::CurveFit;
 use crate::surface::AnySurface;
 use glam::DVec2;
@@ -34,6 +35,14 @@ pub enum planish_remark {
     SegmentationAdvised = 256,
     /// The data do not determine the beam energy's null space; the plate energy was used instead.
     PlateEnergyUsed = 512,
+    /// Points that lay on the one before them in their row have been merged with it.
+    MergedPoints = 1048576,
+    /// A row looks reversed or shifted against the one before it: see align in planish_skin_options.
+    TwistedRows = 2097152,
+    /// Some rows are much nearer to one another than to the next: control curves overshoot.
+    ClusteredRows = 4194304,
+    /// The end points of rows are too near to those of the next to say how far apart rows are; mean distances do.
+    MeanSteps = 8388608,
     /// Holes were closed by fans of triangles while the map was computed.
     HolesFilled = 65536,
     /// Triangles without area in space were left out of the map's weights.
@@ -182,6 +191,10 @@ const _: () = {
     assert!(Remarks::ROUGH_BETWEEN_NODES.0 == planish_remark::RoughBetweenNodes as u64);
     assert!(Remarks::SEGMENTATION_ADVISED.0 == planish_remark::SegmentationAdvised as u64);
     assert!(Remarks::PLATE_ENERGY_USED.0 == planish_remark::PlateEnergyUsed as u64);
+    assert!(Remarks::MERGED_POINTS.0 == planish_remark::MergedPoints as u64);
+    assert!(Remarks::TWISTED_ROWS.0 == planish_remark::TwistedRows as u64);
+    assert!(Remarks::CLUSTERED_ROWS.0 == planish_remark::ClusteredRows as u64);
+    assert!(Remarks::MEAN_STEPS.0 == planish_remark::MeanSteps as u64);
 };
 
 /// The gravest remark has the say. A fold may spoil any surface, so it comes before a missed tolerance, and
@@ -191,6 +204,7 @@ pub(super) fn gravest(remarks: u64) -> planish_status {
         (planish_remark::FoldedParameters, planish_status::FoldedParameters),
         (planish_remark::ToleranceNotMet, planish_status::ToleranceNotMet),
         (planish_remark::Stagnated, planish_status::Stagnated),
+        (planish_remark::MergedPoints, planish_status::InputRepaired),
     ];
     let found = by_gravity.into_iter().find(|&(remark, _)| remarks & remark as u64 != 0);
     found.map_or(planish_status::Ok, |(_, status)| status)
@@ -248,6 +262,12 @@ impl FitOutputs<'_, planish_surface> {
         report: &FitReport,
     ) -> planish_status {
         self.store(parameters, errors, report, planish_surface::into_raw(surface))
+    }
+
+    /// Of section curves the caller has no data to be told of.
+    pub fn store_skin(self, fit: SkinFit) -> planish_status {
+        let handle = planish_surface::into_raw(fit.surface);
+        self.store(&fit.parameters, &fit.errors, &fit.report, handle)
     }
 }
 

@@ -16,6 +16,7 @@ use crate::surface::evaluate::{
 };
 use crate::surface::pht::PhtSurface;
 use crate::surface::tensor::TensorSurface;
+use crate::surface::tspline::TSplineSurface;
 use crate::surface::{AnySurface, Domain, Kind, MAX_DERIVATIVE, Surface, Trims};
 use glam::DVec2;
 
@@ -83,10 +84,25 @@ impl planish_surface {
     }
 
     pub(super) fn tensor_mut(&mut self) -> Result<&mut TensorSurface, ArgumentError> {
-        self.tensor()?;
+        let refused = self.wrong_kind(Kind::Tensor);
         match &mut self.0 {
             Family::Any(AnySurface::Tensor(tensor)) => Ok(tensor),
-            _ => unreachable!("refused above"),
+            _ => Err(refused),
+        }
+    }
+
+    pub(super) fn tspline(&self) -> Result<&TSplineSurface, ArgumentError> {
+        match &self.0 {
+            Family::Any(AnySurface::TSpline(tspline)) => Ok(tspline),
+            _ => Err(self.wrong_kind(Kind::TSpline)),
+        }
+    }
+
+    pub(super) fn tspline_mut(&mut self) -> Result<&mut TSplineSurface, ArgumentError> {
+        let refused = self.wrong_kind(Kind::TSpline);
+        match &mut self.0 {
+            Family::Any(AnySurface::TSpline(tspline)) => Ok(tspline),
+            _ => Err(refused),
         }
     }
 
@@ -98,10 +114,10 @@ impl planish_surface {
     }
 
     pub(super) fn pht_mut(&mut self) -> Result<&mut PhtSurface, ArgumentError> {
-        self.pht()?;
+        let refused = self.wrong_kind(Kind::Pht);
         match &mut self.0 {
             Family::Any(AnySurface::Pht(pht)) => Ok(pht),
-            _ => unreachable!("refused above"),
+            _ => Err(refused),
         }
     }
 

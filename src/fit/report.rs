@@ -89,6 +89,15 @@ impl Remarks {
     /// The data do not determine the beam energy's null space; the plate energy was used instead.
     pub const PLATE_ENERGY_USED: Self = Self(1 << 9);
 
+    /// Points that lay on the one before them in their row have been merged with it.
+    pub const MERGED_POINTS: Self = Self(1 << 20);
+    /// A row looks reversed or shifted against the one before it.
+    pub const TWISTED_ROWS: Self = Self(1 << 21);
+    /// Some rows are much nearer to one another than to the next: control curves overshoot.
+    pub const CLUSTERED_ROWS: Self = Self(1 << 22);
+    /// The end points of rows lie too near to those of the next to say how far apart rows are; mean distances do.
+    pub const MEAN_STEPS: Self = Self(1 << 23);
+
     /// Adds `other` when `holds`.
     pub fn add_if(&mut self, holds: bool, other: Self) {
         if holds {

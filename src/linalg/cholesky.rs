@@ -7,6 +7,7 @@ use faer::sparse::linalg::cholesky::{self, LltRef, SymmetricOrdering};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, Par, Side};
 use sprs::CsMatView;
+use std::sync::Arc;
 
 /// A matrix is not positive definite, or so nearly singular that rounding decides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -16,7 +17,7 @@ pub struct NotPositiveDefinite;
 /// What the pattern of a matrix says about its factor; shared by all matrices of that pattern.
 #[derive(Debug)]
 pub struct SymbolicCholesky {
-    symbolic: cholesky::SymbolicCholesky<usize>,
+    symbolic: Arc<cholesky::SymbolicCholesky<usize>>,
 }
 
 impl SymbolicCholesky {
@@ -42,11 +43,11 @@ impl SymbolicCholesky {
             Default::default(),
         )
         .expect("the pattern fits into memory, as the matrix did");
-        Self { symbolic }
+        Self { symbolic: Arc::new(symbolic) }
     }
 
     /// Factors a matrix with the pattern that was analysed.
-    pub fn factor(&self, lower: &CsMatView<f64>) -> Result<Cholesky<'_>, NotPositiveDefinite> {
+    pub fn factor(&self, lower: &CsMatView<f64>) -> Result<Cholesky, NotPositiveDefinite> {
         let mut values = vec![0.0; self.symbolic.len_val()];
         let starts = lower.proper_indptr();
         let matrix = SparseColMatRef::new(pattern(lower, &starts), lower.data());
@@ -67,25 +68,37 @@ impl SymbolicCholesky {
         if values.iter().any(|x| !x.is_finite()) {
             return Err(NotPositiveDefinite);
         }
-        Ok(Cholesky { symbolic: &self.symbolic, values })
+        Ok(Cholesky { symbolic: Arc::clone(&self.symbolic), values })
     }
 }
 
 /// The factor of one matrix.
 #[derive(Debug)]
-pub struct Cholesky<'a> {
-    symbolic: &'a cholesky::SymbolicCholesky<usize>,
+pub struct Cholesky {
+    symbolic: Arc<cholesky::SymbolicCholesky<usize>>,
     values: Vec<f64>,
 }
 
-impl Cholesky<'_> {
+/// Memory that solving some number of right-hand sides takes.
+pub struct SolveMemory(MemBuffer);
+
+impl Cholesky {
     /// Replaces `count` right-hand sides, one after the other in `columns`, by the solutions.
     pub fn solve(&self, columns: &mut [f64], count: usize) {
+        self.solve_in(columns, count, &mut self.memory(count));
+    }
+
+    /// The same in memory that is there already.
+    pub fn solve_in(&self, columns: &mut [f64], count: usize, memory: &mut SolveMemory) {
         let n = self.symbolic.nrows();
-        let factor = LltRef::new(self.symbolic, &self.values);
+        let factor = LltRef::new(&self.symbolic, &self.values);
         let right = MatMut::from_column_major_slice_mut(columns, n, count);
-        let mut memory = MemBuffer::new(self.symbolic.solve_in_place_scratch::<f64>(count, Par::Seq));
-        factor.solve_in_place_with_conj(Conj::No, right, Par::Seq, MemStack::new(&mut memory));
+        factor.solve_in_place_with_conj(Conj::No, right, Par::Seq, MemStack::new(&mut memory.0));
+    }
+
+    /// What [`Cholesky::solve_in`] needs for `count` right-hand sides.
+    pub fn memory(&self, count: usize) -> SolveMemory {
+        SolveMemory(MemBuffer::new(self.symbolic.solve_in_place_scratch::<f64>(count, Par::Seq)))
     }
 }
 

@@ -7,7 +7,9 @@ mod elimination;
 mod general;
 pub mod lu;
 mod ordering;
+mod tridiagonal;
 
-pub use cholesky::{Cholesky, NotPositiveDefinite, SymbolicCholesky};
+pub use cholesky::{Cholesky, NotPositiveDefinite, SolveMemory, SymbolicCholesky};
 pub use general::{Entries, Singular};
 pub use lu::{LuError, NumericLu, SymbolicLu};
+pub use tridiagonal::Tridiagonal;

@@ -3,6 +3,7 @@
 use super::Surface;
 use super::pht::PhtSurface;
 use super::tensor::{TensorError, TensorSurface};
+use super::tspline::{TSplineError, TSplineSurface};
 
 /// A surface cannot be converted.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -18,6 +19,9 @@ pub enum ConvertError {
     /// A number of the result would overflow.
     #[error("the tensor surface would not be one: {0}")]
     Tensor(#[from] TensorError),
+    /// The control curves of a T-spline have no common knots.
+    #[error(transparent)]
+    TSpline(#[from] TSplineError),
 }
 
 impl ConvertError {
@@ -26,6 +30,7 @@ impl ConvertError {
         match self {
             Self::TooLarge { .. } => crate::ErrorKind::TooLarge,
             Self::Tensor(error) => error.kind(),
+            Self::TSpline(error) => error.kind(),
         }
     }
 }
@@ -35,6 +40,8 @@ impl ConvertError {
 pub enum AnySurface {
     /// Tensor product B-spline.
     Tensor(TensorSurface),
+    /// T-spline with control curves.
+    TSpline(TSplineSurface),
     /// Bicubic spline over a hierarchical T-mesh.
     Pht(PhtSurface),
 }
@@ -45,6 +52,7 @@ impl AnySurface {
         match self {
             Self::Tensor(surface) => surface,
             Self::Pht(surface) => surface,
+            Self::TSpline(surface) => surface,
         }
     }
 
@@ -58,6 +66,7 @@ impl AnySurface {
                 _ => Ok(surface.clone()),
             },
             Self::Pht(surface) => surface.to_tensor(max_coefficients),
+            Self::TSpline(surface) => surface.to_tensor(max_coefficients),
         }
     }
 
@@ -66,6 +75,7 @@ impl AnySurface {
         match self {
             Self::Tensor(surface) => surface,
             Self::Pht(surface) => surface,
+            Self::TSpline(surface) => surface,
         }
     }
 }
@@ -79,5 +89,11 @@ impl From<TensorSurface> for AnySurface {
 impl From<PhtSurface> for AnySurface {
     fn from(surface: PhtSurface) -> Self {
         Self::Pht(surface)
+    }
+}
+
+impl From<TSplineSurface> for AnySurface {
+    fn from(surface: TSplineSurface) -> Self {
+        Self::TSpline(surface)
     }
 }

@@ -1,8 +1,5 @@
 //! Derivatives of rational surfaces from those of their homogeneous form.
 
-/// Orders (in u, in v) of the rows S, Su, Sv, Suu, Suv, Svv.
-pub const ORDERS: [(usize, usize); 6] = [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)];
-
 /// From derivatives of (w S, w) to those of S: Leibniz' rule solved for the highest derivative of S.
 pub fn divide(homogeneous: &[f64], dim: usize, max_derivative: usize, out: &mut [f64]) {
     let width = dim + 1;

@@ -5,6 +5,7 @@
 //! made from: their box in (u,v), and their boundary loops, the trims.
 
 mod any;
+mod cubic;
 mod cut;
 mod differential;
 pub mod evaluate;
@@ -13,6 +14,7 @@ pub mod pht;
 mod region;
 mod rows_of_four;
 pub mod tensor;
+pub mod tspline;
 
 pub use crate::geometry::Domain;
 pub use any::{AnySurface, ConvertError};
@@ -42,6 +44,9 @@ pub const MAX_DERIVATIVE: usize = 2;
 pub const fn derivative_rows(max_derivative: usize) -> usize {
     (max_derivative + 1) * (max_derivative + 2) / 2
 }
+
+/// Orders (in u, in v) of those rows.
+const ORDERS: [(usize, usize); 6] = [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)];
 
 /// What a surface of any family can do.
 pub trait Surface: Send + Sync {

@@ -1,13 +1,8 @@
 //! The inner loop of bicubic surfaces in space: sums over four rows of four points, compiled for the registers
 //! that the processor has (through `pulp`).
 
+use super::cubic::fma;
 use pulp::Simd;
-
-/// `a b + c`, in one instruction where there is one; the library function is slow.
-#[inline(always)]
-pub fn fma<S: Simd>(a: f64, b: f64, c: f64) -> f64 {
-    if S::IS_SCALAR { a * b + c } else { a.mul_add(b, c) }
-}
 
 /// Four control points along v out of four lines of them.
 #[inline(always)]

@@ -7,6 +7,7 @@ use planish::export::native;
 use planish::mesh::{MeshOptions, read};
 use planish::surface::pht::PhtSurface;
 use planish::surface::tensor::{Axis, TensorSurface};
+use planish::surface::tspline::TSplineSurface;
 use planish::surface::{AnySurface, Surface};
 use std::path::{Path, PathBuf};
 
@@ -74,6 +75,7 @@ fn surface_table(path: &Path, surface: &AnySurface) -> Table {
     table.row("surface", path.display().to_string());
     match surface {
         AnySurface::Tensor(tensor) => tensor_rows(tensor, &mut table),
+        AnySurface::TSpline(tspline) => tspline_rows(tspline, &mut table),
         AnySurface::Pht(pht) => pht_rows(pht, &mut table),
     }
     let surface = surface.as_surface();
@@ -93,6 +95,14 @@ fn tensor_rows(surface: &TensorSurface, table: &mut Table) {
     table.row("degrees", format!("{} x {}", knots_u.degree(), knots_v.degree()));
     table.row("control points", format!("{} x {}", knots_u.basis_count(), knots_v.basis_count()));
     table.row("weights", if surface.weights().is_some() { "yes" } else { "no" }.to_owned());
+}
+
+fn tspline_rows(surface: &TSplineSurface, table: &mut Table) {
+    let counts = surface.curves().iter().map(|curve| curve.knots().basis_count());
+    let (least, most) = (counts.clone().min().unwrap_or(0), counts.max().unwrap_or(0));
+    table.row("kind", "T-spline".to_owned());
+    table.row("control curves", format!("{}, of {least} to {most} control points", surface.curves().len()));
+    table.row("control points", surface.coefficient_count().to_string());
 }
 
 fn pht_rows(surface: &PhtSurface, table: &mut Table) {

@@ -106,7 +106,8 @@ pub fn write_picture(mesh: &Mesh, fit: &Fit, path: &Path) -> Result<(), Failure>
     write_png(&picture, path)
 }
 
-fn write_png(picture: &Picture, path: &Path) -> Result<(), Failure> {
+/// Writes a picture.
+pub fn write_png(picture: &Picture, path: &Path) -> Result<(), Failure> {
     let fail = |reason: &dyn fmt::Display| Failure::new(format!("cannot write {}: {reason}", path.display()));
     let (width, height, pixels) = picture.finish();
     let file = std::fs::File::create(path).map_err(|error| fail(&error))?;

@@ -5,7 +5,7 @@
 //! offset  type          content
 //!  0      8 bytes       "PLANISH" and a zero
 //!  8      u32           version of the format, 1
-//! 12      u32           kind of the surface: 0 tensor, 2 PHT-spline
+//! 12      u32           kind of the surface: 0 tensor, 1 T-spline, 2 PHT-spline
 //! 16      u64           size of the whole in bytes
 //! 24                    what the family needs, see its module
 //! end-8   u64           CRC-32 (IEEE 802.3) of all bytes before
@@ -15,6 +15,7 @@
 mod bytes;
 mod pht;
 mod tensor;
+mod tspline;
 
 use super::error::{ExportError, write_file};
 use crate::surface::AnySurface;
@@ -73,8 +74,9 @@ const VERSION: u32 = 1;
 /// Bytes before the content, and those of the checksum after it.
 const FRAME_SIZE: usize = 24 + 8;
 
-/// The kind of a surface as the file says it.
+/// The kinds of surfaces as the file says them.
 const TENSOR: u32 = 0;
+const TSPLINE: u32 = 1;
 const PHT: u32 = 2;
 
 /// A surface that the format knows.
@@ -95,6 +97,7 @@ impl AnySurface {
         match self {
             Self::Tensor(surface) => surface,
             Self::Pht(surface) => surface,
+            Self::TSpline(surface) => surface,
         }
     }
 }
@@ -117,6 +120,7 @@ pub fn load(bytes: &[u8]) -> Result<AnySurface, LoadError> {
     let surface = match kind {
         TENSOR => AnySurface::Tensor(tensor::read(&mut reader)?),
         PHT => AnySurface::Pht(pht::read(&mut reader)?),
+        TSPLINE => AnySurface::TSpline(tspline::read(&mut reader)?),
         _ => return Err(reader.wrong(format!("the kind {kind} is unknown"))),
     };
     reader.end()?;

@@ -1,9 +1,11 @@
 //! What is saved comes back, and nothing else is taken for a surface.
 
 use super::*;
+use crate::curve::Curve;
 use crate::knots::KnotVector;
 use crate::surface::pht::{Cell, PhtSurface, TMesh};
 use crate::surface::tensor::TensorSurface;
+use crate::surface::tspline::TSplineSurface;
 use crate::surface::{Domain, Region, Surface, Trims};
 use glam::DVec2;
 
@@ -20,6 +22,21 @@ fn tensor() -> AnySurface {
     AnySurface::Tensor(surface)
 }
 
+fn tspline() -> AnySurface {
+    let knots_v = KnotVector::new(vec![-1., 0., 1., 2., 2., 3., 4., 4.5, 5.], 3).unwrap();
+    let curves = (0..5).map(|j| {
+        let breaks: Vec<f64> = (0..=j + 1).map(|k| f64::from(k) / f64::from(j + 1)).collect();
+        let knots = KnotVector::clamped(&breaks, 3).unwrap();
+        let points = (0..2 * knots.basis_count()).map(|k| (k as f64 + f64::from(j)).sqrt()).collect();
+        Curve::new(2, knots, points).unwrap()
+    });
+    let mut surface = TSplineSurface::new(knots_v, curves.collect()).unwrap();
+    let triangle = [(0.1, 2.1), (0.9, 2.1), (0.5, 2.8)].map(|(u, v)| DVec2::new(u, v)).to_vec();
+    let trims = Trims::new(vec![triangle], &surface.domain()).unwrap();
+    *surface.region_mut() = Region { data_box: Some(surface.domain()), trims };
+    AnySurface::TSpline(surface)
+}
+
 fn pht() -> AnySurface {
     let cell = |level, i, j| Cell { level, i, j };
     let mut mesh = TMesh::new(&[0.0, 1.0, 3.0], &[0.0, 2.0]).unwrap();
@@ -33,7 +50,7 @@ fn pht() -> AnySurface {
 
 /// One of each family, with the bytes at which its counts and flags lie.
 fn families() -> Vec<(AnySurface, std::ops::Range<usize>)> {
-    vec![(tensor(), 24..88), (pht(), 24..88)]
+    vec![(tensor(), 24..88), (tspline(), 24..56), (pht(), 24..88)]
 }
 
 #[test]

@@ -133,6 +133,7 @@ fn the_gravest_remark_is_returned() {
         (planish_remark::FoldedParameters, planish_status::FoldedParameters),
         (planish_remark::ToleranceNotMet, planish_status::ToleranceNotMet),
         (planish_remark::Stagnated, planish_status::Stagnated),
+        (planish_remark::MergedPoints, planish_status::InputRepaired),
     ];
     let mut lighter = !order.iter().map(|&(remark, _)| remark as u64).sum::<u64>();
     assert_eq!(gravest(lighter), planish_status::Ok);

@@ -9,6 +9,7 @@ mod queries;
 mod records;
 mod statuses;
 mod surfaces;
+mod tsplines;
 
 use super::arguments::Record;
 use super::*;

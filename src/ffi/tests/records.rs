@@ -55,6 +55,7 @@ fn every_init_refuses_null() {
         null_refused(planish_parameterize_options_init(null_mut(), 96), "options");
         null_refused(planish_eval_options_init(null_mut(), 40), "options");
         null_refused(planish_tensor_options_init(null_mut(), 136), "options");
+        null_refused(planish_skin_options_init(null_mut(), 144), "options");
         null_refused(planish_pht_options_init(null_mut(), 128), "options");
         null_refused(planish_pht_convert_options_init(null_mut(), 32), "options");
     }
@@ -65,12 +66,21 @@ fn defaults_are_those_of_the_header() {
     let mut mesh: planish_mesh_options = canary();
     let mut map: planish_parameterize_options = canary();
     let mut tensor: planish_tensor_options = canary();
+    let mut skin: planish_skin_options = canary();
     // SAFETY: each of its size.
     unsafe {
         ok(planish_mesh_options_init(&mut mesh, size_of_val(&mesh)));
         ok(planish_parameterize_options_init(&mut map, size_of_val(&map)));
         ok(planish_tensor_options_init(&mut tensor, size_of_val(&tensor)));
+        ok(planish_skin_options_init(&mut skin, size_of_val(&skin)));
     }
+    assert_eq!((skin.tolerance, skin.dim, skin.tolerance_scale, skin.method), (1e-3, 3, 0, 0));
+    assert_eq!((skin.closed, skin.ends, skin.closed_v, skin.v_rule, skin.align), (0, 0, 0, 0, 0));
+    assert_eq!((skin.approximate_v, skin.extra_checks, skin.batch, skin.removal), (0, 3, 0, 0));
+    assert_eq!((skin.certify, skin.compare, skin.thread_count), (0, 0, 0));
+    assert!(skin.end_slopes.is_null() && skin.begin_tangents.is_null() && skin.end_tangents.is_null());
+    assert!(skin.out_parameters.is_null() && skin.out_errors.is_null() && skin.out_report.is_null());
+    assert!(skin.progress.is_none() && skin.user.is_null());
     assert_eq!((mesh.point_stride, mesh.triangle_stride, mesh.weld_distance), (0, 0, 0.0));
     assert_eq!((mesh.orient, mesh.index_base), (0, 0));
     assert!(mesh.out_repairs.is_null() && mesh.out_node_map.is_null());

@@ -131,26 +131,31 @@ impl UniformBasis {
     /// Inside, the coefficient is the control point; at the ends the blossom at three or two equal knots
     /// is `(c_0 + 4c_1 + c_2)/6` and `(2c_1 + c_2)/3`.
     pub fn control_points(&self, unknowns: &[f64], row: usize) -> Vec<f64> {
-        let count = self.grid.count;
-        let mut c = unknowns.to_vec();
-        if self.ends == Ends::Natural {
-            let outer = |near: usize, next: usize| -> Vec<f64> {
-                (0..row).map(|k| 2.0 * unknowns[near * row + k] - unknowns[next * row + k]).collect()
-            };
-            let (begin, end) = (outer(0, 1), outer(count - 1, count - 2));
-            c.splice(0..0, begin);
-            c.extend(end);
-        }
-        let at = |i: usize, k: usize| c[i * row + k];
-        let mut points = c.clone();
-        for k in 0..row {
-            let last = count + 1;
-            points[k] = (at(0, k) + 4.0 * at(1, k) + at(2, k)) / 6.0;
-            points[row + k] = (2.0 * at(1, k) + at(2, k)) / 3.0;
-            points[(last - 1) * row + k] = (2.0 * at(last - 1, k) + at(last - 2, k)) / 3.0;
-            points[last * row + k] = (at(last, k) + 4.0 * at(last - 1, k) + at(last - 2, k)) / 6.0;
-        }
+        let mut points = vec![0.0; (self.grid.count + 2) * row];
+        self.write_control_points(unknowns, row, &mut points);
         points
+    }
+
+    /// The same into memory that is there already.
+    pub fn write_control_points(&self, unknowns: &[f64], row: usize, points: &mut [f64]) {
+        let last = self.grid.count + 1;
+        match self.ends {
+            Ends::Free => points.copy_from_slice(unknowns),
+            Ends::Natural => points[row..last * row].copy_from_slice(unknowns),
+        }
+        for k in 0..row {
+            let at = |i: usize| i * row + k;
+            let mut begin = [0, 1, 2].map(|i| points[at(i)]);
+            let mut end = [0, 1, 2].map(|i| points[at(last - i)]);
+            if self.ends == Ends::Natural {
+                begin[0] = 2.0 * begin[1] - begin[2];
+                end[0] = 2.0 * end[1] - end[2];
+            }
+            for (outer, inner, c) in [(0, 1, begin), (last, last - 1, end)] {
+                points[at(outer)] = (c[0] + 4.0 * c[1] + c[2]) / 6.0;
+                points[at(inner)] = (2.0 * c[1] + c[2]) / 3.0;
+            }
+        }
     }
 
     /// The matrix `integral of x^(order) x^(order) ds` over the cells, in cell units.

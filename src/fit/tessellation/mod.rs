@@ -13,12 +13,12 @@ mod curve;
 pub(in crate::fit) mod energy;
 mod ferguson;
 pub(in crate::fit) mod foot_points;
-mod grid;
+pub(in crate::fit) mod grid;
 pub(in crate::fit) mod interior;
-mod normal_equations;
+pub(in crate::fit) mod normal_equations;
 pub(in crate::fit) mod refine;
 pub(in crate::fit) mod samples;
-mod single_grid;
+pub(in crate::fit) mod single_grid;
 
 pub use curve::{CurveFit, fit_curve};
 pub use energy::Energy;
@@ -164,6 +164,9 @@ pub enum FitError {
         /// The datum.
         index: usize,
     },
+    /// A surface that is to be updated is not one of this fitter's.
+    #[error("the surface has other knots or another dimension than the fields of this fitter")]
+    OtherGrid,
     /// A weight is not a positive number.
     #[error("weight {index} is {weight}, it must be positive and finite")]
     Weight {
@@ -196,7 +199,9 @@ impl FitError {
     pub fn kind(&self) -> crate::ErrorKind {
         use crate::ErrorKind;
         match self {
-            Self::Option { .. } | Self::TooFew { .. } | Self::Count { .. } => ErrorKind::InvalidArgument,
+            Self::Option { .. } | Self::TooFew { .. } | Self::Count { .. } | Self::OtherGrid => {
+                ErrorKind::InvalidArgument
+            }
             Self::Weight { weight, .. } if weight.is_finite() => ErrorKind::InvalidArgument,
             Self::ParametersNotFinite { .. } | Self::ValuesNotFinite { .. } | Self::Weight { .. } => {
                 ErrorKind::NotFinite

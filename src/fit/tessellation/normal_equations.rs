@@ -7,7 +7,7 @@ use super::Energy;
 use super::grid::UniformBasis;
 use crate::control::Pool;
 use crate::linalg::dissection::grid_order;
-use crate::linalg::{NotPositiveDefinite, SymbolicCholesky};
+use crate::linalg::{Cholesky, NotPositiveDefinite, SymbolicCholesky};
 use glam::DVec2;
 use rayon::prelude::*;
 use sprs::CsMat;
@@ -42,7 +42,8 @@ impl TensorBasis {
         self.u.len() * self.v.len()
     }
 
-    fn cells(&self) -> [usize; 2] {
+    /// Cells along u and v.
+    pub fn cells(&self) -> [usize; 2] {
         [self.u.grid.count - 1, self.v.grid.count - 1]
     }
 
@@ -63,13 +64,14 @@ pub struct NormalEquations {
 }
 
 /// Data sorted by cell: `order[starts[c]..starts[c + 1]]` lie in cell `c`.
-struct ByCell {
-    starts: Vec<u32>,
-    order: Vec<u32>,
+pub struct ByCell {
+    pub starts: Vec<u32>,
+    pub order: Vec<u32>,
 }
 
 impl ByCell {
-    fn sort(basis: &TensorBasis, uv: &[DVec2]) -> Self {
+    /// Sorts; to be called within a pool.
+    pub fn sort(basis: &TensorBasis, uv: &[DVec2]) -> Self {
         let [cells_u, cells_v] = basis.cells();
         let cells: Vec<u32> = uv.par_iter().map(|&uv| basis.cell(uv) as u32).collect();
         let mut starts = vec![0u32; cells_u * cells_v + 1];
@@ -86,7 +88,8 @@ impl ByCell {
         Self { starts, order }
     }
 
-    fn of(&self, cell: usize) -> &[u32] {
+    /// The data of a cell.
+    pub fn of(&self, cell: usize) -> &[u32] {
         &self.order[self.starts[cell] as usize..self.starts[cell + 1] as usize]
     }
 }
@@ -145,11 +148,20 @@ impl NormalEquations {
         smoothing: f64,
         energy: Energy,
     ) -> Result<Vec<f64>, NotPositiveDefinite> {
-        let matrix = self.with_energy(smoothing / 12.0, energy);
-        let factor = symbolic.factor(&matrix.view())?;
+        let factor = self.factor(symbolic, smoothing, energy)?;
         let mut unknowns = self.right.clone();
         factor.solve(&mut unknowns, self.dim);
         Ok(unknowns)
+    }
+
+    /// The factor that [`NormalEquations::solve`] solves with.
+    pub fn factor(
+        &self,
+        symbolic: &SymbolicCholesky,
+        smoothing: f64,
+        energy: Energy,
+    ) -> Result<Cholesky, NotPositiveDefinite> {
+        symbolic.factor(&self.with_energy(smoothing / 12.0, energy).view())
     }
 
     /// The pattern, analysed; the same for all data and energies over one basis.

@@ -7,7 +7,17 @@
 use super::Problem;
 use super::grid::UniformGrid;
 use super::interior::node_normals;
+use crate::mesh::Mesh;
 use glam::{DVec2, DVec3};
+
+/// A place inside a triangle.
+pub struct InteriorPlace {
+    pub nodes: [usize; 3],
+    /// How it weighs the nodes.
+    pub shares: [f64; 3],
+    /// The mean weight of the nodes.
+    pub weight: f64,
+}
 
 /// Places inside triangles, in the frame, with the weights of their triangles.
 #[derive(Default)]
@@ -20,33 +30,49 @@ pub struct InteriorData {
 /// Most parts along one side of a triangle; a guard against triangles of absurd length.
 const MOST_PARTS: usize = 256;
 
+/// The places inside triangles that are larger than the cells of a grid.
+pub fn interior_places<'a>(
+    mesh: &'a Mesh,
+    uv: &'a [DVec2],
+    grid: &[UniformGrid; 2],
+    weights: Option<&'a [f64]>,
+) -> impl Iterator<Item = InteriorPlace> + 'a {
+    let cell = DVec2::new(grid[0].step, grid[1].step);
+    mesh.triangles().iter().flat_map(move |triangle| {
+        let nodes = triangle.map(|node| node as usize);
+        let parts = part_count(nodes.map(|n| uv[n] / cell));
+        let weight = weights.map_or(1.0, |w| nodes.iter().map(|&n| w[n]).sum::<f64>() / 3.0);
+        let middles = (parts >= 2).then(|| part_middles(parts)).into_iter().flatten();
+        middles.map(move |shares| InteriorPlace { nodes, shares, weight })
+    })
+}
+
+impl InteriorPlace {
+    /// The mean of what the nodes have, weighed by the shares.
+    pub fn mean<T: std::iter::Sum<T>>(&self, at: impl Fn(usize) -> T) -> T
+    where
+        f64: std::ops::Mul<T, Output = T>,
+    {
+        self.nodes.iter().zip(self.shares).map(|(&node, share)| share * at(node)).sum()
+    }
+}
+
 impl Problem<'_> {
     /// The places inside triangles that are larger than the cells of a grid; `values` are those of the nodes.
     pub fn interior_data(&self, grid: &[UniformGrid; 2], values: &[f64]) -> InteriorData {
         let mut data = InteriorData::default();
         let Some(mesh) = self.mesh else { return data };
-        let cell = DVec2::new(grid[0].step, grid[1].step);
         let mut shape_normals = None;
-        for triangle in mesh.triangles() {
-            let nodes = triangle.map(|node| node as usize);
-            let parts = part_count(nodes.map(|n| self.uv[n] / cell));
-            if parts < 2 {
-                continue;
-            }
-            let weight = self.options.weights.map_or(1.0, |w| nodes.iter().map(|&n| w[n]).sum::<f64>() / 3.0);
-            for shares in part_middles(parts) {
-                data.uv.push(nodes.iter().zip(shares).map(|(&n, share)| share * self.uv[n]).sum());
-                data.weights.push(weight);
-                if self.is_shape {
-                    let normals = shape_normals.get_or_insert_with(|| node_normals(mesh));
-                    let corners = nodes.map(|n| DVec3::from_slice(&values[3 * n..]));
-                    let normals = nodes.map(|n| normals[n].normalize_or_zero());
-                    data.values.extend(bulge(corners, normals, shares).to_array());
-                } else {
-                    data.values.extend((0..self.dim).map(|k| -> f64 {
-                        nodes.iter().zip(shares).map(|(&n, share)| share * values[n * self.dim + k]).sum()
-                    }));
-                }
+        for place in interior_places(mesh, &self.uv, grid, self.options.weights) {
+            data.uv.push(place.mean(|n| self.uv[n]));
+            data.weights.push(place.weight);
+            if self.is_shape {
+                let normals = shape_normals.get_or_insert_with(|| node_normals(mesh));
+                let corners = place.nodes.map(|n| DVec3::from_slice(&values[3 * n..]));
+                let normals = place.nodes.map(|n| normals[n].normalize_or_zero());
+                data.values.extend(bulge(corners, normals, place.shares).to_array());
+            } else {
+                data.values.extend((0..self.dim).map(|k| place.mean(|n| values[n * self.dim + k])));
             }
         }
         data

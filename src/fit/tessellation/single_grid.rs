@@ -89,6 +89,11 @@ const INTERIOR_PER_SMOOTHING: f64 = 50.0;
 /// Its limit: places inside are estimates.
 const INTERIOR_MOST: f64 = 0.05;
 
+/// Weight of places inside triangles against that of nodes.
+pub fn interior_weight(smoothing: f64) -> f64 {
+    (INTERIOR_PER_SMOOTHING * smoothing).min(INTERIOR_MOST)
+}
+
 /// The normal equations of one grid, ready to be solved with any smoothing.
 struct LeastSquares<'a> {
     problem: &'a Problem<'a>,
@@ -155,9 +160,7 @@ impl<'a> LeastSquares<'a> {
         self.watch.check()?;
         let equations = match &self.interior {
             None => Cow::Borrowed(&self.nodes),
-            Some(interior) => {
-                Cow::Owned(self.nodes.plus(interior, (INTERIOR_PER_SMOOTHING * smoothing).min(INTERIOR_MOST)))
-            }
+            Some(interior) => Cow::Owned(self.nodes.plus(interior, interior_weight(smoothing))),
         };
         let solved = equations.solve(&self.symbolic, smoothing, problem.energy);
         let unknowns = solved.map_err(|_| FitError::Singular)?;

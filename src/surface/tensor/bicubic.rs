@@ -1,31 +1,13 @@
 //! Fast evaluation of bicubic polynomial surfaces in space.
 //!
-//! On each knot span the four basis functions are cubics of the place in the span, `x` in [0, 1]; their
-//! coefficients are kept, which makes a basis function three multiplications whatever the knots are. The sums
-//! run over rows of twelve numbers, the four control points of one line, and are compiled once more for
-//! processors with wide registers (through `pulp`).
-//!
-//! ```text
-//! N_r(u) = ((c_r3 x + c_r2) x + c_r1) x + c_r0,    x = (u - t_k) / (t_{k+1} - t_k)
-//! ```
+//! Basis functions come from their coefficients ([`CubicSpan`]). The sums run over rows of twelve numbers, the four
+//! control points of one line, and are compiled once more for processors with wide registers (through `pulp`).
 
 use super::{Axis, TensorSurface};
-use crate::bezier::extraction;
-use crate::knots::KnotVector;
-use crate::surface::rows_of_four::{combine, contract, fma};
+use crate::surface::cubic::{CubicSpan, fma};
+use crate::surface::rows_of_four::{combine, contract};
 use glam::DVec2;
 use pulp::{Arch, Simd, WithSimd};
-
-/// Basis functions of one span.
-#[derive(Debug, Clone)]
-struct CubicSpan {
-    /// Row `m` has the coefficients of `x^m`.
-    coefficients: [[f64; 4]; 4],
-    start: f64,
-    inverse_length: f64,
-    /// The first control point of the span.
-    first: usize,
-}
 
 /// The spans of both directions.
 #[derive(Debug, Clone)]
@@ -38,47 +20,8 @@ impl BicubicTable {
     pub fn new(surface: &TensorSurface) -> Option<Self> {
         let knots = [Axis::U, Axis::V].map(|axis| surface.knots(axis));
         let is_cubic = knots.iter().all(|knots| knots.degree() == 3);
-        (is_cubic && surface.dim == 3 && surface.weights.is_none()).then(|| Self {
-            spans: knots.map(|knots| knots.spans().map(|k| CubicSpan::new(knots, k)).collect()),
-        })
-    }
-}
-
-impl CubicSpan {
-    fn new(knots: &KnotVector, span: usize) -> Self {
-        let (t, e) = (knots.knots(), extraction(knots, span));
-        let ordinate = |j: usize, r: usize| e[4 * j + r];
-        let mut coefficients = [[0.0; 4]; 4];
-        for r in 0..4 {
-            let b = [0, 1, 2, 3].map(|j| ordinate(j, r));
-            coefficients[0][r] = b[0];
-            coefficients[1][r] = 3.0 * (b[1] - b[0]);
-            coefficients[2][r] = 3.0 * ((b[2] - b[1]) - (b[1] - b[0]));
-            coefficients[3][r] = (b[3] - b[0]) - 3.0 * (b[2] - b[1]);
-        }
-        Self { coefficients, start: t[span], inverse_length: 1.0 / (t[span + 1] - t[span]), first: span - 3 }
-    }
-
-    #[inline(always)]
-    fn basis<S: Simd>(&self, u: f64) -> [f64; 4] {
-        let x = (u - self.start) * self.inverse_length;
-        let [c0, c1, c2, c3] = &self.coefficients;
-        let mut n = [0.0; 4];
-        for r in 0..4 {
-            n[r] = fma::<S>(fma::<S>(fma::<S>(c3[r], x, c2[r]), x, c1[r]), x, c0[r]);
-        }
-        n
-    }
-
-    #[inline(always)]
-    fn slopes<S: Simd>(&self, u: f64) -> [f64; 4] {
-        let x = (u - self.start) * self.inverse_length;
-        let [_, c1, c2, c3] = &self.coefficients;
-        let mut n = [0.0; 4];
-        for r in 0..4 {
-            n[r] = fma::<S>(fma::<S>(3.0 * c3[r], x, 2.0 * c2[r]), x, c1[r]) * self.inverse_length;
-        }
-        n
+        (is_cubic && surface.dim == 3 && surface.weights.is_none())
+            .then(|| Self { spans: knots.map(CubicSpan::all) })
     }
 }
 
@@ -201,6 +144,7 @@ impl TensorSurface {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::knots::KnotVector;
     use crate::samples::Random;
     use crate::surface::{Surface, derivative_rows};
 

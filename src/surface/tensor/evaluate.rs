@@ -2,8 +2,8 @@
 
 use super::{Axis, TensorSurface};
 use crate::basis::basis_derivatives;
-use crate::surface::derivative_rows;
-use crate::surface::homogeneous::{ORDERS, divide};
+use crate::surface::homogeneous::divide;
+use crate::surface::{ORDERS, derivative_rows};
 use glam::DVec2;
 
 impl TensorSurface {

@@ -173,6 +173,23 @@ impl TensorSurface {
         &self.control_points
     }
 
+    /// Gives the surface other control points, and keeps knots and weights. Numbers that are not finite are
+    /// refused and change nothing.
+    pub fn set_control_points(&mut self, control_points: &[f64]) -> Result<(), TensorError> {
+        let (count, expected, dim) = (control_points.len(), self.coefficient_count(), self.dim);
+        if count != expected * dim {
+            return Err(TensorError::ControlPointCount { count, expected, dim });
+        }
+        if let Some(index) = control_points.iter().position(|x| !x.is_finite()) {
+            return Err(TensorError::NotFinite { index: index / dim });
+        }
+        self.control_points.copy_from_slice(control_points);
+        if let Some(weights) = self.weights.take() {
+            self.weights = Some(Weights::new(weights.weights, control_points, dim)?);
+        }
+        Ok(())
+    }
+
     /// The weights, in the order of the control points; None for a polynomial surface.
     pub fn weights(&self) -> Option<&[f64]> {
         self.weights.as_ref().map(|weights| weights.weights.as_slice())

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 /// The files of `src/ffi` in the order of the header.
-const SOURCES: [&str; 14] = [
+const SOURCES: [&str; 15] = [
     "status.rs",
     "progress.rs",
     "mesh.rs",
@@ -15,12 +15,13 @@ const SOURCES: [&str; 14] = [
     "surface.rs",
     "patch.rs",
     "tensor.rs",
-    "pht.rs",
-    "pht_parts.rs",
     "query.rs",
     "export.rs",
     "step.rs",
     "curve.rs",
+    "tspline.rs",
+    "pht.rs",
+    "pht_parts.rs",
 ];
 
 fn main() -> ExitCode {

@@ -1,0 +1,2818 @@
+! SPDX-License-Identifier: MIT OR Apache-2.0
+!> Smooth spline surfaces from triangle meshes, rows of points and fields: the Fortran 2018 side of planish.h.
+!>
+!>     use planish
+!>     type(planish_mesh_t) :: mesh
+!>     type(planish_surface_t) :: surface
+!>     type(planish_tensor_options) :: options                ! born with the defaults
+!>     type(planish_fit_report) :: report
+!>     call mesh%read("panel.stl")
+!>     options%tolerance = 1e-4_real64
+!>     call planish_tensor_fit(mesh, surface, options, report)
+!>     call surface%eval(uv, points)                          ! uv(2,n), points(3,n)
+!>
+!> Names. planish_mesh_x, planish_surface_x and planish_curve_x of C are mesh%x, surface%x and curve%x; calls that
+!> make or use one family keep their names. What planish.h says of a call holds; here stands what is different.
+!>
+!> Arrays are Fortran's way round: a row of C is a column, so points are (3,n) and parameters (2,n). Whole arrays go
+!> in without copies; of a section such as points(1:2,:) the compiler makes one. Where C has a stride, it is the first
+!> extent: uv(5,n) holds n points, u and v first. Sizes come from the arrays; strides and pointers of the options
+!> from the arguments. Counts that come back are integer(c_size_t).
+!>
+!> Indices count from 1: nodes, triangles, loops, trims, worst_index, corners, planish_error_index(). Only the
+!> sentences of planish_error_message() count as C does, from 0.
+!>
+!> Errors. Calls end with (..., stat, errmsg), both optional. stat receives a PLANISH_STATUS: negative is an error
+!> and nothing has been changed, positive a success with a remark. errmsg receives the sentence of an error, else it
+!> stays as it is. Without stat an error stops the program with the sentence.
+!>
+!> Handles free themselves, and `=` makes a deep copy. gfortran 12 has bugs about that which no module can mend:
+!> a type of yours that has a handle as a component must not be assigned with `=`, nor handles allocated with
+!> `source=`, nor overlapping sections of an array of handles assigned to each other. Function results are safe.
+module planish
+  use, intrinsic :: iso_c_binding
+  implicit none
+  private
+
+  ! ---------------------------------------------------------------------------------------------------------
+  ! Numbers with names
+  ! ---------------------------------------------------------------------------------------------------------
+
+  !> The value of stretch_steps that goes on until the stretch no longer falls: all bits of a uint32_t.
+  integer(c_int32_t), parameter, public :: PLANISH_UNLIMITED = -1
+
+  !> What a call came to: 0 or positive is success, negative is an error.
+  integer(c_int), parameter, public :: PLANISH_STATUS_OK = 0 !! All went well
+  !> The surface misses the tolerance; it is the best one found
+  integer(c_int), parameter, public :: PLANISH_STATUS_TOLERANCE_NOT_MET = 1
+  !> The fit ended because refinement no longer lowered the error
+  integer(c_int), parameter, public :: PLANISH_STATUS_STAGNATED = 2
+  !> Some points lie outside the domain; their values are NaN
+  integer(c_int), parameter, public :: PLANISH_STATUS_POINTS_OUTSIDE = 3
+  !> The mesh is not what was given: nodes were welded, triangles dropped or turned over, or texture coordinates
+  !> that are no parameters left out
+  integer(c_int), parameter, public :: PLANISH_STATUS_INPUT_REPAIRED = 4
+  !> Some triangles are turned over or flat in the parameter plane: a surface over them may fold
+  integer(c_int), parameter, public :: PLANISH_STATUS_FOLDED_PARAMETERS = 5
+  integer(c_int), parameter, public :: PLANISH_STATUS_NULL_POINTER = -1 !! An argument that must not be NULL is
+  !> An argument or option is out of its range, or contradicts another
+  integer(c_int), parameter, public :: PLANISH_STATUS_INVALID_ARGUMENT = -2
+  integer(c_int), parameter, public :: PLANISH_STATUS_NOT_FINITE = -3 !! A number is NaN or infinite
+  integer(c_int), parameter, public :: PLANISH_STATUS_INDEX = -4 !! An index is out of range
+  !> The mesh is not connected as the call needs it
+  integer(c_int), parameter, public :: PLANISH_STATUS_TOPOLOGY = -5
+  !> The geometry is degenerate: lengths, areas or ranges are zero
+  integer(c_int), parameter, public :: PLANISH_STATUS_DEGENERATE = -6
+  integer(c_int), parameter, public :: PLANISH_STATUS_OUTSIDE = -7 !! A parameter lies outside the domain
+  integer(c_int), parameter, public :: PLANISH_STATUS_SINGULAR = -8 !! The data do not determine the result
+  !> The call does not apply to this family of surface
+  integer(c_int), parameter, public :: PLANISH_STATUS_WRONG_KIND = -9
+  !> The caller's array is too short for the result
+  integer(c_int), parameter, public :: PLANISH_STATUS_BUFFER_TOO_SMALL = -10
+  !> A size exceeds a limit, or what memory can address
+  integer(c_int), parameter, public :: PLANISH_STATUS_TOO_LARGE = -11
+  integer(c_int), parameter, public :: PLANISH_STATUS_FILE = -12 !! A file cannot be opened, read or written
+  !> The content of a file is not what it claims to be
+  integer(c_int), parameter, public :: PLANISH_STATUS_FORMAT = -13
+  !> A record has fields that this version of the library does not know, and they are not zero
+  integer(c_int), parameter, public :: PLANISH_STATUS_VERSION = -14
+  integer(c_int), parameter, public :: PLANISH_STATUS_CANCELLED = -15 !! The progress callback asked to stop
+  !> Memory for a copy of the caller's arrays could not be had
+  integer(c_int), parameter, public :: PLANISH_STATUS_OUT_OF_MEMORY = -16
+  integer(c_int), parameter, public :: PLANISH_STATUS_INTERNAL = -17 !! A bug in the library
+
+  !> Things worth knowing about a map or a fit: the bits of remarks in reports, several may hold.
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_TOLERANCE_NOT_MET = 1 !! The surface misses the tolerance
+  !> The fit ended because refinement no longer lowered the error
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_STAGNATED = 2
+  !> Some triangles are turned over or flat in the parameter plane: the surface may fold there
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_FOLDED_PARAMETERS = 4
+  !> The mesh had no parameters and was parameterized first
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_PARAMETERIZED = 8
+  !> Given parameters were uneven and have been regularized
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_REGULARIZED = 16
+  !> The tolerance was below what double precision can keep and was raised
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_TOLERANCE_RAISED = 32
+  !> Some cells hold no data; the surface is extrapolated there
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_EMPTY_CELLS = 64
+  !> Between the nodes the surface departs from the facets by more than tolerance and facet sagitta
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_ROUGH_BETWEEN_NODES = 128
+  !> The map is so compressed that one chart is the wrong tool: cut the mesh into several
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_SEGMENTATION_ADVISED = 256
+  !> The data do not determine the beam energy's null space; the plate energy was used instead
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_PLATE_ENERGY_USED = 512
+  !> Holes were closed by fans of triangles while the map was computed
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_HOLES_FILLED = 65536
+  !> Triangles without area in space were left out of the map's weights
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_ZERO_AREA_TRIANGLES = 131072
+
+  !> Why a fit ended.
+  integer(c_int32_t), parameter, public :: PLANISH_STOP_REASON_TOLERANCE_MET = 0 !! The tolerance is met
+  !> The caller fixed the grid, so there was nothing to refine
+  integer(c_int32_t), parameter, public :: PLANISH_STOP_REASON_FIXED_GRID = 1
+  !> The limit on grid or coefficients is reached
+  integer(c_int32_t), parameter, public :: PLANISH_STOP_REASON_LIMIT = 2
+  !> There would be more coefficients than data
+  integer(c_int32_t), parameter, public :: PLANISH_STOP_REASON_DATA_EXHAUSTED = 3
+  !> Refinement no longer lowered the error
+  integer(c_int32_t), parameter, public :: PLANISH_STOP_REASON_STAGNATED = 4
+
+  !> Which weights an interior node gives its neighbours.
+  !> Mean value coordinates: no triangle turns over over a convex border
+  integer(c_int32_t), parameter, public :: PLANISH_MAP_METHOD_MEAN_VALUE = 0
+  !> Cotangents: the conformal map of a flat sheet
+  integer(c_int32_t), parameter, public :: PLANISH_MAP_METHOD_HARMONIC = 1
+
+  !> Where the longest boundary loop goes.
+  !> The one of circle, square by turns, square by arc and (if unroll says so) free with the least L2 stretch
+  integer(c_int32_t), parameter, public :: PLANISH_BORDER_AUTO = 0
+  !> The circle inscribed in the unit square, spaced by chord length
+  integer(c_int32_t), parameter, public :: PLANISH_BORDER_CIRCLE = 1
+  !> The unit square with corners at the four sharpest turns of the loop
+  integer(c_int32_t), parameter, public :: PLANISH_BORDER_SQUARE_BY_TURNS = 2
+  !> The unit square with corners at each quarter of the loop's length
+  integer(c_int32_t), parameter, public :: PLANISH_BORDER_SQUARE_BY_ARC = 3
+  !> The unit square with the nodes corners at (0,0), (1,0), (1,1), (0,1)
+  integer(c_int32_t), parameter, public :: PLANISH_BORDER_CORNERS = 4
+  !> All boundary nodes, those of holes too, keep the parameters that the mesh has
+  integer(c_int32_t), parameter, public :: PLANISH_BORDER_KEPT = 5
+  !> No border at all: unrolled so that lengths are kept best, in the units of the mesh
+  integer(c_int32_t), parameter, public :: PLANISH_BORDER_FREE = 6
+
+  !> The family of a surface.
+  integer(c_int32_t), parameter, public :: PLANISH_KIND_NONE = 0 !! No surface: the answer for NULL
+  !> Tensor product B-spline, with or without weights
+  integer(c_int32_t), parameter, public :: PLANISH_KIND_TENSOR = 1
+  integer(c_int32_t), parameter, public :: PLANISH_KIND_TSPLINE = 2 !! T-spline with control curves
+  integer(c_int32_t), parameter, public :: PLANISH_KIND_PHT = 3 !! Bicubic spline over a hierarchical T-mesh
+  integer(c_int32_t), parameter, public :: PLANISH_KIND_D1RC = 4 !! Spline over a triangular control mesh
+
+  !> What to do with points outside the domain.
+  !> Refuse all points, before one value is written
+  integer(c_int32_t), parameter, public :: PLANISH_OUTSIDE_FAIL = 0
+  !> NaN and a flag; the call returns PLANISH_STATUS_POINTS_OUTSIDE
+  integer(c_int32_t), parameter, public :: PLANISH_OUTSIDE_FLAG = 1
+  !> The polynomial at the domain's end is continued, and the point flagged
+  integer(c_int32_t), parameter, public :: PLANISH_OUTSIDE_EXTRAPOLATE = 2
+
+  !> Flags of a point: bits of the elements of out_flags.
+  integer(c_int8_t), parameter, public :: PLANISH_FLAG_OUTSIDE_DOMAIN = 1 !! The parameters lie outside the domain
+  !> The point lies outside the trims: in a hole, or beyond the boundary of the data
+  integer(c_int8_t), parameter, public :: PLANISH_FLAG_OUTSIDE_TRIMS = 2
+  !> The parameters lie in the domain but beyond the box of the data: the surface is extrapolated there
+  integer(c_int8_t), parameter, public :: PLANISH_FLAG_IN_BUFFER = 4
+  !> The surface has no normal there, so that normal and curvatures are NaN
+  integer(c_int8_t), parameter, public :: PLANISH_FLAG_NO_NORMAL = 8
+
+  !> A parameter direction.
+  integer(c_int32_t), parameter, public :: PLANISH_AXIS_U = 0 !! The first parameter
+  integer(c_int32_t), parameter, public :: PLANISH_AXIS_V = 1 !! The second parameter
+
+  !> What a tolerance is measured in.
+  !> The diagonal of the data's bounding box; for a field, of the box of its values
+  integer(c_int32_t), parameter, public :: PLANISH_TOLERANCE_SCALE_RELATIVE = 0
+  integer(c_int32_t), parameter, public :: PLANISH_TOLERANCE_SCALE_ABSOLUTE = 1 !! Model units
+
+  !> Which equations determine a tensor surface on a grid.
+  !> Least squares in the spline space
+  integer(c_int32_t), parameter, public :: PLANISH_TENSOR_METHOD_LEAST_SQUARES = 0
+  !> The equations of Dannenhoffer and Haimes, 2009: less accurate on fine grids, for comparison
+  integer(c_int32_t), parameter, public :: PLANISH_TENSOR_METHOD_FERGUSON = 1
+
+  !> What happens at the ends of the knots.
+  integer(c_int32_t), parameter, public :: PLANISH_ENDS_NATURAL = 0 !! Zero curvature across the ends
+  integer(c_int32_t), parameter, public :: PLANISH_ENDS_FREE = 1 !! Two more unknowns a direction
+
+  !> Which second derivatives cost energy.
+  integer(c_int32_t), parameter, public :: PLANISH_ENERGY_BEAM = 0 !! Elastic beams along the knot lines
+  integer(c_int32_t), parameter, public :: PLANISH_ENERGY_PLATE = 1 !! An elastic plate over the cells
+
+  !> What to do with parameters that came with a mesh.
+  !> Even them out if they are uneven and it helps
+  integer(c_int32_t), parameter, public :: PLANISH_REGULARIZE_AUTO = 0
+  integer(c_int32_t), parameter, public :: PLANISH_REGULARIZE_NEVER = 1 !! Take them as they are
+  integer(c_int32_t), parameter, public :: PLANISH_REGULARIZE_ALWAYS = 2 !! Even them out
+
+  !> The application protocol of a STEP file.
+  !> AP214, automotive design: read by every CAD system
+  integer(c_int32_t), parameter, public :: PLANISH_STEP_SCHEMA_AP214 = 0
+  !> AP242, managed model-based 3D engineering
+  integer(c_int32_t), parameter, public :: PLANISH_STEP_SCHEMA_AP242 = 1
+
+  !> What one model unit is.
+  integer(c_int32_t), parameter, public :: PLANISH_UNIT_MILLIMETRE = 0 !! A millimetre
+  integer(c_int32_t), parameter, public :: PLANISH_UNIT_METRE = 1 !! A metre
+  integer(c_int32_t), parameter, public :: PLANISH_UNIT_INCH = 2 !! An inch, 25.4 mm
+
+  ! ---------------------------------------------------------------------------------------------------------
+  ! Records: the same bytes as in C, born with the defaults. A pointer in one is set by an argument of the call.
+  ! ---------------------------------------------------------------------------------------------------------
+
+  !> Bytes of a pointer, and of a size_t.
+  integer(c_size_t), parameter :: word = storage_size(0_c_size_t) / 8
+  !> IEEE's infinity, which has no literal.
+  real(c_double), parameter :: INFINITE = transfer(int(z'7FF0000000000000', c_int64_t), 1.0_c_double)
+
+  ! Mesh
+
+  !> What was done to arrays or a file to make a mesh of them.
+  type, bind(c), public :: planish_mesh_repairs
+    integer(c_size_t) :: struct_size = 4 * word + 2 * 4
+    integer(c_size_t) :: welded_node_count = 0 !! Nodes that vanished because they were welded to others
+    !> Triangles that vanished because welding made two of their nodes one
+    integer(c_size_t) :: dropped_triangle_count = 0
+    integer(c_size_t) :: flipped_triangle_count = 0 !! Triangles that were turned over
+    !> 1 if the file has texture coordinates that are no parameters, because a node has several or none
+    integer(c_int32_t) :: dropped_parameters = 0
+    integer(c_int32_t) :: reserved = 0
+  end type
+
+  !> How arrays or files become a mesh.
+  type, bind(c), public :: planish_mesh_options
+    integer(c_size_t) :: struct_size = 5 * word + 1 * 8 + 2 * 4
+    integer(c_size_t) :: point_stride = 0 !! Set by calls: the first extent of points
+    integer(c_size_t) :: triangle_stride = 0 !! Set by calls: the first extent of triangles
+    real(c_double) :: weld_distance = 0 !! Nodes not further apart than this become one, in model units
+    type(c_ptr) :: out_repairs = c_null_ptr !! The argument repairs
+    type(c_ptr) :: out_node_map = c_null_ptr !! The argument node_map
+    !> 1 turns triangles over until neighbours agree; with 0 disagreement is an error
+    integer(c_int32_t) :: orient = 0
+    integer(c_int32_t) :: index_base = 0 !! Set by calls: 1
+  end type
+
+  ! Parameterization
+
+  !> How a mesh gets its parameters.
+  type, bind(c), public :: planish_parameterize_options
+    integer(c_size_t) :: struct_size = 4 * word + 2 * 8 + 12 * 4
+    type(c_ptr) :: node_weights = c_null_ptr !! The argument node_weights
+    type(c_funptr) :: progress = c_null_funptr !! The argument progress
+    type(c_ptr) :: user = c_null_ptr !! Set with progress
+    !> Outward bulge of a square's sides, in sides, 0 to 0.5: keeps triangles between nodes of one side open
+    real(c_double) :: bulge = 0.02_c_double
+    real(c_double) :: boundary_slide = 0 !! How far border nodes slide with the stretch, 0 to 1
+    integer(c_int32_t) :: method = 0 !! A planish_map_method
+    integer(c_int32_t) :: border = 0 !! A planish_border
+    !> For PLANISH_BORDER_CORNERS: four nodes of the longest boundary loop in its order, counted from 1
+    integer(c_int32_t) :: corners(4) = 0
+    !> Most steps that lower the stretch after the first map: 0 for none, PLANISH_UNLIMITED until it no longer
+    !> falls
+    integer(c_int32_t) :: stretch_steps = PLANISH_UNLIMITED
+    integer(c_int32_t) :: rings = 0 !! Sweeps that smooth the logarithm of the stretch before each step
+    !> 1 closes holes by fans of triangles while the map is computed; 0 lets them become convex
+    integer(c_int32_t) :: fill_holes = 1
+    !> With PLANISH_BORDER_AUTO: 1 also unrolls the map with a free border, and takes that if it neither folds nor
+    !> overlaps itself and stretches less; 0 does not
+    integer(c_int32_t) :: unroll = 1
+    integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 for all cores
+    integer(c_int32_t) :: reserved = 0
+  end type
+
+  !> How good a map is and what it took.
+  type, bind(c), public :: planish_parameterize_report
+    integer(c_size_t) :: struct_size = 5 * word + 5 * 8 + 2 * 4
+    !> L2 stretch of all triangles: 1 is an isometry; infinite if a triangle has no parameter area
+    real(c_double) :: stretch = 0
+    real(c_double) :: max_stretch = 0 !! The largest stretch in any direction anywhere, in the same scale
+    !> The largest ratio of a triangle's area in space to that in the parameters, by the smallest
+    real(c_double) :: area_ratio = 0
+    real(c_double) :: seconds = 0 !! Wall time in seconds
+    integer(c_size_t) :: flipped_count = 0 !! Triangles turned over against the rest: folds of the map
+    integer(c_size_t) :: degenerate_count = 0 !! Triangles of exactly zero parameter area
+    integer(c_size_t) :: solve_count = 0 !! Factorizations of the linear system, all candidates together
+    integer(c_size_t) :: step_count = 0 !! Steps that lowered the stretch of the map returned
+    integer(c_int64_t) :: remarks = 0 !! Everything worth knowing: bits of planish_remark
+    integer(c_int32_t) :: border = 0 !! The border that was taken: a planish_border
+    integer(c_int32_t) :: border_slid = 0 !! 1 if the border slid with the stretch
+  end type
+
+  ! Surface
+
+  !> How points are evaluated.
+  type, bind(c), public :: planish_eval_options
+    integer(c_size_t) :: struct_size = 4 * word + 2 * 4
+    integer(c_size_t) :: uv_stride = 0 !! Set by calls: the first extent of uv
+    integer(c_size_t) :: out_stride = 0 !! Set by calls: the first extents of the results
+    type(c_ptr) :: out_flags = c_null_ptr !! The argument flags
+    integer(c_int32_t) :: outside = 0 !! A planish_outside
+    integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 for all cores
+  end type
+
+  ! Tensor surface
+
+  !> Options of tensor fits.
+  type, bind(c), public :: planish_tensor_options
+    integer(c_size_t) :: struct_size = 8 * word + 3 * 8 + 12 * 4
+    !> The largest error allowed at the data, positive, measured in tolerance_scale
+    real(c_double) :: tolerance = 1e-3_c_double
+    !> Weight of the bending energy; 0 takes the largest of 1e-3, 1e-4, 1e-5, 1e-6 that meets the tolerance (for
+    !> PLANISH_TENSOR_METHOD_FERGUSON 1e-3)
+    real(c_double) :: smoothing = 0
+    !> How far the knots reach beyond the data, as a fraction of the data's range, 0 to 10
+    real(c_double) :: buffer = 0.1_c_double
+    type(c_ptr) :: parameterize = c_null_ptr !! The argument parameterize
+    type(c_ptr) :: weights = c_null_ptr !! The argument weights
+    type(c_funptr) :: progress = c_null_funptr !! The argument progress
+    type(c_ptr) :: user = c_null_ptr !! Set with progress
+    type(c_ptr) :: out_parameters = c_null_ptr !! The argument parameters
+    type(c_ptr) :: out_errors = c_null_ptr !! The argument errors
+    integer(c_size_t) :: max_coefficients = 66049 !! Most unknowns of one grid, at least 4
+    integer(c_int32_t) :: tolerance_scale = 0 !! A planish_tolerance_scale
+    integer(c_int32_t) :: method = 0 !! A planish_tensor_method
+    integer(c_int32_t) :: ends = 0 !! A planish_ends
+    integer(c_int32_t) :: energy = 0 !! A planish_energy
+    integer(c_int32_t) :: regularize = 0 !! A planish_regularize
+    integer(c_int32_t) :: max_grid = 257 !! Most knots along one direction, at least 2
+    !> Knots along u to use without refinement, 2 to 8193; 0, then grid_v too, refines
+    integer(c_int32_t) :: grid_u = 0
+    !> Knots along v to use without refinement, 2 to 8193; 0, then grid_u too, refines
+    integer(c_int32_t) :: grid_v = 0
+    !> Sweeps of parameter correction on each grid: data move to their foot points, then the fit is repeated
+    integer(c_int32_t) :: correction_sweeps = 0
+    integer(c_int32_t) :: measure_distance = 0 !! 1 measures the closest-point distance of the nodes for the report
+    integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 for all cores
+    integer(c_int32_t) :: reserved = 0
+  end type
+
+  !> What a fit did and how good it is.
+  type, bind(c), public :: planish_fit_report
+    integer(c_size_t) :: struct_size = 7 * word + 13 * 8 + 2 * 4
+    !> Largest distance between a datum and the surface at the datum's (u,v): what the tolerance bounds
+    real(c_double) :: max_error = 0
+    real(c_double) :: rms_error = 0 !! Square root of the mean of its square
+    real(c_double) :: mean_error = 0 !! Its mean
+    real(c_double) :: tolerance = 0 !! The tolerance that was kept or missed
+    real(c_double) :: diagonal = 0 !! Diagonal of the data's bounding box: an error divided by it is relative
+    !> Largest distance from a triangle's centroid or an edge's middle to the surface's tangent plane at the mean
+    !> of the nodes' (u,v) (for a field: to its value there); 0 for data without triangles
+    real(c_double) :: max_interior_error = 0
+    real(c_double) :: facet_sagitta = 0 !! The part of max_interior_error that flat facets on a curved shape explain
+    !> Largest closest-point distance from a node to the surface; NaN unless measure_distance asked for it
+    real(c_double) :: max_distance = 0
+    real(c_double) :: smoothing = 0 !! Weight of the smoothing energy in the surface returned
+    real(c_double) :: stretch = 0 !! L2 stretch of the map: 1 is an isometry; 0 for data without triangles
+    real(c_double) :: parameterize_seconds = 0 !! Wall time spent on the map, in seconds
+    real(c_double) :: seconds = 0 !! Wall time in all, in seconds
+    integer(c_size_t) :: worst_index = 0 !! The datum with the largest error, counted from 1
+    integer(c_size_t) :: grid_u = 0 !! Different knots along u
+    integer(c_size_t) :: grid_v = 0 !! Different knots along v
+    integer(c_size_t) :: coefficient_count = 0 !! Unknowns of the fit
+    integer(c_size_t) :: empty_cell_count = 0 !! Cells without data inside the trims
+    integer(c_size_t) :: flipped_count = 0 !! Triangles that are turned over or flat in the parameter plane
+    integer(c_int64_t) :: remarks = 0 !! Everything worth knowing: bits of planish_remark
+    integer(c_int32_t) :: pass_count = 0 !! Rounds of fitting and measuring
+    integer(c_int32_t) :: stop_reason = 0 !! Why the fit ended: a planish_stop_reason
+  end type
+
+  ! Queries
+
+  !> How fine a tessellation is.
+  type, bind(c), public :: planish_tessellate_options
+    integer(c_size_t) :: struct_size = 2 * word + 2 * 8 + 2 * 4
+    !> Largest distance between the surface and the middles of the edges, in model units, positive; 0 takes 1e-3 of
+    !> the surface's diagonal
+    real(c_double) :: chord_tolerance = 0
+    real(c_double) :: max_edge_length = 0 !! Longest edge in model units, positive; 0 for no limit
+    integer(c_size_t) :: max_point_count = 4000000 !! Most nodes; with more the call fails
+    integer(c_int32_t) :: keep_trims = 1 !! 1 keeps to the part inside the trims, 0 covers the whole domain
+    integer(c_int32_t) :: reserved = 0
+  end type
+
+  !> How points are projected.
+  type, bind(c), public :: planish_project_options
+    integer(c_size_t) :: struct_size = 2 * word + 1 * 8 + 2 * 4
+    type(c_ptr) :: guesses = c_null_ptr !! A row u, v near the answer for each point
+    !> Points farther from the surface than this get NaN, and the call returns PLANISH_STATUS_POINTS_OUTSIDE
+    real(c_double) :: max_distance = INFINITE
+    integer(c_int32_t) :: keep_trims = 1 !! 1 looks for the nearest place inside the trims, 0 in the whole domain
+    integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 for all cores
+  end type
+
+  !> How a surface is compared with a mesh.
+  type, bind(c), public :: planish_deviation_options
+    integer(c_size_t) :: struct_size = 1 * word + 2 * 8 + 4 * 4
+    !> Chord tolerance of the tessellation that is measured back from, in model units; 0 takes 1e-3 of the
+    !> surface's diagonal
+    real(c_double) :: chord_tolerance = 0
+    !> Longest edge of that tessellation in model units; 0 takes 1e-2 of the mesh's diagonal
+    real(c_double) :: max_edge_length = 0
+    integer(c_int32_t) :: keep_trims = 1 !! 1: only the part of the surface inside its trims counts
+    integer(c_int32_t) :: use_parameters = 1 !! 1: the mesh's parameters, if it has any, are where searches start
+    !> 1: measure from the surface to the mesh as well, which notices filled holes and surplus sheets
+    integer(c_int32_t) :: measure_back = 0
+    integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 for all cores
+  end type
+
+  !> Distances between a surface and a mesh, in model units.
+  type, bind(c), public :: planish_deviation_report
+    integer(c_size_t) :: struct_size = 3 * word + 6 * 8
+    real(c_double) :: max_distance = 0 !! Largest distance from a node to its nearest place on the surface
+    real(c_double) :: rms_distance = 0 !! Square root of the mean of its square
+    real(c_double) :: mean_distance = 0 !! Its mean
+    !> Largest distance from a place on the surface to the mesh; NaN unless measure_back asked for it
+    real(c_double) :: max_back_distance = 0
+    real(c_double) :: worst_back_u = 0 !! u of that place; NaN unless asked for
+    real(c_double) :: worst_back_v = 0 !! v of that place; NaN unless asked for
+    integer(c_size_t) :: worst_index = 0 !! The node farthest from the surface, counted from 1
+    integer(c_size_t) :: back_count = 0 !! Places on the surface that were measured back from
+  end type
+
+  ! Files
+
+  !> What a VTK file shows.
+  type, bind(c), public :: planish_vtk_options
+    integer(c_size_t) :: struct_size = 3 * word + 2 * 4
+    type(c_ptr) :: deviation_from = c_null_ptr !! A mesh to compare with
+    type(c_ptr) :: tessellate = c_null_ptr !! How the surface is tessellated otherwise
+    integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 for all cores
+    integer(c_int32_t) :: reserved = 0
+  end type
+
+  !> What was written to a STEP file.
+  type, bind(c), public :: planish_step_report
+    integer(c_size_t) :: struct_size = 3 * word + 3 * 8
+    !> Largest distance between an edge's curve in space and the image of its p-curve, measured on the curves
+    !> written, in model units
+    real(c_double) :: curve_deviation = 0
+    !> The uncertainty that the file states, in model units: 1e-7 of the diagonal, or more if the curves need it
+    real(c_double) :: uncertainty = 0
+    real(c_double) :: diagonal = 0 !! Diagonal of the box around the part of the surface inside the trims
+    integer(c_size_t) :: loop_count = 0 !! Bounds of the face, the outer one included
+    integer(c_size_t) :: edge_count = 0 !! Edges of all bounds
+  end type
+
+  !> What a STEP file says beside the shape.
+  type, bind(c), public :: planish_step_options
+    integer(c_size_t) :: struct_size = 6 * word + 2 * 4
+    type(c_ptr) :: product = c_null_ptr !! The argument product
+    type(c_ptr) :: author = c_null_ptr !! The argument author
+    type(c_ptr) :: organization = c_null_ptr !! The argument organization
+    type(c_ptr) :: timestamp = c_null_ptr !! The argument timestamp
+    type(c_ptr) :: out_report = c_null_ptr !! The argument report
+    integer(c_int32_t) :: schema = 0 !! A planish_step_schema
+    integer(c_int32_t) :: unit = 0 !! A planish_unit, what one model unit is
+  end type
+
+  !> Puts a record back to the defaults that the library has: `call planish_options_init(options)`.
+  interface planish_options_init
+    module procedure mesh_options_init, parameterize_options_init, eval_options_init, tensor_options_init
+    module procedure tessellate_options_init, project_options_init, deviation_options_init
+    module procedure vtk_options_init, step_options_init
+  end interface
+
+  abstract interface
+    !> Hears how much of a call is done, 0 to 1, and the error so far, NaN while unknown; false cancels the call.
+    logical function planish_progress(fraction, error)
+      import :: c_double
+      implicit none
+      real(c_double), intent(in) :: fraction, error
+    end function
+  end interface
+
+  !> A Fortran procedure on its way through C, where it travels as `user`.
+  type :: listener
+    procedure(planish_progress), pointer, nopass :: hear => null()
+  end type
+
+  ! ---------------------------------------------------------------------------------------------------------
+  ! Handles
+  ! ---------------------------------------------------------------------------------------------------------
+
+  ! Who frees a handle. They are allocatable components, because gfortran 12 finalizes those of a function result
+  ! but not the result itself, and polymorphic, because it copies elements of arrays rightly only then.
+  type :: mesh_owner
+    type(c_ptr) :: handle = c_null_ptr
+  contains
+    final :: finalize_mesh
+  end type
+  type :: surface_owner
+    type(c_ptr) :: handle = c_null_ptr
+  contains
+    final :: finalize_surface
+  end type
+  type :: curve_owner
+    type(c_ptr) :: handle = c_null_ptr
+  contains
+    final :: finalize_curve
+  end type
+
+  !> A triangle mesh. One that nothing was done to yet is no mesh: its counts are 0 and calls refuse it.
+  type, public :: planish_mesh_t
+    private
+    class(mesh_owner), allocatable :: owner
+  contains
+    procedure :: new => mesh_new
+    procedure :: read => mesh_read
+    procedure, private :: assign => mesh_assign
+    generic :: assignment(=) => assign
+    procedure :: free => mesh_free
+    procedure :: get => mesh_get
+    procedure :: take => mesh_take
+    procedure :: point_count => mesh_point_count
+    procedure :: triangle_count => mesh_triangle_count
+    procedure :: edge_count => mesh_edge_count
+    procedure :: component_count => mesh_component_count
+    procedure :: genus => mesh_genus
+    procedure :: euler_characteristic => mesh_euler_characteristic
+    procedure :: loop_count => mesh_loop_count
+    procedure :: loop_point_count => mesh_loop_point_count
+    procedure :: copy_points => mesh_copy_points
+    procedure :: copy_triangles => mesh_copy_triangles
+    procedure :: copy_loop => mesh_copy_loop
+    procedure :: field_count => mesh_field_count
+    procedure :: field_name => mesh_field_name
+    procedure :: copy_field => mesh_copy_field
+    procedure :: set_field => mesh_set_field
+    procedure :: has_parameters => mesh_has_parameters
+    procedure :: set_parameters => mesh_set_parameters
+    procedure :: copy_parameters => mesh_copy_parameters
+    procedure :: remove_triangles => mesh_remove_triangles
+    procedure :: cut_along => mesh_cut_along
+    procedure :: split_components => mesh_split_components
+    procedure :: shortest_path => mesh_shortest_path
+    procedure :: parameterize => mesh_parameterize
+  end type
+
+  !> A surface: a map from a rectangle of parameters (u,v) to dim() numbers.
+  type, public :: planish_surface_t
+    private
+    class(surface_owner), allocatable :: owner
+  contains
+    procedure, private :: assign => surface_assign
+    generic :: assignment(=) => assign
+    procedure :: free => surface_free
+    procedure :: get => surface_get
+    procedure :: take => surface_take
+    procedure :: kind => surface_kind
+    procedure :: dim => surface_dim
+    procedure :: coefficient_count => surface_coefficient_count
+    procedure :: domain => surface_domain
+    procedure :: data_box => surface_data_box
+    procedure, private :: eval_rows => surface_eval_rows
+    procedure, private :: eval_scalars => surface_eval_scalars
+    generic :: eval => eval_rows, eval_scalars
+    procedure :: eval_derivatives => surface_eval_derivatives
+    procedure :: eval_grid => surface_eval_grid
+    procedure :: normals => surface_normals
+    procedure :: curvatures => surface_curvatures
+    procedure :: trim_count => surface_trim_count
+    procedure :: trim_point_count => surface_trim_point_count
+    procedure :: copy_trim => surface_copy_trim
+    procedure :: set_trims => surface_set_trims
+    procedure :: tessellate => surface_tessellate
+    procedure :: project => surface_project
+    procedure :: deviation => surface_deviation
+    procedure :: write_vtk => surface_write_vtk
+    procedure :: write_step => surface_write_step
+    procedure :: save_size => surface_save_size
+    procedure :: save => surface_save
+    procedure :: load => surface_load
+    procedure :: save_file => surface_save_file
+    procedure :: load_file => surface_load_file
+  end type
+
+  !> A B-spline curve: a map from an interval of parameters u to dim() numbers.
+  type, public :: planish_curve_t
+    private
+    class(curve_owner), allocatable :: owner
+  contains
+    procedure, private :: assign => curve_assign
+    generic :: assignment(=) => assign
+    procedure :: free => curve_free
+    procedure :: get => curve_get
+    procedure :: take => curve_take
+    procedure, private :: fit_rows => curve_fit_rows
+    procedure, private :: fit_scalars => curve_fit_scalars
+    generic :: fit => fit_rows, fit_scalars
+    procedure :: dim => curve_dim
+    procedure :: degree => curve_degree
+    procedure :: knot_count => curve_knot_count
+    procedure :: control_point_count => curve_control_point_count
+    procedure :: copy_knots => curve_copy_knots
+    procedure :: copy_control_points => curve_copy_control_points
+    procedure :: domain => curve_domain
+    procedure, private :: eval_rows => curve_eval_rows
+    procedure, private :: eval_scalars => curve_eval_scalars
+    generic :: eval => eval_rows, eval_scalars
+    procedure :: eval_derivatives => curve_eval_derivatives
+  end type
+
+  !> Fits a surface to values(dim,n), or with dim = 1 values(n), at parameters uv(2,n).
+  interface planish_tensor_fit_points
+    module procedure tensor_fit_points_rows, tensor_fit_points_scalars
+  end interface
+
+  !> Fits a surface to values(dim,n), or with dim = 1 values(n), on the nodes of a mesh, over its parameters.
+  interface planish_tensor_fit_field
+    module procedure tensor_fit_field_rows, tensor_fit_field_scalars
+  end interface
+
+  public :: planish_version, planish_status_name, planish_error_message, planish_error_index
+  public :: planish_options_init, planish_progress
+  public :: planish_tensor_fit, planish_tensor_fit_points, planish_tensor_fit_field, planish_tensor_new
+  public :: planish_tensor_degree, planish_tensor_knot_count, planish_tensor_control_point_count
+  public :: planish_tensor_copy_knots, planish_tensor_copy_control_points
+  public :: planish_tensor_has_weights, planish_tensor_copy_weights
+
+  ! ---------------------------------------------------------------------------------------------------------
+  ! The functions of planish.h, in its order. NULL is an absent argument. A new one wants its interface here, its
+  ! records above, and below a procedure in the section of its C type; cpp_tests/fortran/bindings.py tells what lacks.
+  ! ---------------------------------------------------------------------------------------------------------
+
+  interface
+    ! Errors
+
+    type(c_ptr) function c_version() bind(c, name="planish_version")
+      import
+      implicit none
+    end function
+
+    type(c_ptr) function c_status_name(status) bind(c, name="planish_status_name")
+      import
+      implicit none
+      integer(c_int32_t), value :: status
+    end function
+
+    integer(c_size_t) function c_error_message(text, size) bind(c, name="planish_error_message")
+      import
+      implicit none
+      character(kind=c_char), intent(inout), optional :: text(*)
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int64_t) function c_error_index() bind(c, name="planish_error_index")
+      import
+      implicit none
+    end function
+
+    ! Mesh
+
+    integer(c_int) function c_mesh_options_init(options, struct_size) bind(c, name="planish_mesh_options_init")
+      import
+      implicit none
+      type(planish_mesh_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_mesh_new( &
+        points, point_count, triangles, triangle_count, options, out_mesh) bind(c, name="planish_mesh_new")
+      import
+      implicit none
+      real(c_double), intent(in) :: points(*)
+      integer(c_size_t), value :: point_count
+      integer(c_int32_t), intent(in) :: triangles(*)
+      integer(c_size_t), value :: triangle_count
+      type(planish_mesh_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_mesh
+    end function
+
+    integer(c_int) function c_mesh_read(path, options, out_mesh) bind(c, name="planish_mesh_read")
+      import
+      implicit none
+      character(kind=c_char), intent(in) :: path(*)
+      type(planish_mesh_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_mesh
+    end function
+
+    integer(c_int) function c_mesh_clone(mesh, out_mesh) bind(c, name="planish_mesh_clone")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      type(c_ptr), intent(inout) :: out_mesh
+    end function
+
+    subroutine c_mesh_free(mesh) bind(c, name="planish_mesh_free")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+    end subroutine
+
+    pure integer(c_size_t) function c_mesh_point_count(mesh) bind(c, name="planish_mesh_point_count")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+    end function
+
+    pure integer(c_size_t) function c_mesh_triangle_count(mesh) bind(c, name="planish_mesh_triangle_count")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+    end function
+
+    pure integer(c_size_t) function c_mesh_edge_count(mesh) bind(c, name="planish_mesh_edge_count")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+    end function
+
+    pure integer(c_size_t) function c_mesh_component_count(mesh) bind(c, name="planish_mesh_component_count")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+    end function
+
+    pure integer(c_size_t) function c_mesh_genus(mesh) bind(c, name="planish_mesh_genus")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+    end function
+
+    pure integer(c_int64_t) function c_mesh_euler_characteristic(mesh) bind(c, name="planish_mesh_euler_characteristic")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+    end function
+
+    pure integer(c_size_t) function c_mesh_loop_count(mesh) bind(c, name="planish_mesh_loop_count")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+    end function
+
+    pure integer(c_size_t) function c_mesh_loop_point_count(mesh, loop) bind(c, name="planish_mesh_loop_point_count")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_size_t), value :: loop
+    end function
+
+    integer(c_int) function c_mesh_copy_points(mesh, out_points, count) bind(c, name="planish_mesh_copy_points")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      real(c_double), intent(inout) :: out_points(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_mesh_copy_triangles( &
+        mesh, out_triangles, count) bind(c, name="planish_mesh_copy_triangles")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int32_t), intent(inout) :: out_triangles(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_mesh_copy_loop(mesh, loop, out_nodes, count) bind(c, name="planish_mesh_copy_loop")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_size_t), value :: loop
+      integer(c_int32_t), intent(inout) :: out_nodes(*)
+      integer(c_size_t), value :: count
+    end function
+
+    pure integer(c_size_t) function c_mesh_field_count(mesh) bind(c, name="planish_mesh_field_count")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+    end function
+
+    integer(c_size_t) function c_mesh_field_name(mesh, field, name, size) bind(c, name="planish_mesh_field_name")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_size_t), value :: field
+      character(kind=c_char), intent(inout), optional :: name(*)
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_mesh_copy_field(mesh, name, out_values, count) bind(c, name="planish_mesh_copy_field")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      character(kind=c_char), intent(in) :: name(*)
+      real(c_double), intent(inout) :: out_values(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_mesh_set_field(mesh, name, values, count) bind(c, name="planish_mesh_set_field")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      character(kind=c_char), intent(in) :: name(*)
+      real(c_double), intent(in) :: values(*)
+      integer(c_size_t), value :: count
+    end function
+
+    pure integer(c_int32_t) function c_mesh_has_parameters(mesh) bind(c, name="planish_mesh_has_parameters")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+    end function
+
+    integer(c_int) function c_mesh_set_parameters(mesh, uv, count) bind(c, name="planish_mesh_set_parameters")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      real(c_double), intent(in) :: uv(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_mesh_copy_parameters(mesh, out_uv, count) bind(c, name="planish_mesh_copy_parameters")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      real(c_double), intent(inout) :: out_uv(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_mesh_remove_triangles( &
+        mesh, triangles, count, out_mesh) bind(c, name="planish_mesh_remove_triangles")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int32_t), intent(in) :: triangles(*)
+      integer(c_size_t), value :: count
+      type(c_ptr), intent(inout) :: out_mesh
+    end function
+
+    integer(c_int) function c_mesh_cut_along(mesh, nodes, count, out_mesh) bind(c, name="planish_mesh_cut_along")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int32_t), intent(in) :: nodes(*)
+      integer(c_size_t), value :: count
+      type(c_ptr), intent(inout) :: out_mesh
+    end function
+
+    integer(c_int) function c_mesh_split_components( &
+        mesh, out_meshes, count) bind(c, name="planish_mesh_split_components")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      type(c_ptr), intent(inout) :: out_meshes(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_mesh_shortest_path( &
+        mesh, from, to, out_nodes, count, out_count) bind(c, name="planish_mesh_shortest_path")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int32_t), value :: from, to
+      integer(c_int32_t), intent(inout), optional :: out_nodes(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), intent(inout) :: out_count
+    end function
+
+    ! Parameterization
+
+    integer(c_int) function c_parameterize_options_init( &
+        options, struct_size) bind(c, name="planish_parameterize_options_init")
+      import
+      implicit none
+      type(planish_parameterize_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_mesh_parameterize(mesh, options, out_report) bind(c, name="planish_mesh_parameterize")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      type(planish_parameterize_options), intent(in), optional :: options
+      type(planish_parameterize_report), intent(inout), optional :: out_report
+    end function
+
+    ! Surface
+
+    integer(c_int) function c_eval_options_init(options, struct_size) bind(c, name="planish_eval_options_init")
+      import
+      implicit none
+      type(planish_eval_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    pure integer(c_int32_t) function c_surface_kind(surface) bind(c, name="planish_surface_kind")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    pure integer(c_size_t) function c_surface_dim(surface) bind(c, name="planish_surface_dim")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    pure integer(c_size_t) function c_surface_coefficient_count( &
+        surface) bind(c, name="planish_surface_coefficient_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    integer(c_int) function c_surface_domain(surface, out_box) bind(c, name="planish_surface_domain")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(inout) :: out_box(*)
+    end function
+
+    integer(c_int) function c_surface_data_box(surface, out_box) bind(c, name="planish_surface_data_box")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(inout) :: out_box(*)
+    end function
+
+    integer(c_int) function c_surface_eval( &
+        surface, uv, count, options, out_values) bind(c, name="planish_surface_eval")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(in) :: uv(*)
+      integer(c_size_t), value :: count
+      type(planish_eval_options), intent(in), optional :: options
+      real(c_double), intent(inout) :: out_values(*)
+    end function
+
+    integer(c_int) function c_surface_eval_derivatives( &
+        surface, uv, count, max_derivative, options, out) bind(c, name="planish_surface_eval_derivatives")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(in) :: uv(*)
+      integer(c_size_t), value :: count
+      integer(c_int32_t), value :: max_derivative
+      type(planish_eval_options), intent(in), optional :: options
+      real(c_double), intent(inout) :: out(*)
+    end function
+
+    integer(c_int) function c_surface_eval_grid( &
+        surface, u, u_count, v, v_count, options, out_values) bind(c, name="planish_surface_eval_grid")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(in) :: u(*)
+      integer(c_size_t), value :: u_count
+      real(c_double), intent(in) :: v(*)
+      integer(c_size_t), value :: v_count
+      type(planish_eval_options), intent(in), optional :: options
+      real(c_double), intent(inout) :: out_values(*)
+    end function
+
+    integer(c_int) function c_surface_normals( &
+        surface, uv, count, options, out_normals) bind(c, name="planish_surface_normals")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(in) :: uv(*)
+      integer(c_size_t), value :: count
+      type(planish_eval_options), intent(in), optional :: options
+      real(c_double), intent(inout) :: out_normals(*)
+    end function
+
+    integer(c_int) function c_surface_curvatures( &
+        surface, uv, count, options, out) bind(c, name="planish_surface_curvatures")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(in) :: uv(*)
+      integer(c_size_t), value :: count
+      type(planish_eval_options), intent(in), optional :: options
+      real(c_double), intent(inout) :: out(*)
+    end function
+
+    pure integer(c_size_t) function c_surface_trim_count(surface) bind(c, name="planish_surface_trim_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    pure integer(c_size_t) function c_surface_trim_point_count( &
+        surface, trim) bind(c, name="planish_surface_trim_point_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_size_t), value :: trim
+    end function
+
+    integer(c_int) function c_surface_copy_trim( &
+        surface, trim, out_uv, count) bind(c, name="planish_surface_copy_trim")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_size_t), value :: trim
+      real(c_double), intent(inout) :: out_uv(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_surface_set_trims( &
+        surface, uv, point_counts, trim_count) bind(c, name="planish_surface_set_trims")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(in) :: uv(*)
+      integer(c_size_t), intent(in) :: point_counts(*)
+      integer(c_size_t), value :: trim_count
+    end function
+
+    integer(c_int) function c_surface_clone(surface, out_surface) bind(c, name="planish_surface_clone")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      type(c_ptr), intent(inout) :: out_surface
+    end function
+
+    subroutine c_surface_free(surface) bind(c, name="planish_surface_free")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end subroutine
+
+    ! Tensor surface
+
+    integer(c_int) function c_tensor_options_init(options, struct_size) bind(c, name="planish_tensor_options_init")
+      import
+      implicit none
+      type(planish_tensor_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_tensor_fit(mesh, options, out_surface, out_report) bind(c, name="planish_tensor_fit")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      type(planish_tensor_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+      type(planish_fit_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_tensor_fit_points( &
+        uv, values, count, dim, options, out_surface, out_report) bind(c, name="planish_tensor_fit_points")
+      import
+      implicit none
+      real(c_double), intent(in) :: uv(*), values(*)
+      integer(c_size_t), value :: count, dim
+      type(planish_tensor_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+      type(planish_fit_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_tensor_fit_field( &
+        mesh, values, count, dim, options, out_surface, out_report) bind(c, name="planish_tensor_fit_field")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      real(c_double), intent(in) :: values(*)
+      integer(c_size_t), value :: count, dim
+      type(planish_tensor_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+      type(planish_fit_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_tensor_new( &
+        dim, degree_u, degree_v, knots_u, knot_count_u, knots_v, knot_count_v, control_points, weights, &
+        out_surface) bind(c, name="planish_tensor_new")
+      import
+      implicit none
+      integer(c_size_t), value :: dim
+      integer(c_int32_t), value :: degree_u, degree_v
+      real(c_double), intent(in) :: knots_u(*)
+      integer(c_size_t), value :: knot_count_u
+      real(c_double), intent(in) :: knots_v(*)
+      integer(c_size_t), value :: knot_count_v
+      real(c_double), intent(in) :: control_points(*)
+      real(c_double), intent(in), optional :: weights(*)
+      type(c_ptr), intent(inout) :: out_surface
+    end function
+
+    pure integer(c_int32_t) function c_tensor_degree(surface, axis) bind(c, name="planish_tensor_degree")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), value :: axis
+    end function
+
+    pure integer(c_size_t) function c_tensor_knot_count(surface, axis) bind(c, name="planish_tensor_knot_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), value :: axis
+    end function
+
+    pure integer(c_size_t) function c_tensor_control_point_count( &
+        surface, axis) bind(c, name="planish_tensor_control_point_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), value :: axis
+    end function
+
+    integer(c_int) function c_tensor_copy_knots( &
+        surface, axis, out_knots, count) bind(c, name="planish_tensor_copy_knots")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), value :: axis
+      real(c_double), intent(inout) :: out_knots(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_tensor_copy_control_points( &
+        surface, out_control_points, count) bind(c, name="planish_tensor_copy_control_points")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(inout) :: out_control_points(*)
+      integer(c_size_t), value :: count
+    end function
+
+    pure integer(c_int32_t) function c_tensor_has_weights(surface) bind(c, name="planish_tensor_has_weights")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    integer(c_int) function c_tensor_copy_weights( &
+        surface, out_weights, count) bind(c, name="planish_tensor_copy_weights")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(inout) :: out_weights(*)
+      integer(c_size_t), value :: count
+    end function
+
+    ! Queries
+
+    integer(c_int) function c_tessellate_options_init(options, size) bind(c, name="planish_tessellate_options_init")
+      import
+      implicit none
+      type(planish_tessellate_options), intent(inout) :: options
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_surface_tessellate( &
+        surface, options, out_mesh) bind(c, name="planish_surface_tessellate")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      type(planish_tessellate_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_mesh
+    end function
+
+    integer(c_int) function c_project_options_init(options, size) bind(c, name="planish_project_options_init")
+      import
+      implicit none
+      type(planish_project_options), intent(inout) :: options
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_surface_project( &
+        surface, points, count, options, out_uv, out_distances) bind(c, name="planish_surface_project")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(in) :: points(*)
+      integer(c_size_t), value :: count
+      type(planish_project_options), intent(in), optional :: options
+      real(c_double), intent(inout), optional :: out_uv(*), out_distances(*)
+    end function
+
+    integer(c_int) function c_deviation_options_init(options, size) bind(c, name="planish_deviation_options_init")
+      import
+      implicit none
+      type(planish_deviation_options), intent(inout) :: options
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_surface_deviation( &
+        surface, mesh, options, out_distances, count, report) bind(c, name="planish_surface_deviation")
+      import
+      implicit none
+      type(c_ptr), value :: surface, mesh
+      type(planish_deviation_options), intent(in), optional :: options
+      real(c_double), intent(inout), optional :: out_distances(*)
+      integer(c_size_t), value :: count
+      type(planish_deviation_report), intent(inout), optional :: report
+    end function
+
+    ! Files
+
+    integer(c_int) function c_vtk_options_init(options, size) bind(c, name="planish_vtk_options_init")
+      import
+      implicit none
+      type(planish_vtk_options), intent(inout) :: options
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_surface_write_vtk(surface, path, options) bind(c, name="planish_surface_write_vtk")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      character(kind=c_char), intent(in) :: path(*)
+      type(planish_vtk_options), intent(in), optional :: options
+    end function
+
+    pure integer(c_size_t) function c_surface_save_size(surface) bind(c, name="planish_surface_save_size")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    integer(c_int) function c_surface_save(surface, buffer, size) bind(c, name="planish_surface_save")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int8_t), intent(inout) :: buffer(*)
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_surface_load(buffer, size, out_surface) bind(c, name="planish_surface_load")
+      import
+      implicit none
+      integer(c_int8_t), intent(in) :: buffer(*)
+      integer(c_size_t), value :: size
+      type(c_ptr), intent(inout) :: out_surface
+    end function
+
+    integer(c_int) function c_surface_save_file(surface, path) bind(c, name="planish_surface_save_file")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      character(kind=c_char), intent(in) :: path(*)
+    end function
+
+    integer(c_int) function c_surface_load_file(path, out_surface) bind(c, name="planish_surface_load_file")
+      import
+      implicit none
+      character(kind=c_char), intent(in) :: path(*)
+      type(c_ptr), intent(inout) :: out_surface
+    end function
+
+    integer(c_int) function c_step_options_init(options, size) bind(c, name="planish_step_options_init")
+      import
+      implicit none
+      type(planish_step_options), intent(inout) :: options
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_surface_write_step(surface, path, options) bind(c, name="planish_surface_write_step")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      character(kind=c_char), intent(in) :: path(*)
+      type(planish_step_options), intent(in), optional :: options
+    end function
+
+    ! Curve
+
+    integer(c_int) function c_curve_fit( &
+        u, values, count, dim, options, out_curve, out_report) bind(c, name="planish_curve_fit")
+      import
+      implicit none
+      real(c_double), intent(in) :: u(*), values(*)
+      integer(c_size_t), value :: count, dim
+      type(planish_tensor_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_curve
+      type(planish_fit_report), intent(inout), optional :: out_report
+    end function
+
+    pure integer(c_size_t) function c_curve_dim(curve) bind(c, name="planish_curve_dim")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+    end function
+
+    pure integer(c_int32_t) function c_curve_degree(curve) bind(c, name="planish_curve_degree")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+    end function
+
+    pure integer(c_size_t) function c_curve_knot_count(curve) bind(c, name="planish_curve_knot_count")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+    end function
+
+    pure integer(c_size_t) function c_curve_control_point_count(curve) bind(c, name="planish_curve_control_point_count")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+    end function
+
+    integer(c_int) function c_curve_copy_knots(curve, out_knots, count) bind(c, name="planish_curve_copy_knots")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+      real(c_double), intent(inout) :: out_knots(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_curve_copy_control_points( &
+        curve, out_control_points, count) bind(c, name="planish_curve_copy_control_points")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+      real(c_double), intent(inout) :: out_control_points(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_curve_domain(curve, out_interval) bind(c, name="planish_curve_domain")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+      real(c_double), intent(inout) :: out_interval(*)
+    end function
+
+    integer(c_int) function c_curve_eval( &
+        curve, u, count, max_derivative, options, out) bind(c, name="planish_curve_eval")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+      real(c_double), intent(in) :: u(*)
+      integer(c_size_t), value :: count
+      integer(c_int32_t), value :: max_derivative
+      type(planish_eval_options), intent(in), optional :: options
+      real(c_double), intent(inout) :: out(*)
+    end function
+
+    integer(c_int) function c_curve_clone(curve, out_curve) bind(c, name="planish_curve_clone")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+      type(c_ptr), intent(inout) :: out_curve
+    end function
+
+    subroutine c_curve_free(curve) bind(c, name="planish_curve_free")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+    end subroutine
+  end interface
+
+contains
+
+  ! ---------------------------------------------------------------------------------------------------------
+  ! Errors
+  ! ---------------------------------------------------------------------------------------------------------
+
+  !> The version of the library that is loaded, such as "0.1.0".
+  function planish_version() result(text)
+    character(:), allocatable :: text
+    text = text_at(c_version())
+  end function
+
+  !> The name of a status, such as "PLANISH_STATUS_OK".
+  function planish_status_name(status) result(text)
+    integer, intent(in) :: status
+    character(:), allocatable :: text
+    text = text_at(c_status_name(int(status, c_int32_t)))
+  end function
+
+  !> The sentence of the library's last refusal on this thread. What this module refuses itself, such as an array
+  !> that is too short, stands in errmsg only.
+  function planish_error_message() result(text)
+    character(:), allocatable :: text
+    character(kind=c_char), allocatable :: letters(:)
+    integer(c_size_t) :: length
+    length = c_error_message(size=0_c_size_t)
+    allocate (letters(length + 1))
+    length = c_error_message(letters, size(letters, kind=c_size_t))
+    text = text_of(letters(:length))
+  end function
+
+  !> What the library's last refusal on this thread was about, counted from 1; 0 if no single thing is to blame.
+  function planish_error_index() result(index)
+    integer(c_int64_t) :: index
+    index = c_error_index() + 1
+  end function
+
+  !> What every call ends with: hands the status on, and fails if it is an error.
+  subroutine conclude(status, stat, errmsg)
+    integer(c_int), intent(in) :: status
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (status < 0) then
+      call fail(status, planish_error_message(), stat, errmsg)
+    else if (present(stat)) then
+      stat = status
+    end if
+  end subroutine
+
+  !> Refuses what C cannot see, and says whether it did: `if (refuse(too_short, ...)) return`.
+  logical function refuse(broken, status, sentence, stat, errmsg)
+    logical, intent(in) :: broken
+    integer(c_int), intent(in) :: status
+    character(*), intent(in) :: sentence
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    refuse = broken
+    if (broken) call fail(status, sentence, stat, errmsg)
+  end function
+
+  !> Refuses an output that has fewer elements or columns than a call writes.
+  logical function refuse_short(available, needed, name, stat, errmsg)
+    integer(c_size_t), intent(in) :: available, needed
+    character(*), intent(in) :: name
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    refuse_short = refuse(available < needed, PLANISH_STATUS_BUFFER_TOO_SMALL, &
+        name // " has room for " // decimal(available) // " of " // decimal(needed), stat, errmsg)
+  end function
+
+  !> Refuses an extent that is not what a call needs.
+  logical function refuse_extent(found, needed, name, stat, errmsg)
+    integer(c_size_t), intent(in) :: found, needed
+    character(*), intent(in) :: name
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    refuse_extent = refuse(found /= needed, PLANISH_STATUS_INVALID_ARGUMENT, &
+        name // " is " // decimal(found) // ", not " // decimal(needed), stat, errmsg)
+  end function
+
+  !> Refuses columns that are not as long as a value. Of something that is no surface or curve the library says so.
+  logical function refuse_dim(found, dim, name, stat, errmsg)
+    integer(c_size_t), intent(in) :: found, dim
+    character(*), intent(in) :: name
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    refuse_dim = .false.
+    if (dim > 0) refuse_dim = refuse_extent(found, dim, "the first extent of " // name, stat, errmsg)
+  end function
+
+  !> Tells stat and errmsg, or stops the program where nobody asks for the status.
+  subroutine fail(status, sentence, stat, errmsg)
+    integer(c_int), intent(in) :: status
+    character(*), intent(in) :: sentence
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (present(errmsg)) errmsg = sentence
+    if (.not. present(stat)) error stop "planish: " // sentence
+    stat = status
+  end subroutine
+
+  ! ---------------------------------------------------------------------------------------------------------
+  ! Between Fortran and C
+  ! ---------------------------------------------------------------------------------------------------------
+
+  !> A text as C reads it: without blanks behind, with a NUL.
+  pure function terminated(text)
+    character(*), intent(in) :: text
+    character(kind=c_char, len=len_trim(text) + 1) :: terminated
+    terminated = trim(text) // c_null_char
+  end function
+
+  !> Leads a pointer of a record to a text, if there is one; `letters` keep it for the call.
+  subroutine borrow(text, letters, address)
+    character(*), intent(in), optional :: text
+    character(kind=c_char), allocatable, intent(out), target :: letters(:)
+    type(c_ptr), intent(inout) :: address
+    integer :: i
+    if (.not. present(text)) return
+    allocate (letters(len_trim(text) + 1))
+    do i = 1, len_trim(text)
+      letters(i) = text(i:i)
+    end do
+    letters(size(letters)) = c_null_char
+    address = c_loc(letters)
+  end subroutine
+
+  !> A text as Fortran reads it.
+  pure function text_of(letters) result(text)
+    character(kind=c_char), intent(in) :: letters(:)
+    character(len=size(letters)) :: text
+    integer :: i
+    do i = 1, size(letters)
+      text(i:i) = letters(i)
+    end do
+  end function
+
+  !> The text of C at an address, up to its NUL.
+  function text_at(address) result(text)
+    type(c_ptr), intent(in) :: address
+    character(:), allocatable :: text
+    character(kind=c_char), pointer :: letters(:)
+    integer :: length
+    ! the pointer spans all that a name of the library could need; nothing behind the NUL is read
+    call c_f_pointer(address, letters, [huge(length)])
+    length = 0
+    do while (letters(length + 1) /= c_null_char)
+      length = length + 1
+    end do
+    text = text_of(letters(:length))
+  end function
+
+  !> A number in words' company.
+  pure function decimal(number) result(text)
+    integer(c_size_t), intent(in) :: number
+    character(:), allocatable :: text
+    character(20) :: digits
+    write (digits, "(i0)") number
+    text = trim(digits)
+  end function
+
+  !> What C calls for progress: goes on to the Fortran procedure behind `user`.
+  integer(c_int32_t) function relay(fraction, error, user) bind(c, name="")
+    real(c_double), value :: fraction, error
+    type(c_ptr), value :: user
+    type(listener), pointer :: heard_by
+    call c_f_pointer(user, heard_by)
+    relay = merge(0_c_int32_t, 1_c_int32_t, heard_by%hear(fraction, error))
+  end function
+
+  ! ---------------------------------------------------------------------------------------------------------
+  ! Records
+  ! ---------------------------------------------------------------------------------------------------------
+
+  subroutine mesh_options_init(options)
+    type(planish_mesh_options), intent(inout) :: options
+    call conclude(c_mesh_options_init(options, c_sizeof(options)))
+  end subroutine
+
+  subroutine parameterize_options_init(options)
+    type(planish_parameterize_options), intent(inout) :: options
+    call conclude(c_parameterize_options_init(options, c_sizeof(options)))
+  end subroutine
+
+  subroutine eval_options_init(options)
+    type(planish_eval_options), intent(inout) :: options
+    call conclude(c_eval_options_init(options, c_sizeof(options)))
+  end subroutine
+
+  subroutine tensor_options_init(options)
+    type(planish_tensor_options), intent(inout) :: options
+    call conclude(c_tensor_options_init(options, c_sizeof(options)))
+  end subroutine
+
+  subroutine tessellate_options_init(options)
+    type(planish_tessellate_options), intent(inout) :: options
+    call conclude(c_tessellate_options_init(options, c_sizeof(options)))
+  end subroutine
+
+  subroutine project_options_init(options)
+    type(planish_project_options), intent(inout) :: options
+    call conclude(c_project_options_init(options, c_sizeof(options)))
+  end subroutine
+
+  subroutine deviation_options_init(options)
+    type(planish_deviation_options), intent(inout) :: options
+    call conclude(c_deviation_options_init(options, c_sizeof(options)))
+  end subroutine
+
+  subroutine vtk_options_init(options)
+    type(planish_vtk_options), intent(inout) :: options
+    call conclude(c_vtk_options_init(options, c_sizeof(options)))
+  end subroutine
+
+  subroutine step_options_init(options)
+    type(planish_step_options), intent(inout) :: options
+    call conclude(c_step_options_init(options, c_sizeof(options)))
+  end subroutine
+
+  ! ---------------------------------------------------------------------------------------------------------
+  ! Mesh
+  ! ---------------------------------------------------------------------------------------------------------
+
+  !> Makes a mesh from points(3+,n) and triangles(3+,m), whose nodes count from 1.
+  !>
+  !> repairs:  receives what was welded, dropped and turned over.
+  !> node_map: receives for each node given the node of the mesh that it became.
+  subroutine mesh_new(self, points, triangles, options, repairs, node_map, stat, errmsg)
+    class(planish_mesh_t), intent(inout) :: self
+    real(c_double), intent(in), contiguous :: points(:, :)
+    integer(c_int32_t), intent(in), contiguous :: triangles(:, :)
+    type(planish_mesh_options), intent(in), optional :: options
+    type(planish_mesh_repairs), intent(inout), optional, target :: repairs
+    integer(c_int32_t), intent(inout), optional, target, contiguous :: node_map(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_mesh_options) :: call_options
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    if (present(options)) call_options = options
+    if (refuse_short(size(points, 1, c_size_t), 3_c_size_t, "a column of points", stat, errmsg)) return
+    if (refuse_short(size(triangles, 1, c_size_t), 3_c_size_t, "a column of triangles", stat, errmsg)) return
+    call_options%point_stride = size(points, 1, c_size_t)
+    call_options%triangle_stride = size(triangles, 1, c_size_t)
+    call_options%index_base = 1
+    if (present(repairs)) call_options%out_repairs = c_loc(repairs)
+    if (present(node_map)) then
+      if (refuse_short(size(node_map, kind=c_size_t), size(points, 2, c_size_t), "node_map", stat, errmsg)) return
+      call_options%out_node_map = c_loc(node_map)
+    end if
+    status = c_mesh_new( &
+        points, size(points, 2, c_size_t), triangles, size(triangles, 2, c_size_t), call_options, handle)
+    if (status >= 0) then
+      call self%take(handle)
+      if (present(node_map)) node_map(:size(points, 2)) = node_map(:size(points, 2)) + 1
+    end if
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Reads a mesh from an OFF, OBJ, PLY or STL file. repairs: receives what was welded, dropped and turned over.
+  subroutine mesh_read(self, path, options, repairs, stat, errmsg)
+    class(planish_mesh_t), intent(inout) :: self
+    character(*), intent(in) :: path
+    type(planish_mesh_options), intent(in), optional :: options
+    type(planish_mesh_repairs), intent(inout), optional, target :: repairs
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_mesh_options) :: call_options
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    if (present(options)) call_options = options
+    if (present(repairs)) call_options%out_repairs = c_loc(repairs)
+    status = c_mesh_read(terminated(path), call_options, handle)
+    if (status >= 0) call self%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  impure elemental subroutine mesh_assign(self, other)
+    class(planish_mesh_t), intent(inout) :: self
+    class(planish_mesh_t), intent(in) :: other
+    type(c_ptr) :: handle
+    handle = c_null_ptr
+    if (allocated(other%owner)) call conclude(c_mesh_clone(other%owner%handle, handle))
+    call self%take(handle)
+  end subroutine
+
+  subroutine finalize_mesh(self)
+    type(mesh_owner), intent(inout) :: self
+    call c_mesh_free(self%handle)
+    self%handle = c_null_ptr
+  end subroutine
+
+  !> Frees the mesh before the variable ends.
+  subroutine mesh_free(self)
+    class(planish_mesh_t), intent(inout) :: self
+    if (allocated(self%owner)) deallocate (self%owner)
+  end subroutine
+
+  !> The handle, for C; it stays this mesh's.
+  pure type(c_ptr) function mesh_get(self) result(handle)
+    class(planish_mesh_t), intent(in) :: self
+    handle = c_null_ptr
+    if (allocated(self%owner)) handle = self%owner%handle
+  end function
+
+  !> Takes over a handle of C, which is freed by this mesh from now on.
+  subroutine mesh_take(self, handle)
+    class(planish_mesh_t), intent(inout) :: self
+    type(c_ptr), intent(in) :: handle
+    call self%free()
+    if (.not. c_associated(handle)) return
+    allocate (self%owner)
+    self%owner%handle = handle
+  end subroutine
+
+  !> Number of nodes.
+  pure integer(c_size_t) function mesh_point_count(self) result(count)
+    class(planish_mesh_t), intent(in) :: self
+    count = c_mesh_point_count(self%get())
+  end function
+
+  !> Number of triangles.
+  pure integer(c_size_t) function mesh_triangle_count(self) result(count)
+    class(planish_mesh_t), intent(in) :: self
+    count = c_mesh_triangle_count(self%get())
+  end function
+
+  !> Number of edges.
+  pure integer(c_size_t) function mesh_edge_count(self) result(count)
+    class(planish_mesh_t), intent(in) :: self
+    count = c_mesh_edge_count(self%get())
+  end function
+
+  !> Number of parts that hang together by edges.
+  pure integer(c_size_t) function mesh_component_count(self) result(count)
+    class(planish_mesh_t), intent(in) :: self
+    count = c_mesh_component_count(self%get())
+  end function
+
+  !> Number of handles, those that cups have.
+  pure integer(c_size_t) function mesh_genus(self) result(genus)
+    class(planish_mesh_t), intent(in) :: self
+    genus = c_mesh_genus(self%get())
+  end function
+
+  !> Nodes that have triangles, minus edges, plus triangles.
+  pure integer(c_int64_t) function mesh_euler_characteristic(self) result(characteristic)
+    class(planish_mesh_t), intent(in) :: self
+    characteristic = c_mesh_euler_characteristic(self%get())
+  end function
+
+  !> Number of boundary loops.
+  pure integer(c_size_t) function mesh_loop_count(self) result(count)
+    class(planish_mesh_t), intent(in) :: self
+    count = c_mesh_loop_count(self%get())
+  end function
+
+  !> Number of nodes of a boundary loop; 0 if it does not exist. Loop 1 is the longest.
+  pure integer(c_size_t) function mesh_loop_point_count(self, loop) result(count)
+    class(planish_mesh_t), intent(in) :: self
+    integer, intent(in) :: loop
+    count = 0
+    if (loop >= 1) count = c_mesh_loop_point_count(self%get(), loop - 1_c_size_t)
+  end function
+
+  !> points(3,n): n at least point_count().
+  subroutine mesh_copy_points(self, points, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: self
+    real(c_double), intent(inout), contiguous :: points(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_extent(size(points, 1, c_size_t), 3_c_size_t, "the first extent of points", stat, errmsg)) return
+    call conclude(c_mesh_copy_points(self%get(), points, size(points, 2, c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> triangles(3,n): n at least triangle_count(); nodes count from 1.
+  subroutine mesh_copy_triangles(self, triangles, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: self
+    integer(c_int32_t), intent(inout), contiguous :: triangles(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_size_t) :: count
+    integer(c_int) :: status
+    if (refuse_extent(size(triangles, 1, c_size_t), 3_c_size_t, "the first extent of triangles", stat, errmsg)) return
+    status = c_mesh_copy_triangles(self%get(), triangles, size(triangles, 2, c_size_t))
+    count = self%triangle_count()
+    if (status >= 0) triangles(:, :count) = triangles(:, :count) + 1
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> The nodes of a boundary loop in order, the surface on their left; loop 1 is the longest, nodes count from 1.
+  subroutine mesh_copy_loop(self, loop, nodes, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: self
+    integer, intent(in) :: loop
+    integer(c_int32_t), intent(inout), contiguous :: nodes(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_size_t) :: count
+    integer(c_int) :: status
+    if (refuse(loop < 1, PLANISH_STATUS_INDEX, "loops count from 1", stat, errmsg)) return
+    status = c_mesh_copy_loop(self%get(), loop - 1_c_size_t, nodes, size(nodes, kind=c_size_t))
+    count = self%loop_point_count(loop)
+    if (status >= 0) nodes(:count) = nodes(:count) + 1
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Number of fields on the nodes.
+  pure integer(c_size_t) function mesh_field_count(self) result(count)
+    class(planish_mesh_t), intent(in) :: self
+    count = c_mesh_field_count(self%get())
+  end function
+
+  !> The name of a field, which counts from 1; empty if it does not exist.
+  function mesh_field_name(self, field) result(name)
+    class(planish_mesh_t), intent(in) :: self
+    integer, intent(in) :: field
+    character(:), allocatable :: name
+    character(kind=c_char), allocatable :: letters(:)
+    integer(c_size_t) :: length
+    name = ""
+    if (field < 1) return
+    length = c_mesh_field_name(self%get(), field - 1_c_size_t, size=0_c_size_t)
+    allocate (letters(length + 1))
+    length = c_mesh_field_name(self%get(), field - 1_c_size_t, letters, size(letters, kind=c_size_t))
+    name = text_of(letters(:length))
+  end function
+
+  !> The values of a field: at least point_count() of them.
+  subroutine mesh_copy_field(self, name, values, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: self
+    character(*), intent(in) :: name
+    real(c_double), intent(inout), contiguous :: values(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call conclude(c_mesh_copy_field(self%get(), terminated(name), values, size(values, kind=c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> Adds a field, or replaces the one of this name: one value for each node.
+  subroutine mesh_set_field(self, name, values, stat, errmsg)
+    class(planish_mesh_t), intent(inout) :: self
+    character(*), intent(in) :: name
+    real(c_double), intent(in), contiguous :: values(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call conclude(c_mesh_set_field(self%get(), terminated(name), values, size(values, kind=c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> Whether the nodes have parameters.
+  pure logical function mesh_has_parameters(self) result(has)
+    class(planish_mesh_t), intent(in) :: self
+    has = c_mesh_has_parameters(self%get()) /= 0
+  end function
+
+  !> Gives each node its uv(2,n).
+  subroutine mesh_set_parameters(self, uv, stat, errmsg)
+    class(planish_mesh_t), intent(inout) :: self
+    real(c_double), intent(in), contiguous :: uv(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_extent(size(uv, 1, c_size_t), 2_c_size_t, "the first extent of uv", stat, errmsg)) return
+    call conclude(c_mesh_set_parameters(self%get(), uv, size(uv, 2, c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> uv(2,n): n at least point_count().
+  subroutine mesh_copy_parameters(self, uv, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: self
+    real(c_double), intent(inout), contiguous :: uv(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_extent(size(uv, 1, c_size_t), 2_c_size_t, "the first extent of uv", stat, errmsg)) return
+    call conclude(c_mesh_copy_parameters(self%get(), uv, size(uv, 2, c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> Makes a mesh without some of the triangles, which count from 1.
+  subroutine mesh_remove_triangles(self, triangles, rest, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: self
+    integer(c_int32_t), intent(in) :: triangles(:)
+    type(planish_mesh_t), intent(inout) :: rest
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    status = c_mesh_remove_triangles(self%get(), triangles - 1, size(triangles, kind=c_size_t), handle)
+    if (status >= 0) call rest%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Makes a mesh that is cut open along a path of edges, whose nodes count from 1.
+  subroutine mesh_cut_along(self, nodes, cut, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: self
+    integer(c_int32_t), intent(in) :: nodes(:)
+    type(planish_mesh_t), intent(inout) :: cut
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    status = c_mesh_cut_along(self%get(), nodes - 1, size(nodes, kind=c_size_t), handle)
+    if (status >= 0) call cut%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Makes a mesh of each part that hangs together by edges.
+  subroutine mesh_split_components(self, parts, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: self
+    type(planish_mesh_t), allocatable, intent(inout) :: parts(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr), allocatable :: handles(:)
+    integer(c_int) :: status
+    integer :: i
+    allocate (handles(self%component_count()))
+    status = c_mesh_split_components(self%get(), handles, size(handles, kind=c_size_t))
+    if (status >= 0) then
+      if (allocated(parts)) deallocate (parts)
+      allocate (parts(size(handles)))
+      do i = 1, size(handles)
+        call parts(i)%take(handles(i))
+      end do
+    end if
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Finds the shortest path along edges between two nodes; nodes count from 1.
+  subroutine mesh_shortest_path(self, from, to, nodes, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: self
+    integer, intent(in) :: from, to
+    integer(c_int32_t), allocatable, intent(inout) :: nodes(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: first, last
+    integer(c_size_t) :: count
+    integer(c_int) :: status
+    if (refuse(from < 1 .or. to < 1, PLANISH_STATUS_INDEX, "nodes count from 1", stat, errmsg)) return
+    first = int(from - 1, c_int32_t)
+    last = int(to - 1, c_int32_t)
+    status = c_mesh_shortest_path(self%get(), first, last, count=0_c_size_t, out_count=count)
+    if (status >= 0) then
+      if (allocated(nodes)) deallocate (nodes)
+      allocate (nodes(count))
+      status = c_mesh_shortest_path(self%get(), first, last, nodes, count, count)
+      nodes = nodes + 1
+    end if
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  ! ---------------------------------------------------------------------------------------------------------
+  ! Parameterization
+  ! ---------------------------------------------------------------------------------------------------------
+
+  !> Gives each node of a disk, possibly with holes, its (u,v). The corners in the options count from 1.
+  !>
+  !> node_weights: a positive number for each node, in place of 1.
+  subroutine mesh_parameterize(self, options, report, node_weights, progress, stat, errmsg)
+    class(planish_mesh_t), intent(inout) :: self
+    type(planish_parameterize_options), intent(in), optional :: options
+    type(planish_parameterize_report), intent(inout), optional :: report
+    real(c_double), intent(in), optional, target, contiguous :: node_weights(:)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_parameterize_options) :: call_options
+    type(listener), target :: user
+    if (present(options)) call_options = counted_from_0(options)
+    if (present(node_weights)) then
+      if (refuse_short(size(node_weights, kind=c_size_t), self%point_count(), "node_weights", stat, errmsg)) return
+      call_options%node_weights = c_loc(node_weights)
+    end if
+    if (present(progress)) then
+      user%hear => progress
+      call_options%progress = c_funloc(relay)
+      call_options%user = c_loc(user)
+    end if
+    call conclude(c_mesh_parameterize(self%get(), call_options, report), stat, errmsg)
+  end subroutine
+
+  !> The same options for C. Corners that nobody set are left alone.
+  pure type(planish_parameterize_options) function counted_from_0(options) result(same)
+    type(planish_parameterize_options), intent(in) :: options
+    same = options
+    if (options%border == PLANISH_BORDER_CORNERS) same%corners = options%corners - 1
+  end function
+
+  ! ---------------------------------------------------------------------------------------------------------
+  ! Surface
+  ! ---------------------------------------------------------------------------------------------------------
+
+  impure elemental subroutine surface_assign(self, other)
+    class(planish_surface_t), intent(inout) :: self
+    class(planish_surface_t), intent(in) :: other
+    type(c_ptr) :: handle
+    handle = c_null_ptr
+    if (allocated(other%owner)) call conclude(c_surface_clone(other%owner%handle, handle))
+    call self%take(handle)
+  end subroutine
+
+  subroutine finalize_surface(self)
+    type(surface_owner), intent(inout) :: self
+    call c_surface_free(self%handle)
+    self%handle = c_null_ptr
+  end subroutine
+
+  !> Frees the surface before the variable ends.
+  subroutine surface_free(self)
+    class(planish_surface_t), intent(inout) :: self
+    if (allocated(self%owner)) deallocate (self%owner)
+  end subroutine
+
+  !> The handle, for C; it stays this surface's.
+  pure type(c_ptr) function surface_get(self) result(handle)
+    class(planish_surface_t), intent(in) :: self
+    handle = c_null_ptr
+    if (allocated(self%owner)) handle = self%owner%handle
+  end function
+
+  !> Takes over a handle of C, which is freed by this surface from now on.
+  subroutine surface_take(self, handle)
+    class(planish_surface_t), intent(inout) :: self
+    type(c_ptr), intent(in) :: handle
+    call self%free()
+    if (.not. c_associated(handle)) return
+    allocate (self%owner)
+    self%owner%handle = handle
+  end subroutine
+
+  !> The family: a PLANISH_KIND.
+  pure integer(c_int32_t) function surface_kind(self) result(kind)
+    class(planish_surface_t), intent(in) :: self
+    kind = c_surface_kind(self%get())
+  end function
+
+  !> Numbers of a value: 1 for a scalar field, 3 for a shape.
+  pure integer(c_size_t) function surface_dim(self) result(dim)
+    class(planish_surface_t), intent(in) :: self
+    dim = c_surface_dim(self%get())
+  end function
+
+  !> Number of control points.
+  pure integer(c_size_t) function surface_coefficient_count(self) result(count)
+    class(planish_surface_t), intent(in) :: self
+    count = c_surface_coefficient_count(self%get())
+  end function
+
+  !> The rectangle of definition: least u, largest u, least v, largest v.
+  subroutine surface_domain(self, box, stat, errmsg)
+    class(planish_surface_t), intent(in) :: self
+    real(c_double), intent(inout) :: box(4)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call conclude(c_surface_domain(self%get(), box), stat, errmsg)
+  end subroutine
+
+  !> The box of the data's (u,v): least u, largest u, least v, largest v.
+  subroutine surface_data_box(self, box, stat, errmsg)
+    class(planish_surface_t), intent(in) :: self
+    real(c_double), intent(inout) :: box(4)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call conclude(c_surface_data_box(self%get(), box), stat, errmsg)
+  end subroutine
+
+  !> values(:,i) = S(uv(1,i), uv(2,i)). flags: receives bits of PLANISH_FLAG for each point.
+  subroutine surface_eval_rows(self, uv, values, options, flags, stat, errmsg)
+    class(planish_surface_t), intent(in) :: self
+    real(c_double), intent(in), contiguous :: uv(:, :)
+    real(c_double), intent(inout), contiguous :: values(:, :)
+    type(planish_eval_options), intent(in), optional :: options
+    integer(c_int8_t), intent(inout), optional, target, contiguous :: flags(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_eval_options) :: call_options
+    if (present(options)) call_options = options
+    if (refuse_points(call_options, shape(uv, c_size_t), shape(values, c_size_t), flags, stat, errmsg)) return
+    call conclude(c_surface_eval(self%get(), uv, size(uv, 2, c_size_t), call_options, values), stat, errmsg)
+  end subroutine
+
+  !> The same for a scalar field, values(n).
+  subroutine surface_eval_scalars(self, uv, values, options, flags, stat, errmsg)
+    class(planish_surface_t), intent(in) :: self
+    real(c_double), intent(in), contiguous :: uv(:, :)
+    real(c_double), intent(inout), contiguous, target :: values(:)
+    type(planish_eval_options), intent(in), optional :: options
+    integer(c_int8_t), intent(inout), optional, target, contiguous :: flags(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    real(c_double), pointer, contiguous :: rows(:, :)
+    rows(1:1, 1:size(values)) => values
+    call self%eval(uv, rows, options, flags, stat, errmsg)
+  end subroutine
+
+  !> out(:,k,i): S; Su, Sv; Suu, Suv, Svv at uv(:,i), 1, 3 or 6 columns for max_derivative 0, 1 or 2.
+  subroutine surface_eval_derivatives(self, uv, max_derivative, out, options, flags, stat, errmsg)
+    class(planish_surface_t), intent(in) :: self
+    real(c_double), intent(in), contiguous :: uv(:, :)
+    integer, intent(in) :: max_derivative
+    real(c_double), intent(inout), contiguous :: out(:, :, :)
+    type(planish_eval_options), intent(in), optional :: options
+    integer(c_int8_t), intent(inout), optional, target, contiguous :: flags(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_eval_options) :: call_options
+    integer(c_size_t) :: extents(3)
+    extents = shape(out, c_size_t)
+    if (present(options)) call_options = options
+    if (refuse_dim(extents(1), self%dim(), "out", stat, errmsg)) return
+    if (refuse_points(call_options, shape(uv, c_size_t), [extents(1) * extents(2), extents(3)], flags, stat, errmsg)) &
+        return
+    call conclude(c_surface_eval_derivatives(self%get(), uv, size(uv, 2, c_size_t), int(max_derivative, c_int32_t), &
+        call_options, out), stat, errmsg)
+  end subroutine
+
+  !> values(:,j,i) = S(u(i), v(j)): values(dim, size(v), size(u)).
+  subroutine surface_eval_grid(self, u, v, values, options, flags, stat, errmsg)
+    class(planish_surface_t), intent(in) :: self
+    real(c_double), intent(in), contiguous :: u(:), v(:)
+    real(c_double), intent(inout), contiguous :: values(:, :, :)
+    type(planish_eval_options), intent(in), optional :: options
+    integer(c_int8_t), intent(inout), optional, target, contiguous :: flags(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_eval_options) :: call_options
+    integer(c_size_t) :: extents(3)
+    extents = shape(values, c_size_t)
+    if (present(options)) call_options = options
+    if (refuse_dim(extents(1), self%dim(), "values", stat, errmsg)) return
+    if (refuse_extent(extents(2), size(v, kind=c_size_t), "the second extent of values", stat, errmsg)) return
+    if (refuse_extent(extents(3), size(u, kind=c_size_t), "the third extent of values", stat, errmsg)) return
+    call_options%uv_stride = 0
+    call_options%out_stride = 0
+    if (present(flags)) then
+      if (refuse_extent(size(flags, 1, c_size_t), extents(2), "the first extent of flags", stat, errmsg)) return
+      if (refuse_extent(size(flags, 2, c_size_t), extents(3), "the second extent of flags", stat, errmsg)) return
+      call_options%out_flags = c_loc(flags)
+    end if
+    call conclude(c_surface_eval_grid(self%get(), u, extents(3), v, extents(2), call_options, values), stat, errmsg)
+  end subroutine
+
+  !> Unit normals(3,n) at uv(2,n).
+  subroutine surface_normals(self, uv, normals, options, flags, stat, errmsg)
+    class(planish_surface_t), intent(in) :: self
+    real(c_double), intent(in), contiguous :: uv(:, :)
+    real(c_double), intent(inout), contiguous :: normals(:, :)
+    type(planish_eval_options), intent(in), optional :: options
+    integer(c_int8_t), intent(inout), optional, target, contiguous :: flags(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_eval_options) :: call_options
+    if (present(options)) call_options = options
+    if (refuse_points(call_options, shape(uv, c_size_t), shape(normals, c_size_t), flags, stat, errmsg)) return
+    call conclude(c_surface_normals(self%get(), uv, size(uv, 2, c_size_t), call_options, normals), stat, errmsg)
+  end subroutine
+
+  !> Principal curvatures and directions, out(8,n): k1, k2, d1(3), d2(3) at uv(2,n).
+  subroutine surface_curvatures(self, uv, out, options, flags, stat, errmsg)
+    class(planish_surface_t), intent(in) :: self
+    real(c_double), intent(in), contiguous :: uv(:, :)
+    real(c_double), intent(inout), contiguous :: out(:, :)
+    type(planish_eval_options), intent(in), optional :: options
+    integer(c_int8_t), intent(inout), optional, target, contiguous :: flags(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_eval_options) :: call_options
+    if (present(options)) call_options = options
+    if (refuse_points(call_options, shape(uv, c_size_t), shape(out, c_size_t), flags, stat, errmsg)) return
+    call conclude(c_surface_curvatures(self%get(), uv, size(uv, 2, c_size_t), call_options, out), stat, errmsg)
+  end subroutine
+
+  !> Sets strides and flags of an evaluation, and refuses arrays that do not go together.
+  logical function refuse_points(options, points, values, flags, stat, errmsg) result(refused)
+    type(planish_eval_options), intent(inout) :: options
+    integer(c_size_t), intent(in) :: points(2), values(2)
+    integer(c_int8_t), intent(inout), optional, target, contiguous :: flags(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    refused = .true.
+    ! a stride of 0 would mean the default
+    if (refuse(any([points(1), values(1)] < 1), PLANISH_STATUS_INVALID_ARGUMENT, &
+        "an array has columns of no numbers", stat, errmsg)) return
+    if (refuse_short(values(2), points(2), "the array of results", stat, errmsg)) return
+    options%uv_stride = points(1)
+    options%out_stride = values(1)
+    if (present(flags)) then
+      if (refuse_short(size(flags, kind=c_size_t), points(2), "flags", stat, errmsg)) return
+      options%out_flags = c_loc(flags)
+    end if
+    refused = .false.
+  end function
+
+  !> Number of trims.
+  pure integer(c_size_t) function surface_trim_count(self) result(count)
+    class(planish_surface_t), intent(in) :: self
+    count = c_surface_trim_count(self%get())
+  end function
+
+  !> Number of points of a trim; 0 if it does not exist. Trim 1 is the outer one.
+  pure integer(c_size_t) function surface_trim_point_count(self, trim) result(count)
+    class(planish_surface_t), intent(in) :: self
+    integer, intent(in) :: trim
+    count = 0
+    if (trim >= 1) count = c_surface_trim_point_count(self%get(), trim - 1_c_size_t)
+  end function
+
+  !> uv(2,n) of a trim's points: n at least trim_point_count(trim). Trim 1 is the outer one.
+  subroutine surface_copy_trim(self, trim, uv, stat, errmsg)
+    class(planish_surface_t), intent(in) :: self
+    integer, intent(in) :: trim
+    real(c_double), intent(inout), contiguous :: uv(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse(trim < 1, PLANISH_STATUS_INDEX, "trims count from 1", stat, errmsg)) return
+    if (refuse_extent(size(uv, 1, c_size_t), 2_c_size_t, "the first extent of uv", stat, errmsg)) return
+    call conclude(c_surface_copy_trim(self%get(), trim - 1_c_size_t, uv, size(uv, 2, c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> Replaces the trims: uv(2,n), trim after trim, and how many points each has.
+  subroutine surface_set_trims(self, uv, point_counts, stat, errmsg)
+    class(planish_surface_t), intent(inout) :: self
+    real(c_double), intent(in), contiguous :: uv(:, :)
+    integer, intent(in) :: point_counts(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_size_t) :: counts(size(point_counts))
+    if (refuse(any(point_counts < 0), PLANISH_STATUS_INVALID_ARGUMENT, "a trim has less than no points", &
+        stat, errmsg)) return
+    counts = point_counts
+    if (refuse_extent(size(uv, 1, c_size_t), 2_c_size_t, "the first extent of uv", stat, errmsg)) return
+    if (refuse_extent(size(uv, 2, c_size_t), sum(counts), "the second extent of uv", stat, errmsg)) return
+    call conclude(c_surface_set_trims(self%get(), uv, counts, size(counts, kind=c_size_t)), stat, errmsg)
+  end subroutine
+
+  ! ---------------------------------------------------------------------------------------------------------
+  ! Tensor surface
+  ! ---------------------------------------------------------------------------------------------------------
+
+  !> Fits a surface to the shape of a mesh. All fits take these:
+  !>
+  !> report:       receives how good the surface is; worst_index counts from 1.
+  !> parameterize: how a mesh without parameters gets them.
+  !> weights:      a positive number for each datum, in place of 1.
+  !> parameters:   (2,n), receives the (u,v) at which the error of each datum is measured.
+  !> errors:       receives the error of each datum.
+  !> progress:     hears how far the fit is, and may cancel it.
+  subroutine planish_tensor_fit( &
+      mesh, surface, options, report, parameterize, weights, parameters, errors, progress, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: mesh
+    class(planish_surface_t), intent(inout) :: surface
+    type(planish_tensor_options), intent(in), optional :: options
+    type(planish_fit_report), intent(inout), optional :: report
+    type(planish_parameterize_options), intent(in), optional :: parameterize
+    real(c_double), intent(in), optional, target, contiguous :: weights(:)
+    real(c_double), intent(inout), optional, target, contiguous :: parameters(:, :), errors(:)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_tensor_options) :: call_options
+    type(planish_parameterize_options), target :: map
+    type(listener), target :: user
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    if (present(options)) call_options = options
+    if (refuse_data(call_options, map, user, mesh%point_count(), parameterize, weights, parameters, errors, progress, &
+        stat, errmsg)) return
+    status = c_tensor_fit(mesh%get(), call_options, handle, report)
+    if (status >= 0) call surface%take(handle)
+    call conclude_fit(status, report, stat, errmsg)
+  end subroutine
+
+  subroutine tensor_fit_points_rows( &
+      uv, values, surface, options, report, weights, parameters, errors, progress, stat, errmsg)
+    real(c_double), intent(in), contiguous :: uv(:, :), values(:, :)
+    class(planish_surface_t), intent(inout) :: surface
+    type(planish_tensor_options), intent(in), optional :: options
+    type(planish_fit_report), intent(inout), optional :: report
+    real(c_double), intent(in), optional, target, contiguous :: weights(:)
+    real(c_double), intent(inout), optional, target, contiguous :: parameters(:, :), errors(:)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_tensor_options) :: call_options
+    type(planish_parameterize_options), target :: map
+    type(listener), target :: user
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    integer(c_size_t) :: count
+    count = size(uv, 2, c_size_t)
+    if (present(options)) call_options = options
+    if (refuse_extent(size(uv, 1, c_size_t), 2_c_size_t, "the first extent of uv", stat, errmsg)) return
+    if (refuse_extent(size(values, 2, c_size_t), count, "the number of values", stat, errmsg)) return
+    if (refuse_data(call_options, map, user, count, weights=weights, parameters=parameters, errors=errors, &
+        progress=progress, stat=stat, errmsg=errmsg)) return
+    status = c_tensor_fit_points(uv, values, count, size(values, 1, c_size_t), call_options, handle, report)
+    if (status >= 0) call surface%take(handle)
+    call conclude_fit(status, report, stat, errmsg)
+  end subroutine
+
+  subroutine tensor_fit_points_scalars( &
+      uv, values, surface, options, report, weights, parameters, errors, progress, stat, errmsg)
+    real(c_double), intent(in), contiguous :: uv(:, :)
+    real(c_double), intent(in), contiguous, target :: values(:)
+    class(planish_surface_t), intent(inout) :: surface
+    type(planish_tensor_options), intent(in), optional :: options
+    type(planish_fit_report), intent(inout), optional :: report
+    real(c_double), intent(in), optional, target, contiguous :: weights(:)
+    real(c_double), intent(inout), optional, target, contiguous :: parameters(:, :), errors(:)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    real(c_double), pointer, contiguous :: rows(:, :)
+    rows(1:1, 1:size(values)) => values
+    ! not by the generic name, which gfortran 12 would take for the C function of the same name
+    call tensor_fit_points_rows( &
+        uv, rows, surface, options, report, weights, parameters, errors, progress, stat, errmsg)
+  end subroutine
+
+  subroutine tensor_fit_field_rows( &
+      mesh, values, surface, options, report, parameterize, weights, parameters, errors, progress, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: mesh
+    real(c_double), intent(in), contiguous :: values(:, :)
+    class(planish_surface_t), intent(inout) :: surface
+    type(planish_tensor_options), intent(in), optional :: options
+    type(planish_fit_report), intent(inout), optional :: report
+    type(planish_parameterize_options), intent(in), optional :: parameterize
+    real(c_double), intent(in), optional, target, contiguous :: weights(:)
+    real(c_double), intent(inout), optional, target, contiguous :: parameters(:, :), errors(:)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_tensor_options) :: call_options
+    type(planish_parameterize_options), target :: map
+    type(listener), target :: user
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    if (present(options)) call_options = options
+    if (refuse_data(call_options, map, user, mesh%point_count(), parameterize, weights, parameters, errors, progress, &
+        stat, errmsg)) return
+    status = c_tensor_fit_field( &
+        mesh%get(), values, size(values, 2, c_size_t), size(values, 1, c_size_t), call_options, handle, report)
+    if (status >= 0) call surface%take(handle)
+    call conclude_fit(status, report, stat, errmsg)
+  end subroutine
+
+  subroutine tensor_fit_field_scalars( &
+      mesh, values, surface, options, report, parameterize, weights, parameters, errors, progress, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: mesh
+    real(c_double), intent(in), contiguous, target :: values(:)
+    class(planish_surface_t), intent(inout) :: surface
+    type(planish_tensor_options), intent(in), optional :: options
+    type(planish_fit_report), intent(inout), optional :: report
+    type(planish_parameterize_options), intent(in), optional :: parameterize
+    real(c_double), intent(in), optional, target, contiguous :: weights(:)
+    real(c_double), intent(inout), optional, target, contiguous :: parameters(:, :), errors(:)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    real(c_double), pointer, contiguous :: rows(:, :)
+    rows(1:1, 1:size(values)) => values
+    call tensor_fit_field_rows( &
+        mesh, rows, surface, options, report, parameterize, weights, parameters, errors, progress, stat, errmsg)
+  end subroutine
+
+  !> Leads the options of a fit to its optional arguments, and refuses arrays that are too short for `count` data.
+  logical function refuse_data(options, map, user, count, parameterize, weights, parameters, errors, progress, &
+      stat, errmsg) result(refused)
+    type(planish_tensor_options), intent(inout) :: options
+    type(planish_parameterize_options), intent(inout), target :: map
+    type(listener), intent(inout), target :: user
+    integer(c_size_t), intent(in) :: count
+    type(planish_parameterize_options), intent(in), optional :: parameterize
+    real(c_double), intent(in), optional, target, contiguous :: weights(:)
+    real(c_double), intent(inout), optional, target, contiguous :: parameters(:, :), errors(:)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    refused = .true.
+    if (present(parameterize)) then
+      map = counted_from_0(parameterize)
+      options%parameterize = c_loc(map)
+    end if
+    if (present(weights)) then
+      if (refuse_short(size(weights, kind=c_size_t), count, "weights", stat, errmsg)) return
+      options%weights = c_loc(weights)
+    end if
+    if (present(parameters)) then
+      if (refuse_extent(size(parameters, 1, c_size_t), 2_c_size_t, "the first extent of parameters", &
+          stat, errmsg)) return
+      if (refuse_short(size(parameters, 2, c_size_t), count, "parameters", stat, errmsg)) return
+      options%out_parameters = c_loc(parameters)
+    end if
+    if (present(errors)) then
+      if (refuse_short(size(errors, kind=c_size_t), count, "errors", stat, errmsg)) return
+      options%out_errors = c_loc(errors)
+    end if
+    if (present(progress)) then
+      user%hear => progress
+      options%progress = c_funloc(relay)
+      options%user = c_loc(user)
+    end if
+    refused = .false.
+  end function
+
+  !> Ends a fit: its report names the worst datum.
+  subroutine conclude_fit(status, report, stat, errmsg)
+    integer(c_int), intent(in) :: status
+    type(planish_fit_report), intent(inout), optional :: report
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (status >= 0 .and. present(report)) report%worst_index = report%worst_index + 1
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Makes a tensor surface from its parts: control_points(dim, along v, along u), weights(along v, along u).
+  subroutine planish_tensor_new(degree_u, degree_v, knots_u, knots_v, control_points, surface, weights, stat, errmsg)
+    integer, intent(in) :: degree_u, degree_v
+    real(c_double), intent(in), contiguous :: knots_u(:), knots_v(:), control_points(:, :, :)
+    class(planish_surface_t), intent(inout) :: surface
+    real(c_double), intent(in), optional, contiguous :: weights(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handle
+    integer(c_size_t) :: extents(3)
+    integer(c_int) :: status
+    extents = shape(control_points, c_size_t)
+    if (refuse_extent(extents(2), size(knots_v, kind=c_size_t) - degree_v - 1, "the second extent of control_points", &
+        stat, errmsg)) return
+    if (refuse_extent(extents(3), size(knots_u, kind=c_size_t) - degree_u - 1, "the third extent of control_points", &
+        stat, errmsg)) return
+    if (present(weights)) then
+      if (refuse_extent(size(weights, 1, c_size_t), extents(2), "the first extent of weights", stat, errmsg)) return
+      if (refuse_extent(size(weights, 2, c_size_t), extents(3), "the second extent of weights", stat, errmsg)) return
+    end if
+    status = c_tensor_new(extents(1), int(degree_u, c_int32_t), int(degree_v, c_int32_t), knots_u, &
+        size(knots_u, kind=c_size_t), knots_v, size(knots_v, kind=c_size_t), control_points, weights, handle)
+    if (status >= 0) call surface%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Degree along an axis, a PLANISH_AXIS.
+  pure integer(c_int32_t) function planish_tensor_degree(surface, axis) result(degree)
+    class(planish_surface_t), intent(in) :: surface
+    integer(c_int32_t), intent(in) :: axis
+    degree = c_tensor_degree(surface%get(), axis)
+  end function
+
+  !> Number of knots along an axis, a PLANISH_AXIS.
+  pure integer(c_size_t) function planish_tensor_knot_count(surface, axis) result(count)
+    class(planish_surface_t), intent(in) :: surface
+    integer(c_int32_t), intent(in) :: axis
+    count = c_tensor_knot_count(surface%get(), axis)
+  end function
+
+  !> Number of control points along an axis, a PLANISH_AXIS.
+  pure integer(c_size_t) function planish_tensor_control_point_count(surface, axis) result(count)
+    class(planish_surface_t), intent(in) :: surface
+    integer(c_int32_t), intent(in) :: axis
+    count = c_tensor_control_point_count(surface%get(), axis)
+  end function
+
+  !> The knots along an axis, a PLANISH_AXIS.
+  subroutine planish_tensor_copy_knots(surface, axis, knots, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    integer(c_int32_t), intent(in) :: axis
+    real(c_double), intent(inout), contiguous :: knots(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call conclude(c_tensor_copy_knots(surface%get(), axis, knots, size(knots, kind=c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> control_points(dim, along v, along u).
+  subroutine planish_tensor_copy_control_points(surface, control_points, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    real(c_double), intent(inout), contiguous :: control_points(:, :, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_size_t) :: extents(3)
+    extents = shape(control_points, c_size_t)
+    if (refuse_grid(surface, extents(2:3), "control_points", stat, errmsg)) return
+    if (refuse_dim(extents(1), surface%dim(), "control_points", stat, errmsg)) return
+    call conclude(c_tensor_copy_control_points(surface%get(), control_points, extents(2) * extents(3)), stat, errmsg)
+  end subroutine
+
+  !> Whether the surface has weights.
+  pure logical function planish_tensor_has_weights(surface) result(has)
+    class(planish_surface_t), intent(in) :: surface
+    has = c_tensor_has_weights(surface%get()) /= 0
+  end function
+
+  !> weights(along v, along u).
+  subroutine planish_tensor_copy_weights(surface, weights, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    real(c_double), intent(inout), contiguous :: weights(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_grid(surface, shape(weights, c_size_t), "weights", stat, errmsg)) return
+    call conclude(c_tensor_copy_weights(surface%get(), weights, size(weights, kind=c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> Refuses an array that has not one place for each control point of a tensor surface.
+  logical function refuse_grid(surface, extents, name, stat, errmsg) result(refused)
+    class(planish_surface_t), intent(in) :: surface
+    integer(c_size_t), intent(in) :: extents(2)
+    character(*), intent(in) :: name
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    refused = .false.
+    if (surface%kind() /= PLANISH_KIND_TENSOR) return ! the library says so
+    refused = refuse_extent(extents(1), planish_tensor_control_point_count(surface, PLANISH_AXIS_V), &
+        "the extent along v of " // name, stat, errmsg)
+    if (refused) return
+    refused = refuse_extent(extents(2), planish_tensor_control_point_count(surface, PLANISH_AXIS_U), &
+        "the extent along u of " // name, stat, errmsg)
+  end function
+
+  ! ---------------------------------------------------------------------------------------------------------
+  ! Queries
+  ! ---------------------------------------------------------------------------------------------------------
+
+  !> Makes a mesh of a surface in space.
+  subroutine surface_tessellate(self, mesh, options, stat, errmsg)
+    class(planish_surface_t), intent(in) :: self
+    class(planish_mesh_t), intent(inout) :: mesh
+    type(planish_tessellate_options), intent(in), optional :: options
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    status = c_surface_tessellate(self%get(), options, handle)
+    if (status >= 0) call mesh%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Finds the place on the surface nearest to each of points(dim,n).
+  !>
+  !> uv:        (2,n), receives the places.
+  !> distances: receives how far they are.
+  !> guesses:   (2,n), places near them.
+  subroutine surface_project(self, points, uv, distances, options, guesses, stat, errmsg)
+    class(planish_surface_t), intent(in) :: self
+    real(c_double), intent(in), contiguous :: points(:, :)
+    real(c_double), intent(inout), optional, contiguous :: uv(:, :), distances(:)
+    type(planish_project_options), intent(in), optional :: options
+    real(c_double), intent(in), optional, target, contiguous :: guesses(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_project_options) :: call_options
+    integer(c_size_t) :: count
+    count = size(points, 2, c_size_t)
+    if (present(options)) call_options = options
+    if (refuse_dim(size(points, 1, c_size_t), self%dim(), "points", stat, errmsg)) return
+    if (present(uv)) then
+      if (refuse_extent(size(uv, 1, c_size_t), 2_c_size_t, "the first extent of uv", stat, errmsg)) return
+      if (refuse_short(size(uv, 2, c_size_t), count, "uv", stat, errmsg)) return
+    end if
+    if (present(distances)) then
+      if (refuse_short(size(distances, kind=c_size_t), count, "distances", stat, errmsg)) return
+    end if
+    if (present(guesses)) then
+      if (refuse_extent(size(guesses, 1, c_size_t), 2_c_size_t, "the first extent of guesses", stat, errmsg)) return
+      if (refuse_short(size(guesses, 2, c_size_t), count, "guesses", stat, errmsg)) return
+      call_options%guesses = c_loc(guesses)
+    end if
+    call conclude(c_surface_project(self%get(), points, count, call_options, uv, distances), stat, errmsg)
+  end subroutine
+
+  !> Measures how far the nodes of a mesh lie from the surface. worst_index of the report counts from 1.
+  subroutine surface_deviation(self, mesh, distances, options, report, stat, errmsg)
+    class(planish_surface_t), intent(in) :: self
+    class(planish_mesh_t), intent(in) :: mesh
+    real(c_double), intent(inout), optional, contiguous :: distances(:)
+    type(planish_deviation_options), intent(in), optional :: options
+    type(planish_deviation_report), intent(inout), optional :: report
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_size_t) :: room
+    integer(c_int) :: status
+    room = 0
+    if (present(distances)) room = size(distances, kind=c_size_t)
+    status = c_surface_deviation(self%get(), mesh%get(), options, distances, room, report)
+    if (status >= 0 .and. present(report)) report%worst_index = report%worst_index + 1
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  ! ---------------------------------------------------------------------------------------------------------
+  ! Files
+  ! ---------------------------------------------------------------------------------------------------------
+
+  !> Writes a surface in space as a VTK file of triangles.
+  !>
+  !> deviation_from: a mesh to compare with.
+  !> tessellate:     how fine the triangles are.
+  subroutine surface_write_vtk(self, path, options, deviation_from, tessellate, stat, errmsg)
+    class(planish_surface_t), intent(in) :: self
+    character(*), intent(in) :: path
+    type(planish_vtk_options), intent(in), optional :: options
+    class(planish_mesh_t), intent(in), optional :: deviation_from
+    type(planish_tessellate_options), intent(in), optional, target :: tessellate
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_vtk_options) :: call_options
+    if (present(options)) call_options = options
+    if (present(deviation_from)) call_options%deviation_from = deviation_from%get()
+    if (present(tessellate)) call_options%tessellate = c_loc(tessellate)
+    call conclude(c_surface_write_vtk(self%get(), terminated(path), call_options), stat, errmsg)
+  end subroutine
+
+  !> Bytes that save() makes.
+  pure integer(c_size_t) function surface_save_size(self) result(size)
+    class(planish_surface_t), intent(in) :: self
+    size = c_surface_save_size(self%get())
+  end function
+
+  !> Everything a surface is, as bytes that are the same on all machines.
+  subroutine surface_save(self, bytes, stat, errmsg)
+    class(planish_surface_t), intent(in) :: self
+    integer(c_int8_t), allocatable, intent(inout) :: bytes(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int8_t), allocatable :: saved(:)
+    integer(c_int) :: status
+    allocate (saved(self%save_size()))
+    status = c_surface_save(self%get(), saved, size(saved, kind=c_size_t))
+    if (status >= 0) call move_alloc(saved, bytes)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Makes a surface from the bytes of save().
+  subroutine surface_load(self, bytes, stat, errmsg)
+    class(planish_surface_t), intent(inout) :: self
+    integer(c_int8_t), intent(in), contiguous :: bytes(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    status = c_surface_load(bytes, size(bytes, kind=c_size_t), handle)
+    if (status >= 0) call self%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Writes the bytes of save() to a file.
+  subroutine surface_save_file(self, path, stat, errmsg)
+    class(planish_surface_t), intent(in) :: self
+    character(*), intent(in) :: path
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call conclude(c_surface_save_file(self%get(), terminated(path)), stat, errmsg)
+  end subroutine
+
+  !> Makes a surface from a file of save_file().
+  subroutine surface_load_file(self, path, stat, errmsg)
+    class(planish_surface_t), intent(inout) :: self
+    character(*), intent(in) :: path
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    status = c_surface_load_file(terminated(path), handle)
+    if (status >= 0) call self%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Writes a tensor surface in space as a STEP file with one face.
+  !>
+  !> product, author, organization, timestamp: what the file says beside the shape.
+  !> report: receives what was written.
+  subroutine surface_write_step(self, path, options, product, author, organization, timestamp, report, stat, errmsg)
+    class(planish_surface_t), intent(in) :: self
+    character(*), intent(in) :: path
+    type(planish_step_options), intent(in), optional :: options
+    character(*), intent(in), optional :: product, author, organization, timestamp
+    type(planish_step_report), intent(inout), optional, target :: report
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_step_options) :: call_options
+    character(kind=c_char), allocatable, target :: made(:), by(:), of(:), at(:)
+    if (present(options)) call_options = options
+    call borrow(product, made, call_options%product)
+    call borrow(author, by, call_options%author)
+    call borrow(organization, of, call_options%organization)
+    call borrow(timestamp, at, call_options%timestamp)
+    if (present(report)) call_options%out_report = c_loc(report)
+    call conclude(c_surface_write_step(self%get(), terminated(path), call_options), stat, errmsg)
+  end subroutine
+
+  ! ---------------------------------------------------------------------------------------------------------
+  ! Curve
+  ! ---------------------------------------------------------------------------------------------------------
+
+  impure elemental subroutine curve_assign(self, other)
+    class(planish_curve_t), intent(inout) :: self
+    class(planish_curve_t), intent(in) :: other
+    type(c_ptr) :: handle
+    handle = c_null_ptr
+    if (allocated(other%owner)) call conclude(c_curve_clone(other%owner%handle, handle))
+    call self%take(handle)
+  end subroutine
+
+  subroutine finalize_curve(self)
+    type(curve_owner), intent(inout) :: self
+    call c_curve_free(self%handle)
+    self%handle = c_null_ptr
+  end subroutine
+
+  !> Frees the curve before the variable ends.
+  subroutine curve_free(self)
+    class(planish_curve_t), intent(inout) :: self
+    if (allocated(self%owner)) deallocate (self%owner)
+  end subroutine
+
+  !> The handle, for C; it stays this curve's.
+  pure type(c_ptr) function curve_get(self) result(handle)
+    class(planish_curve_t), intent(in) :: self
+    handle = c_null_ptr
+    if (allocated(self%owner)) handle = self%owner%handle
+  end function
+
+  !> Takes over a handle of C, which is freed by this curve from now on.
+  subroutine curve_take(self, handle)
+    class(planish_curve_t), intent(inout) :: self
+    type(c_ptr), intent(in) :: handle
+    call self%free()
+    if (.not. c_associated(handle)) return
+    allocate (self%owner)
+    self%owner%handle = handle
+  end subroutine
+
+  !> Fits a curve to values(dim,n) at u(n); the optional arguments are those of planish_tensor_fit().
+  subroutine curve_fit_rows(self, u, values, options, report, weights, errors, progress, stat, errmsg)
+    class(planish_curve_t), intent(inout) :: self
+    real(c_double), intent(in), contiguous :: u(:), values(:, :)
+    type(planish_tensor_options), intent(in), optional :: options
+    type(planish_fit_report), intent(inout), optional :: report
+    real(c_double), intent(in), optional, target, contiguous :: weights(:)
+    real(c_double), intent(inout), optional, target, contiguous :: errors(:)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_tensor_options) :: call_options
+    type(planish_parameterize_options), target :: map
+    type(listener), target :: user
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    integer(c_size_t) :: count
+    count = size(u, kind=c_size_t)
+    if (present(options)) call_options = options
+    if (refuse_extent(size(values, 2, c_size_t), count, "the number of values", stat, errmsg)) return
+    if (refuse_data(call_options, map, user, count, weights=weights, errors=errors, progress=progress, &
+        stat=stat, errmsg=errmsg)) return
+    status = c_curve_fit(u, values, count, size(values, 1, c_size_t), call_options, handle, report)
+    if (status >= 0) call self%take(handle)
+    call conclude_fit(status, report, stat, errmsg)
+  end subroutine
+
+  !> The same for numbers, values(n).
+  subroutine curve_fit_scalars(self, u, values, options, report, weights, errors, progress, stat, errmsg)
+    class(planish_curve_t), intent(inout) :: self
+    real(c_double), intent(in), contiguous :: u(:)
+    real(c_double), intent(in), contiguous, target :: values(:)
+    type(planish_tensor_options), intent(in), optional :: options
+    type(planish_fit_report), intent(inout), optional :: report
+    real(c_double), intent(in), optional, target, contiguous :: weights(:)
+    real(c_double), intent(inout), optional, target, contiguous :: errors(:)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    real(c_double), pointer, contiguous :: rows(:, :)
+    rows(1:1, 1:size(values)) => values
+    call self%fit(u, rows, options, report, weights, errors, progress, stat, errmsg)
+  end subroutine
+
+  !> Numbers of a value.
+  pure integer(c_size_t) function curve_dim(self) result(dim)
+    class(planish_curve_t), intent(in) :: self
+    dim = c_curve_dim(self%get())
+  end function
+
+  !> Degree of the polynomial pieces.
+  pure integer(c_int32_t) function curve_degree(self) result(degree)
+    class(planish_curve_t), intent(in) :: self
+    degree = c_curve_degree(self%get())
+  end function
+
+  !> Number of knots, each as often as it occurs.
+  pure integer(c_size_t) function curve_knot_count(self) result(count)
+    class(planish_curve_t), intent(in) :: self
+    count = c_curve_knot_count(self%get())
+  end function
+
+  !> Number of control points.
+  pure integer(c_size_t) function curve_control_point_count(self) result(count)
+    class(planish_curve_t), intent(in) :: self
+    count = c_curve_control_point_count(self%get())
+  end function
+
+  !> The knots: at least knot_count() of them.
+  subroutine curve_copy_knots(self, knots, stat, errmsg)
+    class(planish_curve_t), intent(in) :: self
+    real(c_double), intent(inout), contiguous :: knots(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call conclude(c_curve_copy_knots(self%get(), knots, size(knots, kind=c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> control_points(dim,n): n at least control_point_count().
+  subroutine curve_copy_control_points(self, control_points, stat, errmsg)
+    class(planish_curve_t), intent(in) :: self
+    real(c_double), intent(inout), contiguous :: control_points(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_dim(size(control_points, 1, c_size_t), self%dim(), "control_points", stat, errmsg)) return
+    call conclude(c_curve_copy_control_points(self%get(), control_points, size(control_points, 2, c_size_t)), &
+        stat, errmsg)
+  end subroutine
+
+  !> The interval of definition: least u, largest u.
+  subroutine curve_domain(self, interval, stat, errmsg)
+    class(planish_curve_t), intent(in) :: self
+    real(c_double), intent(inout) :: interval(2)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call conclude(c_curve_domain(self%get(), interval), stat, errmsg)
+  end subroutine
+
+  !> values(:,i) = C(u(i)). flags: receives bits of PLANISH_FLAG for each point.
+  subroutine curve_eval_rows(self, u, values, options, flags, stat, errmsg)
+    class(planish_curve_t), intent(in) :: self
+    real(c_double), intent(in), contiguous :: u(:)
+    real(c_double), intent(inout), contiguous :: values(:, :)
+    type(planish_eval_options), intent(in), optional :: options
+    integer(c_int8_t), intent(inout), optional, target, contiguous :: flags(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_eval_options) :: call_options
+    integer(c_size_t) :: count
+    count = size(u, kind=c_size_t)
+    if (present(options)) call_options = options
+    if (refuse_points(call_options, [1_c_size_t, count], shape(values, c_size_t), flags, stat, errmsg)) return
+    call conclude(c_curve_eval(self%get(), u, count, 0_c_int32_t, call_options, values), stat, errmsg)
+  end subroutine
+
+  !> The same for numbers, values(n).
+  subroutine curve_eval_scalars(self, u, values, options, flags, stat, errmsg)
+    class(planish_curve_t), intent(in) :: self
+    real(c_double), intent(in), contiguous :: u(:)
+    real(c_double), intent(inout), contiguous, target :: values(:)
+    type(planish_eval_options), intent(in), optional :: options
+    integer(c_int8_t), intent(inout), optional, target, contiguous :: flags(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    real(c_double), pointer, contiguous :: rows(:, :)
+    rows(1:1, 1:size(values)) => values
+    call self%eval(u, rows, options, flags, stat, errmsg)
+  end subroutine
+
+  !> out(:,k,i): C, C', C'', C''' at u(i), max_derivative + 1 columns, max_derivative 0 to 3.
+  subroutine curve_eval_derivatives(self, u, max_derivative, out, options, flags, stat, errmsg)
+    class(planish_curve_t), intent(in) :: self
+    real(c_double), intent(in), contiguous :: u(:)
+    integer, intent(in) :: max_derivative
+    real(c_double), intent(inout), contiguous :: out(:, :, :)
+    type(planish_eval_options), intent(in), optional :: options
+    integer(c_int8_t), intent(inout), optional, target, contiguous :: flags(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_eval_options) :: call_options
+    integer(c_size_t) :: count, extents(3)
+    count = size(u, kind=c_size_t)
+    extents = shape(out, c_size_t)
+    if (present(options)) call_options = options
+    if (refuse_dim(extents(1), self%dim(), "out", stat, errmsg)) return
+    if (refuse_points(call_options, [1_c_size_t, count], [extents(1) * extents(2), extents(3)], flags, stat, errmsg)) &
+        return
+    call conclude(c_curve_eval(self%get(), u, count, int(max_derivative, c_int32_t), call_options, out), stat, errmsg)
+  end subroutine
+
+end module

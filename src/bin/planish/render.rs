@@ -1,0 +1,83 @@
+//! `planish render`.
+
+use crate::output::write_png;
+use crate::{Failure, Outcome};
+use clap::Args;
+use planish::Control;
+use planish::export::native;
+use planish::export::picture::View;
+use planish::export::render::{RenderOptions, render};
+use planish::mesh::{MeshOptions, read};
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub struct RenderArguments {
+    /// Saved surface (.planish).
+    surface: PathBuf,
+    /// The picture to write.
+    #[arg(long, value_name = "PNG")]
+    out: PathBuf,
+    /// Colour the surface by its distance to the nodes of this mesh (OFF, OBJ, PLY, STL).
+    #[arg(long, value_name = "MESH")]
+    deviation: Option<PathBuf>,
+    /// Draw the knot lines.
+    #[arg(long)]
+    knots: bool,
+    /// Draw the trims.
+    #[arg(long)]
+    trims: bool,
+    /// Draw the control net.
+    #[arg(long)]
+    net: bool,
+    /// Pixels across and down.
+    #[arg(long, default_value = "1200x900", value_name = "WxH")]
+    size: String,
+    /// Look from this direction, z upwards; the front of the shape if it is left out.
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
+    from: Option<String>,
+}
+
+pub fn run(arguments: &RenderArguments) -> Result<Outcome, Failure> {
+    let surface = native::load_file(&arguments.surface)?;
+    let mesh = match &arguments.deviation {
+        Some(path) => Some(read(path, &MeshOptions::default())?.0),
+        None => None,
+    };
+    let (width, height) = size(&arguments.size)?;
+    let options = RenderOptions {
+        width,
+        height,
+        view: arguments.from.as_deref().map(view).transpose()?,
+        deviation_from: mesh.as_ref(),
+        knot_lines: arguments.knots,
+        trims: arguments.trims,
+        control_net: arguments.net,
+    };
+    let picture = render(surface.as_surface(), &options, Control::default().pool())?;
+    write_png(&picture, &arguments.out)?;
+    Ok(Outcome::Done)
+}
+
+fn size(text: &str) -> Result<(usize, usize), Failure> {
+    // a picture of more pixels would not fit into the memory of most machines
+    const RANGE: std::ops::RangeInclusive<usize> = 64..=16384;
+    let sizes =
+        text.split_once('x').and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
+    sizes.filter(|(width, height)| RANGE.contains(width) && RANGE.contains(height)).ok_or_else(|| {
+        Failure::new(format!(
+            "{text} is no size, say 1200x900 with sides from {} to {}",
+            RANGE.start(),
+            RANGE.end()
+        ))
+    })
+}
+
+fn view(text: &str) -> Result<View, Failure> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|number| number.trim().parse()).collect();
+    match numbers.as_deref() {
+        Ok(&[x, y, z]) if x.is_finite() && y.is_finite() && z.is_finite() && (x, y, z) != (0.0, 0.0, 0.0) => {
+            Ok(View::from([x, y, z]))
+        }
+        _ => Err(Failure::new(format!("{text} is no direction, say 1,-1,0.5"))),
+    }
+}

@@ -1,0 +1,465 @@
+//! Fields on the nodes of one surface, fitted again and again.
+//!
+//! The least squares of [`super::tessellation`] on a fixed grid (`ferguson.md` 4 and 9) are linear in the values:
+//! ```text
+//! (N^T W N + (mu/12) E) c = N^T W x
+//! ```
+//! [`FieldFitter`] factors the left side once. Each further field costs its right side, one solution, and, where
+//! it is asked for, the measure of its errors.
+
+mod right_side;
+
+use super::report::{FitReport, Remarks, StopReason, Tolerance};
+use super::tessellation::energy::FreeFunctions;
+use super::tessellation::grid::{Ends, UniformBasis, UniformGrid};
+use super::tessellation::normal_equations::{NormalEquations, Samples, TensorBasis};
+use super::tessellation::samples::interior_places;
+use super::tessellation::{
+    Energy, FitError, NodeParameters, Regularize, TensorOptions, check_parameters, check_values, fit_field,
+    fit_points, node_parameters,
+};
+use crate::control::{Control, Pool};
+use crate::fit::errors::{DataErrors, data_errors};
+use crate::geometry::Bounds;
+use crate::knots::KnotVector;
+use crate::linalg::Cholesky;
+use crate::mesh::Mesh;
+use crate::parameterize::ParameterizeOptions;
+use crate::surface::tensor::{Axis, TensorSurface};
+use crate::surface::{Domain, Region, Surface, Trims};
+use glam::DVec2;
+use right_side::{RightSide, Scratch};
+use std::sync::Mutex;
+use std::time::Instant;
+
+/// On which grid fields are fitted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum FieldGrid<'a> {
+    /// As fine as the nodes bear, about four of them a coefficient, but no finer than 129 x 129 knots.
+    Auto,
+    /// Knots along u and v.
+    Fixed([usize; 2]),
+    /// The grid and the smoothing that the adaptive fit of this field takes: rows of `dim` numbers, one a node.
+    FoundFor(&'a [f64], usize),
+}
+
+/// Options of a field fitter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FieldOptions<'a> {
+    /// What reports compare the errors with, and what [`FieldGrid::FoundFor`] meets.
+    pub tolerance: Tolerance,
+    /// The grid.
+    pub grid: FieldGrid<'a>,
+    /// Weight mu of the energy, positive.
+    pub smoothing: f64,
+    /// How far the knots reach beyond the nodes, as a fraction of their range.
+    pub buffer: f64,
+    /// What happens at the ends of the knots.
+    pub ends: Ends,
+    /// Which second derivatives cost energy.
+    pub energy: Energy,
+    /// A positive weight for each node.
+    pub weights: Option<&'a [f64]>,
+    /// Which nodes have values; the values of the others are not looked at.
+    pub is_known: Option<&'a [bool]>,
+    /// How a mesh without parameters gets them.
+    pub parameterize: ParameterizeOptions,
+}
+
+impl Default for FieldOptions<'_> {
+    fn default() -> Self {
+        Self {
+            tolerance: Tolerance::default(),
+            grid: FieldGrid::Auto,
+            smoothing: 1e-6,
+            buffer: 0.10,
+            ends: Ends::default(),
+            energy: Energy::default(),
+            weights: None,
+            is_known: None,
+            parameterize: ParameterizeOptions::TENSOR,
+        }
+    }
+}
+
+/// Most knots along one direction of [`FieldGrid::Auto`].
+const LARGEST_AUTO_GRID: usize = 129;
+/// Nodes a coefficient of [`FieldGrid::Auto`]: with fewer the smoothing decides between the nodes.
+const NODES_PER_COEFFICIENT: usize = 4;
+
+/// Fits fields over the same parameters, grid and threads.
+#[derive(Debug)]
+pub struct FieldFitter {
+    uv: Vec<DVec2>,
+    /// Nodes with values, in order; None when all have.
+    known: Option<Vec<u32>>,
+    basis: TensorBasis,
+    knots: [KnotVector; 2],
+    region: Region,
+    right_side: RightSide,
+    factor: Cholesky,
+    smoothing: f64,
+    tolerance: Tolerance,
+    map_remarks: Remarks,
+    pool: Pool,
+    /// What calls have used and others may use again.
+    scratch: Mutex<Vec<Scratch>>,
+}
+
+/// A fitted field, measured.
+#[derive(Debug, Clone)]
+pub struct FieldReport {
+    /// What every fit reports.
+    pub fit: FitReport,
+    /// The error of each node; NaN for nodes without values.
+    pub errors: Vec<f64>,
+}
+
+impl FieldFitter {
+    /// For fields on the nodes of a mesh, over its parameters or, if it has none, over those it is given here.
+    pub fn on_mesh(mesh: &Mesh, options: &FieldOptions, control: &mut Control) -> Result<Self, FitError> {
+        let map = node_parameters(mesh, &options.parameterize, Regularize::Never, control)?;
+        Self::new(map, Some(mesh), options, control)
+    }
+
+    /// For fields at scattered parameters.
+    pub fn at(uv: &[DVec2], options: &FieldOptions, control: &mut Control) -> Result<Self, FitError> {
+        let map = NodeParameters { uv: uv.to_vec(), remarks: Remarks::default() };
+        Self::new(map, None, options, control)
+    }
+
+    fn new(
+        map: NodeParameters,
+        mesh: Option<&Mesh>,
+        options: &FieldOptions,
+        control: &mut Control,
+    ) -> Result<Self, FitError> {
+        let uv = map.uv;
+        check(&uv, options)?;
+        let known = known_nodes(&uv, options)?;
+        let known_uv: Vec<DVec2> = match &known {
+            None => uv.clone(),
+            Some(known) => known.iter().map(|&node| uv[node as usize]).collect(),
+        };
+        check_parameters(&known_uv)?;
+        let data_box = Domain::around(uv.iter().copied());
+        let energy = match FreeFunctions::of(&known_uv, &data_box) {
+            FreeFunctions::None => options.energy,
+            FreeFunctions::Bilinear => Energy::Plate,
+            FreeFunctions::Linear => return Err(FitError::Singular),
+        };
+        let (counts, smoothing) = choose_grid(&uv, mesh, known_uv.len(), options, control)?;
+        let grid = [
+            UniformGrid::over(data_box.min.x, data_box.max.x, options.buffer, counts[0]),
+            UniformGrid::over(data_box.min.y, data_box.max.y, options.buffer, counts[1]),
+        ];
+        let [u, v] = grid.map(|grid| UniformBasis { grid, ends: options.ends });
+        let basis = TensorBasis { u, v };
+        let places = match mesh {
+            None => Vec::new(),
+            Some(mesh) => {
+                let is_known = |node: usize| options.is_known.is_none_or(|is_known| is_known[node]);
+                let places = interior_places(mesh, &uv, &grid, options.weights);
+                places.filter(|place| place.nodes.into_iter().all(is_known)).collect()
+            }
+        };
+        let pool = Pool::new(control.pool().thread_count());
+        let data = right_side::Data::new(&uv, known.as_deref(), options.weights, places, smoothing);
+        let factor = factor(&basis, &data, smoothing, energy, &pool)?;
+        let right_side = RightSide::new(&basis, data, &pool);
+        let knots = |grid: &UniformGrid, axis| {
+            grid.knot_vector().map_err(|_| FitError::DegenerateRange { axis, at: grid.start })
+        };
+        let knots = [knots(&grid[0], 'u')?, knots(&grid[1], 'v')?];
+        let region = Region { data_box: Some(data_box), trims: trims(mesh, &uv, &knots) };
+        Ok(Self {
+            uv,
+            known,
+            basis,
+            knots,
+            region,
+            right_side,
+            factor,
+            smoothing,
+            tolerance: options.tolerance,
+            map_remarks: map.remarks,
+            pool,
+            scratch: Mutex::default(),
+        })
+    }
+
+    /// Number of nodes, those without values included.
+    pub fn node_count(&self) -> usize {
+        self.uv.len()
+    }
+
+    /// The (u,v) of the nodes.
+    pub fn parameters(&self) -> &[DVec2] {
+        &self.uv
+    }
+
+    /// Knots along u and v.
+    pub fn grid(&self) -> [usize; 2] {
+        [self.basis.u.grid.count, self.basis.v.grid.count]
+    }
+
+    /// Fits rows of `dim` numbers, one a node.
+    pub fn fit(&self, values: &[f64], dim: usize) -> Result<TensorSurface, FitError> {
+        self.check(values, dim)?;
+        self.with_scratch(dim, |scratch| {
+            self.solve(values, dim, scratch);
+            let [u, v] = self.knots.clone();
+            let surface = TensorSurface::new(dim, u, v, scratch.control_points.clone(), None);
+            let mut surface = surface.map_err(|_| FitError::Singular)?;
+            *surface.region_mut() = self.region.clone();
+            Ok(surface)
+        })
+    }
+
+    /// Turns a surface of [`FieldFitter::fit`] into that of other values, in its place: no memory is asked for
+    /// that grows with the nodes or the grid, once a field of this `dim` has been fitted.
+    pub fn update(&self, surface: &mut TensorSurface, values: &[f64], dim: usize) -> Result<(), FitError> {
+        self.check(values, dim)?;
+        let [u, v] = &self.knots;
+        let is_ours = surface.dim() == dim
+            && surface.weights().is_none()
+            && surface.knots(Axis::U) == u
+            && surface.knots(Axis::V) == v;
+        if !is_ours {
+            return Err(FitError::OtherGrid);
+        }
+        self.with_scratch(dim, |scratch| {
+            self.solve(values, dim, scratch);
+            surface.set_control_points(&scratch.control_points).map_err(|_| FitError::Singular)
+        })
+    }
+
+    /// Measures a surface against values.
+    pub fn measure(
+        &self,
+        surface: &TensorSurface,
+        values: &[f64],
+        dim: usize,
+    ) -> Result<FieldReport, FitError> {
+        let start = Instant::now();
+        self.check(values, dim)?;
+        let bounds = self.bounds(values, dim);
+        let (tolerance, raised) = self.tolerance.absolute(&bounds);
+        let errors = self.errors(surface, values, dim);
+        let mut remarks = self.map_remarks;
+        remarks.add_if(errors.max > tolerance, Remarks::TOLERANCE_NOT_MET);
+        remarks.add_if(raised, Remarks::TOLERANCE_RAISED);
+        let [grid_u, grid_v] = self.grid();
+        let fit = FitReport {
+            max_error: errors.max,
+            rms_error: errors.rms,
+            mean_error: errors.mean,
+            worst_index: errors.worst_index,
+            tolerance,
+            diagonal: bounds.diagonal(),
+            max_distance: f64::NAN,
+            grid_u,
+            grid_v,
+            coefficient_count: self.basis.len(),
+            smoothing: self.smoothing,
+            passes: 1,
+            stop: StopReason::FixedGrid,
+            seconds: start.elapsed().as_secs_f64(),
+            remarks,
+            ..FitReport::default()
+        };
+        Ok(FieldReport { fit, errors: errors.each })
+    }
+
+    fn solve(&self, values: &[f64], dim: usize, scratch: &mut Scratch) {
+        self.right_side.frame(values, dim, scratch);
+        self.right_side.assemble(values, dim, &self.basis, scratch, &self.pool);
+        self.factor.solve_in(&mut scratch.columns, dim, &mut scratch.memory);
+        scratch.write_control_points(&self.basis, dim);
+    }
+
+    /// Runs `work` with memory of an earlier call of the same `dim`, or new one.
+    fn with_scratch<R>(&self, dim: usize, work: impl FnOnce(&mut Scratch) -> R) -> R {
+        let kept = || self.scratch.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let found = {
+            let mut kept = kept();
+            kept.iter().position(|scratch| scratch.dim == dim).map(|place| kept.swap_remove(place))
+        };
+        let mut scratch = found
+            .unwrap_or_else(|| Scratch::new(&self.basis, &self.right_side, dim, self.factor.memory(dim)));
+        let result = work(&mut scratch);
+        kept().push(scratch);
+        result
+    }
+
+    fn check(&self, values: &[f64], dim: usize) -> Result<(), FitError> {
+        let Some(known) = &self.known else {
+            return check_values(self.uv.len(), values, dim, None);
+        };
+        if dim == 0 {
+            return Err(FitError::Option { option: "dim", value: 0.0, range: "at least 1" });
+        }
+        let expected = self.uv.len().saturating_mul(dim);
+        if values.len() != expected {
+            return Err(FitError::Count { what: "the values", count: values.len(), expected });
+        }
+        let is_finite = |node: usize| values[node * dim..][..dim].iter().all(|x| x.is_finite());
+        match known.iter().find(|&&node| !is_finite(node as usize)) {
+            Some(&node) => Err(FitError::ValuesNotFinite { index: node as usize }),
+            None => Ok(()),
+        }
+    }
+
+    fn bounds(&self, values: &[f64], dim: usize) -> Bounds {
+        match &self.known {
+            None => Bounds::of_rows(values, dim),
+            Some(known) => {
+                let rows: Vec<f64> =
+                    known.iter().flat_map(|&node| &values[node as usize * dim..][..dim]).copied().collect();
+                Bounds::of_rows(&rows, dim)
+            }
+        }
+    }
+
+    /// The errors of all nodes, NaN where there is no value; sums over the others.
+    fn errors(&self, surface: &TensorSurface, values: &[f64], dim: usize) -> DataErrors {
+        let Some(known) = &self.known else {
+            return data_errors(surface, &self.uv, values, &self.pool);
+        };
+        let uv: Vec<DVec2> = known.iter().map(|&node| self.uv[node as usize]).collect();
+        let rows: Vec<f64> =
+            known.iter().flat_map(|&node| &values[node as usize * dim..][..dim]).copied().collect();
+        let mut errors = data_errors(surface, &uv, &rows, &self.pool);
+        let mut each = vec![f64::NAN; self.uv.len()];
+        known.iter().zip(&errors.each).for_each(|(&node, &error)| each[node as usize] = error);
+        errors.worst_index = known[errors.worst_index] as usize;
+        errors.each = each;
+        errors
+    }
+}
+
+fn check(uv: &[DVec2], options: &FieldOptions) -> Result<(), FitError> {
+    let out_of_range = |option, value, range| Err(FitError::Option { option, value, range });
+    let (tolerance, smoothing) = (options.tolerance.value, options.smoothing);
+    if !(tolerance > 0.0 && tolerance.is_finite()) {
+        return out_of_range("tolerance", tolerance, "positive and finite");
+    }
+    if !(smoothing > 0.0 && smoothing.is_finite()) {
+        return out_of_range("smoothing", smoothing, "positive and finite");
+    }
+    if !(0.0..=10.0).contains(&options.buffer) {
+        return out_of_range("buffer", options.buffer, "between 0 and 10");
+    }
+    if let FieldGrid::Fixed(counts) = options.grid
+        && let Some(count) = counts.into_iter().find(|count| !(2..=LARGEST_GRID).contains(count))
+    {
+        return out_of_range("grid", count as f64, "between 2 and 8193");
+    }
+    if let Some(is_known) = options.is_known
+        && is_known.len() != uv.len()
+    {
+        return Err(FitError::Count { what: "the mask", count: is_known.len(), expected: uv.len() });
+    }
+    // weights are checked as those of any fit
+    check_values(uv.len(), &vec![0.0; uv.len()], 1, options.weights)
+}
+
+/// Most knots along one direction that may be asked for.
+const LARGEST_GRID: usize = 8193;
+
+fn known_nodes(uv: &[DVec2], options: &FieldOptions) -> Result<Option<Vec<u32>>, FitError> {
+    let Some(is_known) = options.is_known else { return Ok(None) };
+    let known: Vec<u32> = (0..uv.len() as u32).filter(|&node| is_known[node as usize]).collect();
+    if known.len() < 3 {
+        return Err(FitError::TooFew { count: known.len() });
+    }
+    Ok(Some(known))
+}
+
+fn choose_grid(
+    uv: &[DVec2],
+    mesh: Option<&Mesh>,
+    known_count: usize,
+    options: &FieldOptions,
+    control: &mut Control,
+) -> Result<([usize; 2], f64), FitError> {
+    match options.grid {
+        FieldGrid::Fixed(counts) => Ok((counts, options.smoothing)),
+        FieldGrid::Auto => {
+            let bearable = |count: usize| {
+                count <= LARGEST_AUTO_GRID && NODES_PER_COEFFICIENT * count * count <= known_count
+            };
+            let doubled = std::iter::successors(Some(2), |&count| Some(2 * count - 1));
+            let count = doubled.take_while(|&count| count == 2 || bearable(count)).last().unwrap_or(2);
+            Ok(([count; 2], options.smoothing))
+        }
+        FieldGrid::FoundFor(values, dim) => {
+            let found = find_grid(uv, mesh, values, dim, options, control)?;
+            Ok(([found.grid_u, found.grid_v], found.smoothing))
+        }
+    }
+}
+
+/// What the adaptive fit of a field says.
+fn find_grid(
+    uv: &[DVec2],
+    mesh: Option<&Mesh>,
+    values: &[f64],
+    dim: usize,
+    options: &FieldOptions,
+    control: &mut Control,
+) -> Result<FitReport, FitError> {
+    let adaptive = TensorOptions {
+        tolerance: options.tolerance,
+        ends: options.ends,
+        energy: options.energy,
+        buffer: options.buffer,
+        weights: options.weights,
+        regularize: Regularize::Never,
+        parameterize: options.parameterize,
+        ..TensorOptions::default()
+    };
+    if let Some(is_known) = options.is_known {
+        let expected = uv.len().saturating_mul(dim);
+        if values.len() != expected {
+            return Err(FitError::Count { what: "the values", count: values.len(), expected });
+        }
+        let nodes = || (0..uv.len()).filter(|&node| is_known[node]);
+        let known_uv: Vec<DVec2> = nodes().map(|node| uv[node]).collect();
+        let rows: Vec<f64> = nodes().flat_map(|node| &values[node * dim..][..dim]).copied().collect();
+        let weights: Option<Vec<f64>> =
+            options.weights.map(|weights| nodes().map(|node| weights[node]).collect());
+        let adaptive = TensorOptions { weights: weights.as_deref(), ..adaptive };
+        return Ok(fit_points(&known_uv, &rows, dim, &adaptive, control)?.report);
+    }
+    Ok(match mesh {
+        Some(mesh) if mesh.parameters().is_some() => fit_field(mesh, values, dim, &adaptive, control)?.report,
+        _ => fit_points(uv, values, dim, &adaptive, control)?.report,
+    })
+}
+
+fn factor(
+    basis: &TensorBasis,
+    data: &right_side::Data,
+    smoothing: f64,
+    energy: Energy,
+    pool: &Pool,
+) -> Result<Cholesky, FitError> {
+    let nothing = vec![0.0; data.uv.len()];
+    let samples = Samples { uv: &data.uv, values: &nothing, dim: 1, weights: Some(&data.weights) };
+    let equations = NormalEquations::assemble(*basis, &samples, pool);
+    equations.factor(&equations.analyse(), smoothing, energy).map_err(|_| FitError::Singular)
+}
+
+/// The boundary loops of the mesh in the parameter plane.
+fn trims(mesh: Option<&Mesh>, uv: &[DVec2], knots: &[KnotVector; 2]) -> Trims {
+    let loops = mesh.map_or(&[][..], |mesh| mesh.loops());
+    let loops = loops.iter().map(|nodes| nodes.iter().map(|&n| uv[n as usize]).collect()).collect();
+    let ((u0, u1), (v0, v1)) = (knots[0].domain(), knots[1].domain());
+    let domain = Domain { min: DVec2::new(u0, v0), max: DVec2::new(u1, v1) };
+    // parameters of nodes lie in the domain, and loops have three nodes at least
+    Trims::new(loops, &domain).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests;
