@@ -1,7 +1,7 @@
 """Evaluation of bicubic surfaces on one thread beside FITPACK, called through scipy.
 
-Nets and points are made as evaluate.cpp makes them. FITPACK knows scalars only: a point is three calls. Both sides
-must agree to 1e-12 before anything is timed.
+Nets and points are made as evaluate.cpp makes them. FITPACK knows scalars only: a point is three calls. Both
+sides must agree to 1e-12 before anything is timed.
 
 Usage: evaluate_fitpack.py libplanish.so
 """

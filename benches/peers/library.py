@@ -86,7 +86,6 @@ def doubles(array):
 class Library:
     def __init__(self, path):
         self.planish = ctypes.CDLL(path)
-        self.planish.planish_surface_coefficient_count.restype = c_size_t
 
     def options(self, record, init, **changes):
         options = record()
@@ -145,9 +144,6 @@ class Surface:
     def __del__(self):
         self.library.planish.planish_surface_free(self.handle)
 
-    def control_point_count(self):
-        return self.library.planish.planish_surface_coefficient_count(self.handle)
-
     def eval(self, uv, out):
         status = self.library.planish.planish_surface_eval(
             self.handle, doubles(uv), c_size_t(len(uv)), byref(self.options), doubles(out))
@@ -161,7 +157,7 @@ class Surface:
 
 
 def race(contenders, clock=time.process_time):
-    """Seconds of each contender, sorted. Each round lets everyone run once, so that a slow minute is everyone's."""
+    """Seconds of each contender, sorted. Each round lets everyone run once: a slow minute is everyone's."""
     seconds = [[] for _ in contenders]
     for _ in range(RUNS):
         for run, list_of in zip(contenders, seconds):

@@ -1,9 +1,9 @@
 // Closest points on a bicubic surface on one thread beside OpenCASCADE and SISL.
 //
 // The surface has 65 x 65 knots, waves and ripples. Points lie 1e-3 of the diagonal off it, over the inner 96% of
-// either direction: OpenCASCADE looks for feet of perpendiculars only, so the border is left out. The nearest place
-// anywhere is one contest, the one beside a start is the other. The start is the place the point was made from,
-// moved by up to half a span along u and along v.
+// either direction: OpenCASCADE looks for feet of perpendiculars only, so the border is left out. The nearest
+// place anywhere is one contest, the one beside a start is the other. The start is the place the point was made
+// from, moved by up to half a span along u and along v.
 #include "race.hpp"
 
 #include <planish.hpp>
@@ -192,8 +192,8 @@ class Arena {
   }
 
  private:
-  // Compares distances, then times. A peer may find a farther place, and the count says so; none may find a nearer
-  // one.
+  // Compares distances, then times. A peer may find a farther place, and the count says so; none may find a
+  // nearer one.
   void finish(const std::string &what, const std::vector<race::Contender> &contenders,
               const std::vector<const std::vector<double> *> &distances) {
     for (const race::Contender &contender : contenders) contender.run();

@@ -1,8 +1,8 @@
 """Turns what the comparisons print into Markdown tables.
 
-Lines are fields between tabs: `line` TEXT, `agree` NET KNOTS JOB WHO DIFFERENCE, `found` JOB WHO COUNTS..., `rate` NET
-KNOTS JOB WHO MEDIAN LEAST LARGEST in million points a second, `table` TITLE, `row` CELLS... (the first one is the
-head).
+Lines are fields between tabs: `line` TEXT, `agree` NET KNOTS JOB WHO DIFFERENCE, `found` JOB WHO COUNTS...,
+`rate` NET KNOTS JOB WHO MEDIAN LEAST LARGEST in million points a second, `table` TITLE, `row` CELLS... (the first
+one is the head).
 
 Usage: tables.py <RESULTS
 """
@@ -39,7 +39,8 @@ def print_head(cells):
 
 
 def print_evaluation(races):
-    print_head(["net", "knots", "job", "planish", "SISL", "OpenCASCADE", "FITPACK", "ours / fastest peer", "goal"])
+    peers = ["SISL", "OpenCASCADE", "FITPACK"]
+    print_head(["net", "knots", "job", "planish", *peers, "ours / fastest peer", "goal"])
     for (net, knots, job), runs in races.items():
         if job not in GOALS:
             continue
