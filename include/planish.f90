@@ -19,8 +19,9 @@
 !> extent: uv(5,n) holds n points, u and v first. Sizes come from the arrays; strides and pointers of the options
 !> from the arguments. Counts that come back are integer(c_size_t).
 !>
-!> Indices count from 1: nodes, triangles, loops, trims, patches, control curves and their knots, worst_index,
-!> twisted_row, corners, planish_error_index(). Only the sentences of planish_error_message() count as C does, from 0.
+!> Indices count from 1: nodes, triangles, loops, trims, patches, control curves and their knots, cells, vertices,
+!> worst_index, twisted_row, corners, planish_error_index(). Only the sentences of planish_error_message() and the
+!> addresses of cells count as C does, from 0: the halves of cell i of a level are 2 i and 2 i + 1 of the next.
 !>
 !> Errors. Calls end with (..., stat, errmsg), both optional. stat receives a PLANISH_STATUS: negative is an error
 !> and nothing has been changed, positive a success with a remark. errmsg receives the sentence of an error, else it
@@ -229,6 +230,26 @@ module planish
   integer(c_int32_t), parameter, public :: PLANISH_V_RULE_ENDPOINTS = 0
   !> As points at equal fractions of their lengths are on average
   integer(c_int32_t), parameter, public :: PLANISH_V_RULE_MEAN = 1
+
+  !> How the control points of a PHT-spline are estimated.
+  !> Least squares over all data with a weak bending energy: fewest coefficients
+  integer(c_int32_t), parameter, public :: PLANISH_PHT_ESTIMATOR_GLOBAL = 0
+  !> A quadratic fit around each datum, interpolated linearly (Deng et al., 2008): for comparison
+  integer(c_int32_t), parameter, public :: PLANISH_PHT_ESTIMATOR_LOCAL_QUADRATIC = 1
+  !> A weighted cubic fit around each vertex: no system to solve, for very large data
+  integer(c_int32_t), parameter, public :: PLANISH_PHT_ESTIMATOR_LOCAL_CUBIC = 2
+
+  !> Which basis functions control points of a PHT-spline belong to.
+  !> Of the cells at the birth of a vertex (Deng et al., 2008): independent of later splits
+  integer(c_int32_t), parameter, public :: PLANISH_PHT_BASIS_CANONICAL = 0
+  !> Of the widest cell of a vertex's support on each side: well conditioned whatever the levels
+  integer(c_int32_t), parameter, public :: PLANISH_PHT_BASIS_SUPPORT_SIZED = 1
+
+  !> An edge of the domain.
+  integer(c_int32_t), parameter, public :: PLANISH_BORDER_SIDE_LOW_U = 0 !! Least u
+  integer(c_int32_t), parameter, public :: PLANISH_BORDER_SIDE_HIGH_U = 1 !! Largest u
+  integer(c_int32_t), parameter, public :: PLANISH_BORDER_SIDE_LOW_V = 2 !! Least v
+  integer(c_int32_t), parameter, public :: PLANISH_BORDER_SIDE_HIGH_V = 3 !! Largest v
 
   !> The application protocol of a STEP file.
   !> AP214, automotive design: read by every CAD system
@@ -585,11 +606,52 @@ module planish
     integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 for all cores
   end type
 
+  ! PHT-spline
+
+  !> Options of PHT fits. A datum is a node of the mesh, or a point; a sample is a datum, or the middle of a triangle.
+  type, bind(c), public :: planish_pht_options
+    integer(c_size_t) :: struct_size = 8 * word + 2 * 8 + 12 * 4
+    !> The largest error allowed at the data, positive, measured in tolerance_scale
+    real(c_double) :: tolerance = 1e-3_c_double
+    real(c_double) :: smoothing = 1e-3_c_double !! Weight of the bending energy of each cell, mapped to the unit cell
+    type(c_ptr) :: parameterize = c_null_ptr !! The argument parameterize
+    type(c_ptr) :: weights = c_null_ptr !! The argument weights
+    type(c_funptr) :: progress = c_null_funptr !! The argument progress
+    type(c_ptr) :: user = c_null_ptr !! Set with progress
+    type(c_ptr) :: out_parameters = c_null_ptr !! The argument parameters
+    type(c_ptr) :: out_errors = c_null_ptr !! The argument errors
+    integer(c_size_t) :: max_cells = 200000 !! Most cells, at least the initial ones
+    integer(c_int32_t) :: tolerance_scale = 0 !! A planish_tolerance_scale
+    integer(c_int32_t) :: estimator = 0 !! A planish_pht_estimator
+    integer(c_int32_t) :: regularize = 0 !! A planish_regularize
+    integer(c_int32_t) :: grid_u = 1 !! Cells along u to start from, 1 to 4095
+    integer(c_int32_t) :: grid_v = 1 !! Cells along v to start from, 1 to 4095
+    integer(c_int32_t) :: max_level = 12 !! Deepest level of a cell, at most 20
+    integer(c_int32_t) :: min_samples = 2 !! A cell with fewer samples is not split, at least 1
+    integer(c_int32_t) :: grade = 1 !! Levels by which cells that share an edge may differ; 0 for any number
+    !> Sweeps of parameter correction in each round of the fit of a shape
+    integer(c_int32_t) :: correction_sweeps = 1
+    integer(c_int32_t) :: measure_distance = 0 !! 1 measures the closest-point distance of the nodes for the report
+    integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 for all cores
+    integer(c_int32_t) :: reserved = 0
+  end type
+
+  !> How a tensor surface becomes a PHT-spline.
+  type, bind(c), public :: planish_pht_convert_options
+    integer(c_size_t) :: struct_size = 2 * word + 1 * 8 + 2 * 4
+    !> Largest distance at equal parameters, in model units; 0 takes all knot lines, which is exact up to degree 3
+    real(c_double) :: tolerance = 0
+    integer(c_size_t) :: max_cells = 200000 !! Most cells; with more the call fails
+    integer(c_int32_t) :: max_level = 12 !! Deepest level of a cell, at most 20
+    integer(c_int32_t) :: reserved = 0
+  end type
+
   !> Puts a record back to the defaults that the library has: `call planish_options_init(options)`.
   interface planish_options_init
     module procedure mesh_options_init, parameterize_options_init, eval_options_init, tensor_options_init
     module procedure tessellate_options_init, project_options_init, deviation_options_init
     module procedure vtk_options_init, step_options_init, convert_options_init, skin_options_init
+    module procedure pht_options_init, pht_convert_options_init
   end interface
 
   abstract interface
@@ -744,6 +806,16 @@ module planish
     module procedure tensor_fit_field_rows, tensor_fit_field_scalars
   end interface
 
+  !> Fits a PHT-spline to values(dim,n), or with dim = 1 values(n), at parameters uv(2,n).
+  interface planish_pht_fit_points
+    module procedure pht_fit_points_rows, pht_fit_points_scalars
+  end interface
+
+  !> Fits a PHT-spline to values(dim,n), or with dim = 1 values(n), on the nodes of a mesh, over its parameters.
+  interface planish_pht_fit_field
+    module procedure pht_fit_field_rows, pht_fit_field_scalars
+  end interface
+
   public :: planish_version, planish_status_name, planish_error_message, planish_error_index
   public :: planish_options_init, planish_progress
   public :: planish_tensor_fit, planish_tensor_fit_points, planish_tensor_fit_field, planish_tensor_new
@@ -755,6 +827,13 @@ module planish
   public :: planish_tspline_curve_count, planish_tspline_clone_curve
   public :: planish_tspline_knot_count, planish_tspline_copy_knots
   public :: planish_tspline_insert_knot_u, planish_tspline_insert_knot_v, planish_tspline_remove_knot_u
+  public :: planish_pht_fit, planish_pht_fit_points, planish_pht_fit_field, planish_pht_new
+  public :: planish_pht_split, planish_pht_merge, planish_pht_simplify, planish_pht_refine_region
+  public :: planish_pht_from_surface, planish_pht_to_tensor_patches, planish_pht_stitch
+  public :: planish_pht_cell_count, planish_pht_vertex_count, planish_pht_hanging_count, planish_pht_width
+  public :: planish_pht_copy_cells, planish_pht_copy_vertices, planish_pht_copy_hanging, planish_pht_copy_neighbours
+  public :: planish_pht_copy_data, planish_pht_set_data, planish_pht_copy_control_points
+  public :: planish_pht_set_control_points, planish_pht_copy_extraction, planish_pht_cell_at
 
   ! ---------------------------------------------------------------------------------------------------------
   ! The functions of planish.h, in its order. NULL is an absent argument. A new one wants its interface here, its
@@ -1663,6 +1742,255 @@ module planish
       real(c_double), value :: tolerance
       real(c_double), intent(inout), optional :: out_error
     end function
+
+    ! PHT-spline
+
+    integer(c_int) function c_pht_options_init(options, struct_size) bind(c, name="planish_pht_options_init")
+      import
+      implicit none
+      type(planish_pht_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_pht_fit(mesh, options, out_surface, out_report) bind(c, name="planish_pht_fit")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      type(planish_pht_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+      type(planish_fit_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_pht_fit_points( &
+        uv, values, count, dim, options, out_surface, out_report) bind(c, name="planish_pht_fit_points")
+      import
+      implicit none
+      real(c_double), intent(in) :: uv(*), values(*)
+      integer(c_size_t), value :: count, dim
+      type(planish_pht_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+      type(planish_fit_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_pht_fit_field( &
+        mesh, values, count, dim, options, out_surface, out_report) bind(c, name="planish_pht_fit_field")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      real(c_double), intent(in) :: values(*)
+      integer(c_size_t), value :: count, dim
+      type(planish_pht_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+      type(planish_fit_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_pht_new( &
+        dim, is_rational, lines_u, line_count_u, lines_v, line_count_v, cells, split_count, data, data_count, &
+        out_surface) bind(c, name="planish_pht_new")
+      import
+      implicit none
+      integer(c_size_t), value :: dim
+      integer(c_int32_t), value :: is_rational
+      real(c_double), intent(in) :: lines_u(*)
+      integer(c_size_t), value :: line_count_u
+      real(c_double), intent(in) :: lines_v(*)
+      integer(c_size_t), value :: line_count_v
+      integer(c_int32_t), intent(in) :: cells(*)
+      integer(c_size_t), value :: split_count
+      real(c_double), intent(in), optional :: data(*)
+      integer(c_size_t), value :: data_count
+      type(c_ptr), intent(inout) :: out_surface
+    end function
+
+    integer(c_int) function c_pht_split(surface, cells, count) bind(c, name="planish_pht_split")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), intent(in) :: cells(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_pht_merge(surface, cells, count) bind(c, name="planish_pht_merge")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), intent(in) :: cells(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_pht_simplify(surface, tolerance, out_deviation) bind(c, name="planish_pht_simplify")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), value :: tolerance
+      real(c_double), intent(inout), optional :: out_deviation
+    end function
+
+    integer(c_int) function c_pht_refine_region( &
+        surface, region, level, max_cells) bind(c, name="planish_pht_refine_region")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(in) :: region(*)
+      integer(c_int32_t), value :: level
+      integer(c_size_t), value :: max_cells
+    end function
+
+    integer(c_int) function c_pht_convert_options_init( &
+        options, struct_size) bind(c, name="planish_pht_convert_options_init")
+      import
+      implicit none
+      type(planish_pht_convert_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_pht_from_surface(surface, options, out_surface) bind(c, name="planish_pht_from_surface")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      type(planish_pht_convert_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+    end function
+
+    integer(c_int) function c_pht_to_tensor_patches( &
+        surface, sigma, out_surfaces, count, out_count) bind(c, name="planish_pht_to_tensor_patches")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), value :: sigma
+      type(c_ptr), intent(inout), optional :: out_surfaces(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), intent(inout) :: out_count
+    end function
+
+    integer(c_int) function c_pht_stitch( &
+        first, first_side, second, second_side, is_reversed) bind(c, name="planish_pht_stitch")
+      import
+      implicit none
+      type(c_ptr), value :: first
+      integer(c_int32_t), value :: first_side
+      type(c_ptr), value :: second
+      integer(c_int32_t), value :: second_side, is_reversed
+    end function
+
+    pure integer(c_size_t) function c_pht_cell_count(surface) bind(c, name="planish_pht_cell_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    pure integer(c_size_t) function c_pht_vertex_count(surface) bind(c, name="planish_pht_vertex_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    pure integer(c_size_t) function c_pht_hanging_count(surface) bind(c, name="planish_pht_hanging_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    pure integer(c_size_t) function c_pht_width(surface) bind(c, name="planish_pht_width")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    integer(c_int) function c_pht_copy_cells(surface, out_cells, count) bind(c, name="planish_pht_copy_cells")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), intent(inout) :: out_cells(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_pht_copy_vertices(surface, out_uv, count) bind(c, name="planish_pht_copy_vertices")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(inout) :: out_uv(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_pht_copy_hanging( &
+        surface, out_uv, out_hosts, count) bind(c, name="planish_pht_copy_hanging")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(inout), optional :: out_uv(*)
+      integer(c_int32_t), intent(inout), optional :: out_hosts(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_pht_copy_neighbours( &
+        surface, cell, out_cells, count, out_count) bind(c, name="planish_pht_copy_neighbours")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_size_t), value :: cell
+      integer(c_size_t), intent(inout), optional :: out_cells(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), intent(inout) :: out_count
+    end function
+
+    integer(c_int) function c_pht_copy_data(surface, out_data, count) bind(c, name="planish_pht_copy_data")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(inout) :: out_data(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_pht_set_data(surface, vertices, count, data) bind(c, name="planish_pht_set_data")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_size_t), intent(in) :: vertices(*)
+      integer(c_size_t), value :: count
+      real(c_double), intent(in) :: data(*)
+    end function
+
+    integer(c_int) function c_pht_copy_control_points( &
+        surface, basis, out_points, count) bind(c, name="planish_pht_copy_control_points")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), value :: basis
+      real(c_double), intent(inout) :: out_points(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_pht_set_control_points( &
+        surface, vertices, count, basis, points) bind(c, name="planish_pht_set_control_points")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_size_t), intent(in) :: vertices(*)
+      integer(c_size_t), value :: count
+      integer(c_int32_t), value :: basis
+      real(c_double), intent(in) :: points(*)
+    end function
+
+    integer(c_int) function c_pht_copy_extraction( &
+        surface, cell, basis, out_vertices, out_matrix, count, out_count) bind(c, name="planish_pht_copy_extraction")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_size_t), value :: cell
+      integer(c_int32_t), value :: basis
+      integer(c_int32_t), intent(inout), optional :: out_vertices(*)
+      real(c_double), intent(inout), optional :: out_matrix(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), intent(inout) :: out_count
+    end function
+
+    pure integer(c_size_t) function c_pht_cell_at(surface, u, v) bind(c, name="planish_pht_cell_at")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), value :: u, v
+    end function
   end interface
 
 contains
@@ -1892,6 +2220,16 @@ contains
   subroutine skin_options_init(options)
     type(planish_skin_options), intent(inout) :: options
     call conclude(c_skin_options_init(options, c_sizeof(options)))
+  end subroutine
+
+  subroutine pht_options_init(options)
+    type(planish_pht_options), intent(inout) :: options
+    call conclude(c_pht_options_init(options, c_sizeof(options)))
+  end subroutine
+
+  subroutine pht_convert_options_init(options)
+    type(planish_pht_convert_options), intent(inout) :: options
+    call conclude(c_pht_convert_options_init(options, c_sizeof(options)))
   end subroutine
 
   ! ---------------------------------------------------------------------------------------------------------
@@ -3516,5 +3854,467 @@ contains
     call conclude(c_tspline_remove_knot_u(surface%get(), curve - 1_c_size_t, knot - 1_c_size_t, tolerance, error), &
         stat, errmsg)
   end subroutine
+
+  ! ---------------------------------------------------------------------------------------------------------
+  ! PHT-spline
+  ! ---------------------------------------------------------------------------------------------------------
+
+  !> Fits a PHT-spline to the shape of a mesh; the optional arguments are those of planish_tensor_fit().
+  subroutine planish_pht_fit( &
+      mesh, surface, options, report, parameterize, weights, parameters, errors, progress, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: mesh
+    class(planish_surface_t), intent(inout) :: surface
+    type(planish_pht_options), intent(in), optional :: options
+    type(planish_fit_report), intent(inout), optional :: report
+    type(planish_parameterize_options), intent(in), optional :: parameterize
+    real(c_double), intent(in), optional, target, contiguous :: weights(:)
+    real(c_double), intent(inout), optional, target, contiguous :: parameters(:, :), errors(:)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_pht_options) :: call_options
+    type(planish_tensor_options) :: data
+    type(planish_parameterize_options), target :: map
+    type(listener), target :: user
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    if (present(options)) call_options = options
+    if (refuse_data(data, map, user, mesh%point_count(), parameterize, weights, parameters, errors, progress, &
+        stat, errmsg)) return
+    call lead(call_options, data)
+    status = c_pht_fit(mesh%get(), call_options, handle, report)
+    if (status >= 0) call surface%take(handle)
+    call conclude_fit(status, report, stat, errmsg)
+  end subroutine
+
+  subroutine pht_fit_points_rows( &
+      uv, values, surface, options, report, weights, parameters, errors, progress, stat, errmsg)
+    real(c_double), intent(in), contiguous :: uv(:, :), values(:, :)
+    class(planish_surface_t), intent(inout) :: surface
+    type(planish_pht_options), intent(in), optional :: options
+    type(planish_fit_report), intent(inout), optional :: report
+    real(c_double), intent(in), optional, target, contiguous :: weights(:)
+    real(c_double), intent(inout), optional, target, contiguous :: parameters(:, :), errors(:)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_pht_options) :: call_options
+    type(planish_tensor_options) :: data
+    type(planish_parameterize_options), target :: map
+    type(listener), target :: user
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    integer(c_size_t) :: count
+    count = size(uv, 2, c_size_t)
+    if (present(options)) call_options = options
+    if (refuse_extent(size(uv, 1, c_size_t), 2_c_size_t, "the first extent of uv", stat, errmsg)) return
+    if (refuse_extent(size(values, 2, c_size_t), count, "the number of values", stat, errmsg)) return
+    if (refuse_data(data, map, user, count, weights=weights, parameters=parameters, errors=errors, &
+        progress=progress, stat=stat, errmsg=errmsg)) return
+    call lead(call_options, data)
+    status = c_pht_fit_points(uv, values, count, size(values, 1, c_size_t), call_options, handle, report)
+    if (status >= 0) call surface%take(handle)
+    call conclude_fit(status, report, stat, errmsg)
+  end subroutine
+
+  subroutine pht_fit_points_scalars( &
+      uv, values, surface, options, report, weights, parameters, errors, progress, stat, errmsg)
+    real(c_double), intent(in), contiguous :: uv(:, :)
+    real(c_double), intent(in), contiguous, target :: values(:)
+    class(planish_surface_t), intent(inout) :: surface
+    type(planish_pht_options), intent(in), optional :: options
+    type(planish_fit_report), intent(inout), optional :: report
+    real(c_double), intent(in), optional, target, contiguous :: weights(:)
+    real(c_double), intent(inout), optional, target, contiguous :: parameters(:, :), errors(:)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    real(c_double), pointer, contiguous :: rows(:, :)
+    rows(1:1, 1:size(values)) => values
+    call pht_fit_points_rows( &
+        uv, rows, surface, options, report, weights, parameters, errors, progress, stat, errmsg)
+  end subroutine
+
+  subroutine pht_fit_field_rows( &
+      mesh, values, surface, options, report, parameterize, weights, parameters, errors, progress, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: mesh
+    real(c_double), intent(in), contiguous :: values(:, :)
+    class(planish_surface_t), intent(inout) :: surface
+    type(planish_pht_options), intent(in), optional :: options
+    type(planish_fit_report), intent(inout), optional :: report
+    type(planish_parameterize_options), intent(in), optional :: parameterize
+    real(c_double), intent(in), optional, target, contiguous :: weights(:)
+    real(c_double), intent(inout), optional, target, contiguous :: parameters(:, :), errors(:)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_pht_options) :: call_options
+    type(planish_tensor_options) :: data
+    type(planish_parameterize_options), target :: map
+    type(listener), target :: user
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    if (present(options)) call_options = options
+    if (refuse_data(data, map, user, mesh%point_count(), parameterize, weights, parameters, errors, progress, &
+        stat, errmsg)) return
+    call lead(call_options, data)
+    status = c_pht_fit_field( &
+        mesh%get(), values, size(values, 2, c_size_t), size(values, 1, c_size_t), call_options, handle, report)
+    if (status >= 0) call surface%take(handle)
+    call conclude_fit(status, report, stat, errmsg)
+  end subroutine
+
+  subroutine pht_fit_field_scalars( &
+      mesh, values, surface, options, report, parameterize, weights, parameters, errors, progress, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: mesh
+    real(c_double), intent(in), contiguous, target :: values(:)
+    class(planish_surface_t), intent(inout) :: surface
+    type(planish_pht_options), intent(in), optional :: options
+    type(planish_fit_report), intent(inout), optional :: report
+    type(planish_parameterize_options), intent(in), optional :: parameterize
+    real(c_double), intent(in), optional, target, contiguous :: weights(:)
+    real(c_double), intent(inout), optional, target, contiguous :: parameters(:, :), errors(:)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    real(c_double), pointer, contiguous :: rows(:, :)
+    rows(1:1, 1:size(values)) => values
+    call pht_fit_field_rows( &
+        mesh, rows, surface, options, report, parameterize, weights, parameters, errors, progress, stat, errmsg)
+  end subroutine
+
+  !> Leads options to the same arguments as those of a tensor fit.
+  subroutine lead(options, data)
+    type(planish_pht_options), intent(inout) :: options
+    type(planish_tensor_options), intent(in) :: data
+    options%parameterize = data%parameterize
+    options%weights = data%weights
+    options%progress = data%progress
+    options%user = data%user
+    options%out_parameters = data%out_parameters
+    options%out_errors = data%out_errors
+  end subroutine
+
+  !> Makes a PHT-spline of values of dim numbers from an initial grid and cells(3,n) to split, each level, i, j.
+  !>
+  !> data:        (width, 4, vertices), f, f_u, f_v, f_uv of each basis vertex; zeros, and weights of 1, without it.
+  !> is_rational: whether values are followed by a weight and multiplied by it.
+  subroutine planish_pht_new(dim, lines_u, lines_v, cells, surface, data, is_rational, stat, errmsg)
+    integer, intent(in) :: dim
+    real(c_double), intent(in), contiguous :: lines_u(:), lines_v(:)
+    integer(c_int32_t), intent(in), contiguous :: cells(:, :)
+    class(planish_surface_t), intent(inout) :: surface
+    real(c_double), intent(in), optional, contiguous :: data(:, :, :)
+    logical, intent(in), optional :: is_rational
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handle
+    integer(c_int32_t) :: with_weights
+    integer(c_size_t) :: data_count
+    integer(c_int) :: status
+    with_weights = 0
+    if (present(is_rational)) with_weights = merge(1_c_int32_t, 0_c_int32_t, is_rational)
+    data_count = 0
+    if (present(data)) then
+      if (refuse_extent(size(data, 1, c_size_t), int(dim + with_weights, c_size_t), "the first extent of data", &
+          stat, errmsg)) return
+      if (refuse_extent(size(data, 2, c_size_t), 4_c_size_t, "the second extent of data", stat, errmsg)) return
+      data_count = size(data, kind=c_size_t)
+    end if
+    if (refuse_extent(size(cells, 1, c_size_t), 3_c_size_t, "the first extent of cells", stat, errmsg)) return
+    if (refuse(dim < 1, PLANISH_STATUS_INVALID_ARGUMENT, "dim is less than 1", stat, errmsg)) return
+    status = c_pht_new(int(dim, c_size_t), with_weights, lines_u, size(lines_u, kind=c_size_t), lines_v, &
+        size(lines_v, kind=c_size_t), cells, size(cells, 2, c_size_t), data, data_count, handle)
+    if (status >= 0) call surface%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Splits cells(3,n), each level, i, j, at their middles; the surface stays the same.
+  subroutine planish_pht_split(surface, cells, stat, errmsg)
+    class(planish_surface_t), intent(inout) :: surface
+    integer(c_int32_t), intent(in), contiguous :: cells(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_extent(size(cells, 1, c_size_t), 3_c_size_t, "the first extent of cells", stat, errmsg)) return
+    call conclude(c_pht_split(surface%get(), cells, size(cells, 2, c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> Merges the quarters of cells(3,n), each level, i, j: the inverse of planish_pht_split().
+  subroutine planish_pht_merge(surface, cells, stat, errmsg)
+    class(planish_surface_t), intent(inout) :: surface
+    integer(c_int32_t), intent(in), contiguous :: cells(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_extent(size(cells, 1, c_size_t), 3_c_size_t, "the first extent of cells", stat, errmsg)) return
+    call conclude(c_pht_merge(surface%get(), cells, size(cells, 2, c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> Merges as many cells as it can while no point moves by more than a tolerance.
+  !>
+  !> deviation: receives a bound of how far a point has moved.
+  subroutine planish_pht_simplify(surface, tolerance, deviation, stat, errmsg)
+    class(planish_surface_t), intent(inout) :: surface
+    real(c_double), intent(in) :: tolerance
+    real(c_double), intent(inout), optional :: deviation
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call conclude(c_pht_simplify(surface%get(), tolerance, deviation), stat, errmsg)
+  end subroutine
+
+  !> Splits all cells that meet the inside of a region, least u, largest u, least v, largest v, until they have at
+  !> least some level; the surface stays the same. With more than max_cells cells the call fails.
+  subroutine planish_pht_refine_region(surface, region, level, max_cells, stat, errmsg)
+    class(planish_surface_t), intent(inout) :: surface
+    real(c_double), intent(in) :: region(4)
+    integer, intent(in) :: level, max_cells
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse(max_cells < 0, PLANISH_STATUS_INVALID_ARGUMENT, "max_cells is negative", stat, errmsg)) return
+    call conclude(c_pht_refine_region(surface%get(), region, int(level, c_int32_t), int(max_cells, c_size_t)), &
+        stat, errmsg)
+  end subroutine
+
+  !> Makes a PHT-spline of a tensor surface, with its weights and trims.
+  subroutine planish_pht_from_surface(surface, pht, options, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    class(planish_surface_t), intent(inout) :: pht
+    type(planish_pht_convert_options), intent(in), optional :: options
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    status = c_pht_from_surface(surface%get(), options, handle)
+    if (status >= 0) call pht%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Makes tensor surfaces that together are a PHT-spline, each over cells whose levels differ by at most sigma.
+  subroutine planish_pht_to_tensor_patches(surface, sigma, patches, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    integer, intent(in) :: sigma
+    type(planish_surface_t), allocatable, intent(inout) :: patches(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr), allocatable :: handles(:)
+    integer(c_size_t) :: count
+    integer(c_int) :: status
+    integer :: i
+    status = c_pht_to_tensor_patches(surface%get(), int(sigma, c_int32_t), count=0_c_size_t, out_count=count)
+    if (status >= 0) then
+      allocate (handles(count))
+      status = c_pht_to_tensor_patches(surface%get(), int(sigma, c_int32_t), handles, count, count)
+    end if
+    if (status >= 0) then
+      if (allocated(patches)) deallocate (patches)
+      allocate (patches(size(handles)))
+      do i = 1, size(handles)
+        call patches(i)%take(handles(i))
+      end do
+    end if
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Makes two PHT-splines meet with common tangents along an edge of each, a PLANISH_BORDER_SIDE.
+  !>
+  !> is_reversed: whether the edges run in opposite directions; they do not without it.
+  subroutine planish_pht_stitch(first, first_side, second, second_side, is_reversed, stat, errmsg)
+    class(planish_surface_t), intent(inout) :: first, second
+    integer(c_int32_t), intent(in) :: first_side, second_side
+    logical, intent(in), optional :: is_reversed
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: turned
+    turned = 0
+    if (present(is_reversed)) turned = merge(1_c_int32_t, 0_c_int32_t, is_reversed)
+    call conclude(c_pht_stitch(first%get(), first_side, second%get(), second_side, turned), stat, errmsg)
+  end subroutine
+
+  !> Number of cells. Cell k is patch k of copy_patch().
+  pure integer(c_size_t) function planish_pht_cell_count(surface) result(count)
+    class(planish_surface_t), intent(in) :: surface
+    count = c_pht_cell_count(surface%get())
+  end function
+
+  !> Number of basis vertices, each with four control points.
+  pure integer(c_size_t) function planish_pht_vertex_count(surface) result(count)
+    class(planish_surface_t), intent(in) :: surface
+    count = c_pht_vertex_count(surface%get())
+  end function
+
+  !> Number of T-vertices: they lie inside an edge of a cell, their host, and have its data.
+  pure integer(c_size_t) function planish_pht_hanging_count(surface) result(count)
+    class(planish_surface_t), intent(in) :: surface
+    count = c_pht_hanging_count(surface%get())
+  end function
+
+  !> Numbers of a row of data: dim, or dim + 1 with weights.
+  pure integer(c_size_t) function planish_pht_width(surface) result(width)
+    class(planish_surface_t), intent(in) :: surface
+    width = c_pht_width(surface%get())
+  end function
+
+  !> cells(3,n), each level, i, j: n at least planish_pht_cell_count().
+  subroutine planish_pht_copy_cells(surface, cells, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    integer(c_int32_t), intent(inout), contiguous :: cells(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_extent(size(cells, 1, c_size_t), 3_c_size_t, "the first extent of cells", stat, errmsg)) return
+    call conclude(c_pht_copy_cells(surface%get(), cells, size(cells, 2, c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> uv(2,n) of the basis vertices, ordered along u, then along v: n at least planish_pht_vertex_count().
+  subroutine planish_pht_copy_vertices(surface, uv, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    real(c_double), intent(inout), contiguous :: uv(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_extent(size(uv, 1, c_size_t), 2_c_size_t, "the first extent of uv", stat, errmsg)) return
+    call conclude(c_pht_copy_vertices(surface%get(), uv, size(uv, 2, c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> uv(2,n) of the T-vertices and the cells that host them, which count from 1: n at least
+  !> planish_pht_hanging_count().
+  subroutine planish_pht_copy_hanging(surface, uv, hosts, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    real(c_double), intent(inout), contiguous :: uv(:, :)
+    integer(c_int32_t), intent(inout), contiguous :: hosts(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_size_t) :: count
+    integer(c_int) :: status
+    if (refuse_extent(size(uv, 1, c_size_t), 2_c_size_t, "the first extent of uv", stat, errmsg)) return
+    count = planish_pht_hanging_count(surface)
+    status = c_pht_copy_hanging(surface%get(), uv, hosts, min(size(uv, 2, c_size_t), size(hosts, kind=c_size_t)))
+    if (status >= 0) hosts(:count) = hosts(:count) + 1
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> The cells that share a part of an edge with a cell: those at its least u, largest u, least v and largest v, in
+  !> order along each; cells count from 1.
+  subroutine planish_pht_copy_neighbours(surface, cell, cells, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    integer, intent(in) :: cell
+    integer(c_size_t), allocatable, intent(inout) :: cells(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_size_t) :: count
+    integer(c_int) :: status
+    if (refuse(cell < 1, PLANISH_STATUS_INDEX, "cells count from 1", stat, errmsg)) return
+    status = c_pht_copy_neighbours(surface%get(), cell - 1_c_size_t, count=0_c_size_t, out_count=count)
+    if (status >= 0) then
+      if (allocated(cells)) deallocate (cells)
+      allocate (cells(count))
+      status = c_pht_copy_neighbours(surface%get(), cell - 1_c_size_t, cells, count, count)
+      cells = cells + 1
+    end if
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> data(width, 4, n), f, f_u, f_v, f_uv of each basis vertex; with weights those of (w x, .., w). n at least
+  !> planish_pht_vertex_count().
+  subroutine planish_pht_copy_data(surface, data, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    real(c_double), intent(inout), contiguous :: data(:, :, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_quadruples(surface, shape(data, c_size_t), "data", stat, errmsg)) return
+    call conclude(c_pht_copy_data(surface%get(), data, size(data, 3, c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> Replaces the data(width, 4, n) of some basis vertices, which count from 1.
+  subroutine planish_pht_set_data(surface, vertices, data, stat, errmsg)
+    class(planish_surface_t), intent(inout) :: surface
+    integer, intent(in) :: vertices(:)
+    real(c_double), intent(in), contiguous :: data(:, :, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_quadruples(surface, shape(data, c_size_t), "data", stat, errmsg)) return
+    if (refuse_vertices(vertices, size(data, 3, c_size_t), "data", stat, errmsg)) return
+    call conclude(c_pht_set_data(surface%get(), vertices - 1_c_size_t, size(vertices, kind=c_size_t), data), &
+        stat, errmsg)
+  end subroutine
+
+  !> points(width, 4, n), towards less or more u, then v, --, +-, -+, ++ of each basis vertex, in a PLANISH_PHT_BASIS;
+  !> with weights those of (w x, .., w). n at least planish_pht_vertex_count().
+  subroutine planish_pht_copy_control_points(surface, basis, points, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    integer(c_int32_t), intent(in) :: basis
+    real(c_double), intent(inout), contiguous :: points(:, :, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_quadruples(surface, shape(points, c_size_t), "points", stat, errmsg)) return
+    call conclude(c_pht_copy_control_points(surface%get(), basis, points, size(points, 3, c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> Replaces the control points(width, 4, n) of some basis vertices, which count from 1.
+  subroutine planish_pht_set_control_points(surface, vertices, basis, points, stat, errmsg)
+    class(planish_surface_t), intent(inout) :: surface
+    integer, intent(in) :: vertices(:)
+    integer(c_int32_t), intent(in) :: basis
+    real(c_double), intent(in), contiguous :: points(:, :, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_quadruples(surface, shape(points, c_size_t), "points", stat, errmsg)) return
+    if (refuse_vertices(vertices, size(points, 3, c_size_t), "points", stat, errmsg)) return
+    call conclude(c_pht_set_control_points(surface%get(), vertices - 1_c_size_t, size(vertices, kind=c_size_t), &
+        basis, points), stat, errmsg)
+  end subroutine
+
+  !> Refuses an array that has not four rows of the surface's width for each vertex.
+  logical function refuse_quadruples(surface, extents, name, stat, errmsg) result(refused)
+    class(planish_surface_t), intent(in) :: surface
+    integer(c_size_t), intent(in) :: extents(3)
+    character(*), intent(in) :: name
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    refused = refuse_dim(extents(1), planish_pht_width(surface), name, stat, errmsg)
+    if (.not. refused) refused = refuse_extent(extents(2), 4_c_size_t, "the second extent of " // name, stat, errmsg)
+  end function
+
+  !> Refuses vertices that do not count from 1, or are not as many as their rows.
+  logical function refuse_vertices(vertices, row_count, name, stat, errmsg) result(refused)
+    integer, intent(in) :: vertices(:)
+    integer(c_size_t), intent(in) :: row_count
+    character(*), intent(in) :: name
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    refused = refuse(any(vertices < 1), PLANISH_STATUS_INDEX, "vertices count from 1", stat, errmsg)
+    if (refused) return
+    refused = refuse_extent(row_count, size(vertices, kind=c_size_t), "the third extent of " // name, stat, errmsg)
+  end function
+
+  !> The operator that makes the Bezier ordinates of a cell from the control points that act on it, those of
+  !> vertices(n): ordinates(:,k) are the sums of matrix(q,i,k) times control point q of vertex i, matrix(4,n,16).
+  !> Cells and vertices count from 1.
+  subroutine planish_pht_copy_extraction(surface, cell, basis, vertices, matrix, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    integer, intent(in) :: cell
+    integer(c_int32_t), intent(in) :: basis
+    integer(c_int32_t), allocatable, intent(inout) :: vertices(:)
+    real(c_double), allocatable, intent(inout) :: matrix(:, :, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_size_t) :: count
+    integer(c_int) :: status
+    if (refuse(cell < 1, PLANISH_STATUS_INDEX, "cells count from 1", stat, errmsg)) return
+    status = c_pht_copy_extraction(surface%get(), cell - 1_c_size_t, basis, count=0_c_size_t, out_count=count)
+    if (status >= 0) then
+      if (allocated(vertices)) deallocate (vertices)
+      if (allocated(matrix)) deallocate (matrix)
+      allocate (vertices(count), matrix(4, count, 16))
+      status = c_pht_copy_extraction(surface%get(), cell - 1_c_size_t, basis, vertices, matrix, count, count)
+      vertices = vertices + 1
+    end if
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> The number of the cell that has (u,v), beyond the domain of the nearest one; 0 if there are no cells.
+  pure integer(c_size_t) function planish_pht_cell_at(surface, u, v) result(cell)
+    class(planish_surface_t), intent(in) :: surface
+    real(c_double), intent(in) :: u, v
+    cell = 0
+    if (planish_pht_cell_count(surface) > 0) cell = c_pht_cell_at(surface%get(), u, v) + 1
+  end function
 
 end module
