@@ -606,6 +606,14 @@ typedef enum planish_unit {
 typedef struct planish_curve planish_curve;
 
 /**
+ * Fits fields on the nodes of one mesh, or at the same parameters, again and again: grid, factorization and threads
+ * are kept. Made by planish_field_fitter_new(), destroyed by planish_field_fitter_free().
+ *
+ * Calls that take it const may run at once on any threads.
+ */
+typedef struct planish_field_fitter planish_field_fitter;
+
+/**
  * A triangle mesh: manifold and consistently oriented, possibly with several components, holes and nodes
  * without triangles. Made by planish_mesh_new() and others, destroyed by planish_mesh_free().
  *
@@ -1147,6 +1155,83 @@ typedef struct planish_fit_report {
      */
     uint32_t reserved;
 } planish_fit_report;
+
+/**
+ * How fields are fitted. Fill with planish_field_options_init(), then change what you need. All pointers are borrowed
+ * for the call.
+ */
+typedef struct planish_field_options {
+    /**
+     * Set by planish_field_options_init().
+     */
+    size_t struct_size;
+    /**
+     * What reports compare the errors with, positive, measured in tolerance_scale. Default 1e-3.
+     */
+    double tolerance;
+    /**
+     * Weight of the bending energy, positive. Default 1e-6. Where sample_values choose the grid they choose it too.
+     */
+    double smoothing;
+    /**
+     * How far the knots reach beyond the nodes, as a fraction of their range, 0 to 10. Default 0.1.
+     */
+    double buffer;
+    /**
+     * How a mesh without parameters gets them; NULL (default) for the defaults. Not used for points.
+     */
+    const struct planish_parameterize_options *parameterize;
+    /**
+     * A positive weight for each node; NULL (default) for all 1.
+     */
+    const double *weights;
+    /**
+     * For each node 1 if fields have values there, 0 if not: those values are never looked at and may be NaN. NULL
+     * (default) for values at all nodes.
+     */
+    const uint8_t *mask;
+    /**
+     * A field for which grid and smoothing are found that meet the tolerance: sample_dim numbers for each node; NULL
+     * (default) for none. grid_u and grid_v must then be 0.
+     */
+    const double *sample_values;
+    /**
+     * Numbers of a value of sample_values.
+     */
+    size_t sample_dim;
+    /**
+     * Hears of the progress of making the fitter and may cancel; NULL (default) for nobody.
+     */
+    planish_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *user;
+    /**
+     * A planish_tolerance_scale. Default PLANISH_TOLERANCE_SCALE_RELATIVE.
+     */
+    uint32_t tolerance_scale;
+    /**
+     * A planish_ends. Default PLANISH_ENDS_NATURAL.
+     */
+    uint32_t ends;
+    /**
+     * A planish_energy. Default PLANISH_ENERGY_BEAM.
+     */
+    uint32_t energy;
+    /**
+     * Knots along u, 2 to 8193; 0 (default, then grid_v too) for as many as the nodes bear, at most 129.
+     */
+    uint32_t grid_u;
+    /**
+     * Knots along v, 2 to 8193; 0 (default, then grid_u too) for as many as the nodes bear, at most 129.
+     */
+    uint32_t grid_v;
+    /**
+     * Threads to keep, at most 1024; 0 (default) for all cores. Results do not depend on it.
+     */
+    uint32_t thread_count;
+} planish_field_options;
 
 /**
  * How good a tessellation is. Set struct_size to sizeof(planish_tessellate_report) before the call; filled as far
@@ -2652,6 +2737,176 @@ enum planish_status planish_tensor_split(const struct planish_surface *surface,
                                          double at,
                                          struct planish_surface **out_lower,
                                          struct planish_surface **out_upper);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options: not NULL.
+ * size:    sizeof(planish_field_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ */
+PLANISH_API
+enum planish_status planish_field_options_init(struct planish_field_options *options,
+                                               size_t size);
+
+/**
+ * Makes a fitter for fields on the nodes of a mesh, over its parameters or, if it has none, over those it is given
+ * here. It keeps what it needs; the mesh may go.
+ *
+ * mesh:       not NULL.
+ * options:    NULL for the defaults.
+ * out_fitter: receives a new fitter; destroy with planish_field_fitter_free().
+ * Returns PLANISH_STATUS_OK or an error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, too
+ * few nodes with values), PLANISH_STATUS_NOT_FINITE (a parameter, a weight, a value of sample_values; the index is the
+ * node), PLANISH_STATUS_TOPOLOGY (a mesh without parameters that is no disk: a closed one must be cut open first),
+ * PLANISH_STATUS_DEGENERATE (all nodes have the same u or v), PLANISH_STATUS_SINGULAR (the nodes do not determine a
+ * surface), PLANISH_STATUS_CANCELLED or PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_field_fitter_new(const struct planish_mesh *mesh,
+                                             const struct planish_field_options *options,
+                                             struct planish_field_fitter **out_fitter);
+
+/**
+ * Makes a fitter for fields at scattered parameters.
+ *
+ * uv:         count rows of u, v.
+ * count:      at least 3.
+ * options:    NULL for the defaults.
+ * out_fitter: receives a new fitter; destroy with planish_field_fitter_free().
+ * Returns what planish_field_fitter_new() returns, but for PLANISH_STATUS_TOPOLOGY.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_field_fitter_new_points(const double *uv,
+                                                    size_t count,
+                                                    const struct planish_field_options *options,
+                                                    struct planish_field_fitter **out_fitter);
+
+/**
+ * Destroys a fitter.
+ *
+ * fitter: from this library and not destroyed yet; NULL does nothing.
+ */
+PLANISH_API void planish_field_fitter_free(struct planish_field_fitter *fitter);
+
+/**
+ * Number of nodes, those without values included; 0 for NULL.
+ */
+PLANISH_API size_t planish_field_fitter_point_count(const struct planish_field_fitter *fitter);
+
+/**
+ * Knots of the grid.
+ *
+ * fitter:   not NULL.
+ * out_grid: receives 2 numbers: knots along u and v.
+ * Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_field_fitter_grid(const struct planish_field_fitter *fitter,
+                                              size_t *out_grid);
+
+/**
+ * Copies the (u,v) of the nodes.
+ *
+ * fitter: not NULL.
+ * out_uv: receives planish_field_fitter_point_count() rows of u, v.
+ * count:  rows that out_uv has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_field_fitter_copy_parameters(const struct planish_field_fitter *fitter,
+                                                         double *out_uv,
+                                                         size_t count);
+
+/**
+ * Fits a field.
+ *
+ * fitter:      not NULL.
+ * values:      count rows of dim numbers, one a node.
+ * count:       planish_field_fitter_point_count().
+ * dim:         numbers of a value, at least 1.
+ * out_surface: receives a new surface over the (u,v) of the nodes; destroy with planish_surface_free().
+ * out_report:  receives how good it is, measured on the surface; NULL for no report, which saves the measuring.
+ * Returns PLANISH_STATUS_OK, with a report also PLANISH_STATUS_TOLERANCE_NOT_MET, or an error:
+ * PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (count, dim), PLANISH_STATUS_NOT_FINITE (the index is
+ * the node), PLANISH_STATUS_SINGULAR (numbers overflow) or PLANISH_STATUS_TOO_LARGE.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_field_fitter_fit(const struct planish_field_fitter *fitter,
+                                             const double *values,
+                                             size_t count,
+                                             size_t dim,
+                                             struct planish_surface **out_surface,
+                                             struct planish_fit_report *out_report);
+
+/**
+ * Turns a surface of planish_field_fitter_fit() into the one of other values, in its place. Once a field of this dim
+ * has been fitted, no memory is asked for that grows with nodes or grid.
+ *
+ * fitter:  not NULL.
+ * surface: from this fitter, or of the same grid; changed.
+ * values:  count rows of dim numbers, one a node.
+ * count:   planish_field_fitter_point_count().
+ * dim:     planish_surface_dim() of the surface.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INVALID_ARGUMENT
+ * (count, dim, a surface of another grid), PLANISH_STATUS_NOT_FINITE (the index is the node) or
+ * PLANISH_STATUS_SINGULAR (numbers overflow).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_field_fitter_update(const struct planish_field_fitter *fitter,
+                                                struct planish_surface *surface,
+                                                const double *values,
+                                                size_t count,
+                                                size_t dim);
+
+/**
+ * The sum of tensor surfaces, each times a factor, exactly: a shape and its displacements, modes and their factors.
+ * All are polynomial, over the same domain and of the same dim; degrees and knots may differ.
+ *
+ * surfaces:    count surfaces.
+ * factors:     count factors; NULL for all 1.
+ * count:       at least 1.
+ * out_surface: receives a new surface with the trims of the first; destroy with planish_surface_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INVALID_ARGUMENT
+ * (count, or a surface does not fit the first; the index is the surface) or PLANISH_STATUS_NOT_FINITE (a factor, or
+ * the sum overflows; the index is the factor).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_tensor_combine(const struct planish_surface *const *surfaces,
+                                           const double *factors,
+                                           size_t count,
+                                           struct planish_surface **out_surface);
+
+/**
+ * The gradient in space of a field over the parameters of a shape: for each component the vector, tangential to the
+ * shape, that gives its change along the shape.
+ *
+ * shape:         not NULL, of dimension 3.
+ * field:         not NULL, over the same (u,v).
+ * uv:            count rows of u, v, inside both domains.
+ * count:         may be 0.
+ * thread_count:  threads to use, at most 1024; 0 for all cores.
+ * out_gradients: receives count times dim rows of 3 numbers, dim being that of the field; NaN where the shape has no
+ *                tangent plane.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension of shape,
+ * thread_count), PLANISH_STATUS_NOT_FINITE, PLANISH_STATUS_OUTSIDE (the index is the point for both) or
+ * PLANISH_STATUS_TOO_LARGE.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_field_gradient(const struct planish_surface *shape,
+                                                   const struct planish_surface *field,
+                                                   const double *uv,
+                                                   size_t count,
+                                                   uint32_t thread_count,
+                                                   double *out_gradients);
 
 /**
  * Fills options with the defaults.

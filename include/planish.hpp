@@ -144,6 +144,9 @@ inline planish_status init(planish_deviation_options &options) {
 inline planish_status init(planish_tessellate_options &options) {
   return planish_tessellate_options_init(&options, sizeof options);
 }
+inline planish_status init(planish_field_options &options) {
+  return planish_field_options_init(&options, sizeof options);
+}
 inline planish_status init(planish_convert_options &options) {
   return planish_convert_options_init(&options, sizeof options);
 }
@@ -224,6 +227,7 @@ struct destroy {
   void operator()(planish_mesh *mesh) const noexcept { planish_mesh_free(mesh); }
   void operator()(planish_surface *surface) const noexcept { planish_surface_free(surface); }
   void operator()(planish_curve *curve) const noexcept { planish_curve_free(curve); }
+  void operator()(planish_field_fitter *fitter) const noexcept { planish_field_fitter_free(fitter); }
 };
 
 } // namespace detail
@@ -1097,6 +1101,97 @@ inline surface tensor_new(std::size_t dim, std::uint32_t degree_u, std::uint32_t
                                      knots_v.count(), control_points.data(),
                                      weights.empty() ? nullptr : weights.data(), &made));
   return surface(made);
+}
+
+/// Fits fields on the nodes of one mesh, or at the same parameters, again and again.
+///
+/// Const members may run at once on any threads. It can be moved, not copied.
+class field_fitter {
+ public:
+  /// For fields on the nodes of a mesh.
+  explicit field_fitter(const mesh &mesh,
+                        const planish_field_options &options = defaults<planish_field_options>()) {
+    planish_field_fitter *made = nullptr;
+    detail::checked(planish_field_fitter_new(mesh.get(), &options, &made));
+    handle_.reset(made);
+  }
+
+  /// For fields at scattered parameters.
+  explicit field_fitter(const rows<double, 2> &uv,
+                        const planish_field_options &options = defaults<planish_field_options>()) {
+    planish_field_fitter *made = nullptr;
+    detail::checked(planish_field_fitter_new_points(uv.data(), uv.count(), &options, &made));
+    handle_.reset(made);
+  }
+
+  /// The handle, for calls of planish.h; it stays this object's.
+  const planish_field_fitter *get() const noexcept { return handle_.get(); }
+
+  /// Number of nodes.
+  std::size_t point_count() const noexcept { return planish_field_fitter_point_count(get()); }
+
+  /// Knots along u and v.
+  std::array<std::size_t, 2> grid() const {
+    std::array<std::size_t, 2> grid{};
+    detail::checked(planish_field_fitter_grid(get(), grid.data()));
+    return grid;
+  }
+
+  /// The (u,v) of the nodes.
+  std::vector<point2> parameters() const {
+    std::vector<point2> uv(point_count());
+    detail::checked(planish_field_fitter_copy_parameters(get(), detail::flat(uv), uv.size()));
+    return uv;
+  }
+
+  /// Fits rows of dim numbers, one a node, and measures the result.
+  fitted fit(const values<double> &field, std::size_t dim) const {
+    planish_surface *made = nullptr;
+    auto report = detail::sized<planish_fit_report>();
+    const planish_status status =
+        detail::checked(planish_field_fitter_fit(get(), field.data(), rows_of(field, dim), dim, &made, &report));
+    return {surface(made), report, status};
+  }
+
+  /// Turns a surface of fit() into that of other values, in its place, without measuring it.
+  void update(surface &surface, const values<double> &field, std::size_t dim) const {
+    detail::checked(planish_field_fitter_update(get(), surface.get(), field.data(), rows_of(field, dim), dim));
+  }
+
+ private:
+  static std::size_t rows_of(const values<double> &field, std::size_t dim) {
+    const std::size_t width = std::max<std::size_t>(dim, 1); // the call refuses 0
+    if (field.count() % width != 0) {
+      const std::string text = std::to_string(field.count()) + " numbers are not rows of " + std::to_string(width);
+      throw error(PLANISH_STATUS_INVALID_ARGUMENT, text, -1);
+    }
+    return field.count() / width;
+  }
+
+  std::unique_ptr<planish_field_fitter, detail::destroy> handle_;
+};
+
+/// The sum of polynomial tensor surfaces over one domain, each times its factor.
+inline surface combine(const std::vector<std::pair<double, const surface *>> &terms) {
+  std::vector<const planish_surface *> surfaces;
+  std::vector<double> factors;
+  for (const auto &[factor, term] : terms) {
+    factors.push_back(factor);
+    surfaces.push_back(term->get());
+  }
+  planish_surface *made = nullptr;
+  detail::checked(planish_tensor_combine(surfaces.data(), factors.data(), terms.size(), &made));
+  return surface(made);
+}
+
+/// The gradients in space of a field over the parameters of a shape: for each point a row of three numbers for each
+/// component of the field.
+inline std::vector<double> field_gradient(const surface &shape, const surface &field, const rows<double, 2> &uv,
+                                          std::uint32_t thread_count = 0) {
+  std::vector<double> gradients(3 * field.dim() * uv.count());
+  detail::checked(planish_surface_field_gradient(shape.get(), field.get(), uv.data(), uv.count(), thread_count,
+                                                 gradients.data()));
+  return gradients;
 }
 
 } // namespace planish

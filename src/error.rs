@@ -15,11 +15,12 @@ use crate::knots::KnotError;
 use crate::mesh::{CutError, MeshError, ReadError};
 use crate::parameterize::ParameterizeError;
 use crate::query::deviation::DeviationError;
+use crate::query::gradient::GradientError;
 use crate::query::project::ProjectError;
 use crate::query::tessellate::TessellateError;
 use crate::surface::evaluate::EvalError;
 use crate::surface::pht::PhtError;
-use crate::surface::tensor::TensorError;
+use crate::surface::tensor::{CombineError, TensorError};
 use crate::surface::tspline::TSplineError;
 use crate::surface::{ConvertError, TrimError};
 
@@ -97,6 +98,9 @@ pub enum Error {
     /// A surface cannot be measured against a mesh.
     #[error(transparent)]
     Deviation(#[from] DeviationError),
+    /// Gradients cannot be computed.
+    #[error(transparent)]
+    Gradient(#[from] GradientError),
     /// Points cannot be projected.
     #[error(transparent)]
     Project(#[from] ProjectError),
@@ -115,6 +119,9 @@ pub enum Error {
     /// A trim is not one.
     #[error(transparent)]
     Trim(#[from] TrimError),
+    /// Surfaces cannot be added.
+    #[error(transparent)]
+    Combine(#[from] CombineError),
     /// A surface cannot be converted.
     #[error(transparent)]
     Convert(#[from] ConvertError),
@@ -151,12 +158,14 @@ impl Error {
             Self::TSpline(error) => (error.kind(), error.index()),
             Self::Eval(error) => (error.kind(), error.index()),
             Self::Deviation(error) => (error.kind(), error.index()),
+            Self::Gradient(error) => (error.kind(), error.index()),
             Self::Project(error) => (error.kind(), error.index()),
             Self::Tessellate(error) => (error.kind(), None),
             Self::Export(error) => (error.kind(), None),
             Self::Step(error) => (error.kind(), error.index()),
             Self::Load(error) => (error.kind(), error.index()),
             Self::Trim(error) => (error.kind(), error.index()),
+            Self::Combine(error) => (error.kind(), error.index()),
             Self::Convert(error) => (error.kind(), None),
             Self::Cut(error) => (error.kind(), error.index()),
             Self::Cancelled(_) => (ErrorKind::Cancelled, None),

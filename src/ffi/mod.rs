@@ -16,6 +16,7 @@
 mod arguments;
 mod curve;
 mod export;
+mod field;
 mod guard;
 mod mesh;
 mod parameterize;
@@ -35,6 +36,7 @@ mod tspline;
 
 pub use curve::*;
 pub use export::*;
+pub use field::*;
 pub use mesh::*;
 pub use parameterize::*;
 pub use patch::*;

@@ -10,6 +10,22 @@ pub fn normal(su: DVec3, sv: DVec3) -> DVec3 {
     if length > 16.0 * f64::EPSILON * su.length() * sv.length() { n / length } else { DVec3::NAN }
 }
 
+/// The gradient in space of a number with the derivatives `fu`, `fv` on a surface with the tangents `su`, `sv`: the
+/// tangent vector that gives the change in each tangent direction; NaN where the tangents are parallel or zero.
+///
+/// With the metric `E = Su.Su, F = Su.Sv, G = Sv.Sv` (M. do Carmo, "Differential Geometry of Curves and Surfaces",
+/// section 2.5)
+/// ```text
+/// grad f = ((G fu - F fv) Su + (E fv - F fu) Sv) / (E G - F^2)
+/// ```
+pub fn surface_gradient(su: DVec3, sv: DVec3, fu: f64, fv: f64) -> DVec3 {
+    if normal(su, sv).is_nan() {
+        return DVec3::NAN;
+    }
+    let (e, f, g) = (su.length_squared(), su.dot(sv), sv.length_squared());
+    ((g * fu - f * fv) * su + (e * fv - f * fu) * sv) / su.cross(sv).length_squared()
+}
+
 /// The principal curvatures and their directions.
 #[derive(Debug, Clone, Copy)]
 pub struct Curvatures {

@@ -18,7 +18,7 @@ pub mod tspline;
 
 pub use crate::geometry::Domain;
 pub use any::{AnySurface, ConvertError};
-pub use differential::{Curvatures, curvatures, normal};
+pub use differential::{Curvatures, curvatures, normal, surface_gradient};
 pub use region::{Region, TrimError, Trims};
 
 use crate::bezier::BezierPatch;

@@ -14,7 +14,7 @@ impl TensorSurface {
             None => {
                 let mut scratch = vec![0.0; 3 * self.dim];
                 for (uv, out) in uv.iter().zip(out.chunks_exact_mut(point_len)) {
-                    self.combine(&self.control_points, self.dim, *uv, max_derivative, &mut scratch, out);
+                    self.contract(&self.control_points, self.dim, *uv, max_derivative, &mut scratch, out);
                 }
             }
             Some(weights) => {
@@ -23,7 +23,7 @@ impl TensorSurface {
                 let mut homogeneous = vec![0.0; rows * width];
                 for (uv, out) in uv.iter().zip(out.chunks_exact_mut(point_len)) {
                     let net = &weights.homogeneous;
-                    self.combine(net, width, *uv, max_derivative, &mut scratch, &mut homogeneous);
+                    self.contract(net, width, *uv, max_derivative, &mut scratch, &mut homogeneous);
                     divide(&homogeneous, self.dim, max_derivative, out);
                 }
             }
@@ -31,7 +31,7 @@ impl TensorSurface {
     }
 
     /// `sum_ij N_i^(a)(u) N_j^(b)(v) net_ij` for all orders `a + b <= max_derivative`, into rows of `width`.
-    fn combine(
+    fn contract(
         &self,
         net: &[f64],
         width: usize,

@@ -6,8 +6,11 @@
 //! ```
 
 mod bicubic;
+mod combine;
 mod evaluate;
 mod refine;
+
+pub use combine::CombineError;
 
 use super::{ControlNet, Domain, Kind, Patches, Region, Surface, eval_grid_by_rows};
 use crate::bezier::{BezierPatch, apply, extraction};

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 /// The files of `src/ffi` in the order of the header.
-const SOURCES: [&str; 15] = [
+const SOURCES: [&str; 16] = [
     "status.rs",
     "progress.rs",
     "mesh.rs",
@@ -15,6 +15,7 @@ const SOURCES: [&str; 15] = [
     "surface.rs",
     "patch.rs",
     "tensor.rs",
+    "field.rs",
     "query.rs",
     "export.rs",
     "step.rs",

@@ -1,0 +1,100 @@
+// planish_field_fitter from outside: fields fitted again and again, sums of surfaces, gradients.
+#include "planish.hpp"
+
+#include "check.hpp"
+#include "shapes.hpp"
+
+#include <cmath>
+#include <vector>
+
+namespace {
+
+planish::mesh sheet() {
+  const shapes::arrays all = shapes::graph(25, 25, 0.2, 3);
+  planish::mesh mesh(all.points, all.triangles);
+  mesh.set_parameters(all.uv);
+  return mesh;
+}
+
+std::vector<double> waves(const std::vector<planish::point2> &uv, double phase) {
+  std::vector<double> field;
+  for (const auto &p : uv) field.insert(field.end(), {std::sin(3 * p[0] + phase), p[0] * p[1]});
+  return field;
+}
+
+template <class Call>
+planish_status status_of(const Call &call) {
+  try {
+    call();
+  } catch (const planish::error &error) {
+    return error.status();
+  }
+  return PLANISH_STATUS_OK;
+}
+
+} // namespace
+
+TEST(FieldFitter, FitsAndUpdates) {
+  const planish::mesh mesh = sheet();
+  auto options = planish::defaults<planish_field_options>();
+  options.grid_u = options.grid_v = 9;
+  const planish::field_fitter fitter(mesh, options);
+  CHECK_EQUAL(fitter.point_count(), mesh.point_count());
+  CHECK(fitter.grid() == (std::array<std::size_t, 2>{9, 9}));
+  CHECK(fitter.parameters() == mesh.parameters());
+  const std::vector<double> first = waves(mesh.parameters(), 0), second = waves(mesh.parameters(), 1);
+  planish::fitted fit = fitter.fit(first, 2);
+  CHECK(fit.status == PLANISH_STATUS_OK && fit.report.max_error <= fit.report.tolerance);
+  const planish::fitted other = fitter.fit(second, 2);
+  fitter.update(fit.surface, second, 2);
+  CHECK(fit.surface.control_points() == other.surface.control_points());
+}
+
+TEST(FieldFitter, RefusesByName) {
+  const planish::mesh mesh = sheet();
+  const planish::field_fitter fitter(mesh);
+  std::vector<double> field = waves(mesh.parameters(), 0);
+  CHECK(status_of([&] { fitter.fit(field, 0); }) == PLANISH_STATUS_INVALID_ARGUMENT);
+  CHECK(status_of([&] { fitter.fit(field, 7); }) == PLANISH_STATUS_INVALID_ARGUMENT);
+  field[11] = std::nan("");
+  CHECK(status_of([&] { fitter.fit(field, 2); }) == PLANISH_STATUS_NOT_FINITE);
+  CHECK_EQUAL(planish_error_index(), 5);
+  auto options = planish::defaults<planish_field_options>();
+  options.smoothing = -1;
+  CHECK(status_of([&] { planish::field_fitter(mesh, options); }) == PLANISH_STATUS_INVALID_ARGUMENT);
+  const shapes::arrays octahedron{{1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1},
+                                  {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4, 1, 0, 5, 2, 1, 5, 3, 2, 5, 0, 3, 5},
+                                  {}};
+  const planish::mesh closed(octahedron.points, octahedron.triangles);
+  CHECK(status_of([&] { planish::field_fitter{closed}; }) == PLANISH_STATUS_TOPOLOGY);
+}
+
+TEST(Combine, AddsAShapeAndItsDisplacement) {
+  const planish::mesh mesh = sheet();
+  const planish::surface shape = planish::tensor_fit(mesh).surface;
+  const std::vector<std::pair<double, const planish::surface *>> terms{{1.0, &shape}, {0.5, &shape}};
+  const planish::surface sum = planish::combine(terms);
+  for (double u : {0.2, 0.7}) {
+    for (int k = 0; k < 3; ++k) CHECK_NEAR(sum.point(u, 0.4)[k], 1.5 * shape.point(u, 0.4)[k], 1e-14);
+  }
+  CHECK(status_of([&] { planish::combine({}); }) == PLANISH_STATUS_INVALID_ARGUMENT);
+}
+
+TEST(FieldGradient, OfThePlaceIsTheProjection) {
+  const planish::surface shape = planish::tensor_fit(sheet()).surface;
+  const std::vector<planish::point2> uv{{0.3, 0.4}, {0.6, 0.5}};
+  const std::vector<double> gradients = planish::field_gradient(shape, shape, uv);
+  const std::vector<planish::point3> normals = shape.normals(uv);
+  for (std::size_t point = 0; point < uv.size(); ++point) {
+    for (int k = 0; k < 3; ++k) {
+      for (int i = 0; i < 3; ++i) {
+        const double exact = (i == k ? 1 : 0) - normals[point][i] * normals[point][k];
+        CHECK_NEAR(gradients[9 * point + 3 * k + i], exact, 1e-12);
+      }
+    }
+  }
+  CHECK(status_of([&] { planish::field_gradient(shape, shape, std::vector<planish::point2>{{9, 9}}); }) ==
+        PLANISH_STATUS_OUTSIDE);
+}
+
+int main() { return check::run(); }

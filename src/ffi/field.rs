@@ -1,0 +1,438 @@
+//! Fields fitted again and again.
+
+use super::arguments::{
+    ArgumentError, ReportOut, array_len, choice, copy_rows, deref, deref_mut, init_options, options, out,
+    rows_mut, slice, slice_mut,
+};
+use super::guard::{Failure, guard};
+use super::mesh::planish_mesh;
+use super::progress::{thread_count, with_control};
+use super::report::{gravest, planish_fit_report, write_pairs};
+use super::status::query;
+use super::surface::planish_surface;
+use super::tensor::{planish_ends, planish_energy, planish_tolerance_scale};
+use super::{planish_parameterize_options, planish_progress, planish_status};
+use crate::control::Pool;
+use crate::fit::field::{FieldFitter, FieldGrid, FieldOptions};
+use crate::fit::report::{Tolerance, ToleranceScale};
+use crate::fit::tessellation::{Ends, Energy, FitError};
+use crate::query::gradient::field_gradient;
+use crate::surface::tensor::TensorSurface;
+use glam::DVec2;
+use std::ffi::c_void;
+
+/// Fits fields on the nodes of one mesh, or at the same parameters, again and again: grid, factorization and threads
+/// are kept. Made by planish_field_fitter_new(), destroyed by planish_field_fitter_free().
+///
+/// Calls that take it const may run at once on any threads.
+pub struct planish_field_fitter(FieldFitter);
+
+const _: () = {
+    const fn is_shared<T: Send + Sync>() {}
+    is_shared::<planish_field_fitter>();
+};
+
+/// How fields are fitted. Fill with planish_field_options_init(), then change what you need. All pointers are borrowed
+/// for the call.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct planish_field_options {
+    /// Set by planish_field_options_init().
+    pub struct_size: usize,
+    /// What reports compare the errors with, positive, measured in tolerance_scale. Default 1e-3.
+    pub tolerance: f64,
+    /// Weight of the bending energy, positive. Default 1e-6. Where sample_values choose the grid they choose it too.
+    pub smoothing: f64,
+    /// How far the knots reach beyond the nodes, as a fraction of their range, 0 to 10. Default 0.1.
+    pub buffer: f64,
+    /// How a mesh without parameters gets them; NULL (default) for the defaults. Not used for points.
+    pub parameterize: *const planish_parameterize_options,
+    /// A positive weight for each node; NULL (default) for all 1.
+    pub weights: *const f64,
+    /// For each node 1 if fields have values there, 0 if not: those values are never looked at and may be NaN. NULL
+    /// (default) for values at all nodes.
+    pub mask: *const u8,
+    /// A field for which grid and smoothing are found that meet the tolerance: sample_dim numbers for each node; NULL
+    /// (default) for none. grid_u and grid_v must then be 0.
+    pub sample_values: *const f64,
+    /// Numbers of a value of sample_values.
+    pub sample_dim: usize,
+    /// Hears of the progress of making the fitter and may cancel; NULL (default) for nobody.
+    pub progress: planish_progress,
+    /// Handed to progress as it is.
+    pub user: *mut c_void,
+    /// A planish_tolerance_scale. Default PLANISH_TOLERANCE_SCALE_RELATIVE.
+    pub tolerance_scale: u32,
+    /// A planish_ends. Default PLANISH_ENDS_NATURAL.
+    pub ends: u32,
+    /// A planish_energy. Default PLANISH_ENERGY_BEAM.
+    pub energy: u32,
+    /// Knots along u, 2 to 8193; 0 (default, then grid_v too) for as many as the nodes bear, at most 129.
+    pub grid_u: u32,
+    /// Knots along v, 2 to 8193; 0 (default, then grid_u too) for as many as the nodes bear, at most 129.
+    pub grid_v: u32,
+    /// Threads to keep, at most 1024; 0 (default) for all cores. Results do not depend on it.
+    pub thread_count: u32,
+}
+
+record!(planish_field_options, 112, {
+    struct_size: 0, tolerance: 8, smoothing: 16, buffer: 24, parameterize: 32, weights: 40, mask: 48,
+    sample_values: 56, sample_dim: 64, progress: 72, user: 80, tolerance_scale: 88, ends: 92, energy: 96, grid_u: 100,
+    grid_v: 104, thread_count: 108,
+});
+
+impl Default for planish_field_options {
+    fn default() -> Self {
+        let core = FieldOptions::default();
+        Self {
+            struct_size: size_of::<Self>(),
+            tolerance: core.tolerance.value,
+            smoothing: core.smoothing,
+            buffer: core.buffer,
+            parameterize: std::ptr::null(),
+            weights: std::ptr::null(),
+            mask: std::ptr::null(),
+            sample_values: std::ptr::null(),
+            sample_dim: 0,
+            progress: None,
+            user: std::ptr::null_mut(),
+            tolerance_scale: planish_tolerance_scale::Relative as u32,
+            ends: planish_ends::Natural as u32,
+            energy: planish_energy::Beam as u32,
+            grid_u: 0,
+            grid_v: 0,
+            thread_count: 0,
+        }
+    }
+}
+
+/// Fills options with the defaults.
+///
+/// options: not NULL.
+/// size:    sizeof(planish_field_options).
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_field_options_init(
+    options: *mut planish_field_options,
+    size: usize,
+) -> planish_status {
+    // SAFETY: the caller's promise.
+    guard(|| unsafe { init_options(options, size) })
+}
+
+/// Makes a fitter with options that are already borrowed, for `count` nodes.
+///
+/// # Safety
+/// The pointers of the options are NULL or as the header says.
+unsafe fn make(
+    given: planish_field_options,
+    count: usize,
+    out_fitter: *mut *mut planish_field_fitter,
+    make: impl FnOnce(&FieldOptions, &mut crate::Control) -> Result<FieldFitter, FitError>,
+) -> Result<(), Failure> {
+    // SAFETY: the caller's promises.
+    unsafe {
+        let out_fitter = out(out_fitter, "out_fitter")?;
+        let parameterize: planish_parameterize_options = options(given.parameterize)?;
+        if !parameterize.node_weights.is_null() {
+            return Err(ArgumentError::NotNull { name: "node_weights" }.into());
+        }
+        let weights =
+            if given.weights.is_null() { None } else { Some(slice(given.weights, count, "weights")?) };
+        let is_known: Option<Vec<bool>> = match given.mask.is_null() {
+            true => None,
+            false => Some(slice(given.mask, count, "mask")?.iter().map(|&known| known != 0).collect()),
+        };
+        let grid = match [given.grid_u, given.grid_v] {
+            [0, 0] if given.sample_values.is_null() => FieldGrid::Auto,
+            [0, 0] => {
+                let len = array_len::<f64>(count, given.sample_dim, "sample_values")?;
+                FieldGrid::FoundFor(slice(given.sample_values, len, "sample_values")?, given.sample_dim)
+            }
+            _ if !given.sample_values.is_null() => {
+                return Err(ArgumentError::NotNull { name: "sample_values" }.into());
+            }
+            counts => FieldGrid::Fixed(counts.map(|count| count as usize)),
+        };
+        let scales = [ToleranceScale::Relative, ToleranceScale::Absolute];
+        let scale = choice(given.tolerance_scale, &scales, "tolerance_scale")?;
+        let core = FieldOptions {
+            tolerance: Tolerance { value: given.tolerance, scale },
+            grid,
+            smoothing: given.smoothing,
+            buffer: given.buffer,
+            ends: choice(given.ends, &[Ends::Natural, Ends::Free], "ends")?,
+            energy: choice(given.energy, &[Energy::Beam, Energy::Plate], "energy")?,
+            weights,
+            is_known: is_known.as_deref(),
+            parameterize: parameterize.to_core()?,
+        };
+        let fitter =
+            with_control(given.thread_count, given.progress, given.user, |control| make(&core, control))??;
+        out_fitter.write(Box::into_raw(Box::new(planish_field_fitter(fitter))));
+        Ok(())
+    }
+}
+
+/// Makes a fitter for fields on the nodes of a mesh, over its parameters or, if it has none, over those it is given
+/// here. It keeps what it needs; the mesh may go.
+///
+/// mesh:       not NULL.
+/// options:    NULL for the defaults.
+/// out_fitter: receives a new fitter; destroy with planish_field_fitter_free().
+/// Returns PLANISH_STATUS_OK or an error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, too
+/// few nodes with values), PLANISH_STATUS_NOT_FINITE (a parameter, a weight, a value of sample_values; the index is the
+/// node), PLANISH_STATUS_TOPOLOGY (a mesh without parameters that is no disk: a closed one must be cut open first),
+/// PLANISH_STATUS_DEGENERATE (all nodes have the same u or v), PLANISH_STATUS_SINGULAR (the nodes do not determine a
+/// surface), PLANISH_STATUS_CANCELLED or PLANISH_STATUS_VERSION.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_field_fitter_new(
+    mesh: *const planish_mesh,
+    options: *const planish_field_options,
+    out_fitter: *mut *mut planish_field_fitter,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let mesh = &deref(mesh, "mesh")?.0;
+        make(self::options(options)?, mesh.points().len(), out_fitter, |core, control| {
+            FieldFitter::on_mesh(mesh, core, control)
+        })
+    })
+}
+
+/// Makes a fitter for fields at scattered parameters.
+///
+/// uv:         count rows of u, v.
+/// count:      at least 3.
+/// options:    NULL for the defaults.
+/// out_fitter: receives a new fitter; destroy with planish_field_fitter_free().
+/// Returns what planish_field_fitter_new() returns, but for PLANISH_STATUS_TOPOLOGY.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_field_fitter_new_points(
+    uv: *const f64,
+    count: usize,
+    options: *const planish_field_options,
+    out_fitter: *mut *mut planish_field_fitter,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let uv = copy_rows(uv, count, 2, "uv", DVec2::from_array)?;
+        make(self::options(options)?, count, out_fitter, |core, control| FieldFitter::at(&uv, core, control))
+    })
+}
+
+/// Destroys a fitter.
+///
+/// fitter: from this library and not destroyed yet; NULL does nothing.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_field_fitter_free(fitter: *mut planish_field_fitter) {
+    query(|| {
+        if !fitter.is_null() {
+            // SAFETY: the caller's promise.
+            drop(unsafe { Box::from_raw(fitter) });
+        }
+        Ok(())
+    });
+}
+
+/// Number of nodes, those without values included; 0 for NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_field_fitter_point_count(fitter: *const planish_field_fitter) -> usize {
+    // SAFETY: the caller's promise.
+    query(|| Ok(unsafe { deref(fitter, "fitter") }?.0.node_count()))
+}
+
+/// Knots of the grid.
+///
+/// fitter:   not NULL.
+/// out_grid: receives 2 numbers: knots along u and v.
+/// Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_field_fitter_grid(
+    fitter: *const planish_field_fitter,
+    out_grid: *mut usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let grid = deref(fitter, "fitter")?.0.grid();
+        slice_mut(out_grid, 2, "out_grid")?.copy_from_slice(&grid);
+        Ok(())
+    })
+}
+
+/// Copies the (u,v) of the nodes.
+///
+/// fitter: not NULL.
+/// out_uv: receives planish_field_fitter_point_count() rows of u, v.
+/// count:  rows that out_uv has room for.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_field_fitter_copy_parameters(
+    fitter: *const planish_field_fitter,
+    out_uv: *mut f64,
+    count: usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let uv = deref(fitter, "fitter")?.0.parameters();
+        write_pairs(uv, rows_mut(out_uv, count, uv.len(), 2, "out_uv")?);
+        Ok(())
+    })
+}
+
+/// The rows of a field for the nodes of a fitter.
+///
+/// # Safety
+/// `values` is NULL or has `count` rows of `dim` numbers.
+unsafe fn field_values<'a>(
+    fitter: &FieldFitter,
+    values: *const f64,
+    count: usize,
+    dim: usize,
+) -> Result<&'a [f64], Failure> {
+    let expected = fitter.node_count();
+    if count != expected {
+        return Err(FitError::Count { what: "the nodes", count, expected }.into());
+    }
+    // SAFETY: the caller's promise.
+    Ok(unsafe { slice(values, array_len::<f64>(count, dim, "values")?, "values") }?)
+}
+
+/// Fits a field.
+///
+/// fitter:      not NULL.
+/// values:      count rows of dim numbers, one a node.
+/// count:       planish_field_fitter_point_count().
+/// dim:         numbers of a value, at least 1.
+/// out_surface: receives a new surface over the (u,v) of the nodes; destroy with planish_surface_free().
+/// out_report:  receives how good it is, measured on the surface; NULL for no report, which saves the measuring.
+/// Returns PLANISH_STATUS_OK, with a report also PLANISH_STATUS_TOLERANCE_NOT_MET, or an error:
+/// PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (count, dim), PLANISH_STATUS_NOT_FINITE (the index is
+/// the node), PLANISH_STATUS_SINGULAR (numbers overflow) or PLANISH_STATUS_TOO_LARGE.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_field_fitter_fit(
+    fitter: *const planish_field_fitter,
+    values: *const f64,
+    count: usize,
+    dim: usize,
+    out_surface: *mut *mut planish_surface,
+    out_report: *mut planish_fit_report,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let fitter = &deref(fitter, "fitter")?.0;
+        let values = field_values(fitter, values, count, dim)?;
+        let (out_surface, report) = (out(out_surface, "out_surface")?, ReportOut::new(out_report)?);
+        let surface = fitter.fit(values, dim)?;
+        let status = match out_report.is_null() {
+            true => planish_status::Ok,
+            false => {
+                let measured = fitter.measure(&surface, values, dim)?.fit;
+                report.store((&measured).into());
+                gravest(measured.remarks.0)
+            }
+        };
+        out_surface.write(planish_surface::into_raw(surface));
+        Ok(status)
+    })
+}
+
+/// Turns a surface of planish_field_fitter_fit() into the one of other values, in its place. Once a field of this dim
+/// has been fitted, no memory is asked for that grows with nodes or grid.
+///
+/// fitter:  not NULL.
+/// surface: from this fitter, or of the same grid; changed.
+/// values:  count rows of dim numbers, one a node.
+/// count:   planish_field_fitter_point_count().
+/// dim:     planish_surface_dim() of the surface.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INVALID_ARGUMENT
+/// (count, dim, a surface of another grid), PLANISH_STATUS_NOT_FINITE (the index is the node) or
+/// PLANISH_STATUS_SINGULAR (numbers overflow).
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_field_fitter_update(
+    fitter: *const planish_field_fitter,
+    surface: *mut planish_surface,
+    values: *const f64,
+    count: usize,
+    dim: usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let fitter = &deref(fitter, "fitter")?.0;
+        let values = field_values(fitter, values, count, dim)?;
+        Ok(fitter.update(deref_mut(surface, "surface")?.tensor_mut()?, values, dim)?)
+    })
+}
+
+/// The sum of tensor surfaces, each times a factor, exactly: a shape and its displacements, modes and their factors.
+/// All are polynomial, over the same domain and of the same dim; degrees and knots may differ.
+///
+/// surfaces:    count surfaces.
+/// factors:     count factors; NULL for all 1.
+/// count:       at least 1.
+/// out_surface: receives a new surface with the trims of the first; destroy with planish_surface_free().
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INVALID_ARGUMENT
+/// (count, or a surface does not fit the first; the index is the surface) or PLANISH_STATUS_NOT_FINITE (a factor, or
+/// the sum overflows; the index is the factor).
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_tensor_combine(
+    surfaces: *const *const planish_surface,
+    factors: *const f64,
+    count: usize,
+    out_surface: *mut *mut planish_surface,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let surfaces = slice(surfaces, count, "surfaces")?;
+        let factors = if factors.is_null() { &[][..] } else { slice(factors, count, "factors")? };
+        let out_surface = out(out_surface, "out_surface")?;
+        let term = |(index, &surface): (usize, &*const planish_surface)| -> Result<_, ArgumentError> {
+            Ok((factors.get(index).copied().unwrap_or(1.0), deref(surface, "surfaces")?.tensor()?))
+        };
+        let terms = surfaces.iter().enumerate().map(term).collect::<Result<Vec<_>, _>>()?;
+        out_surface.write(planish_surface::into_raw(TensorSurface::combine(&terms)?));
+        Ok(())
+    })
+}
+
+/// The gradient in space of a field over the parameters of a shape: for each component the vector, tangential to the
+/// shape, that gives its change along the shape.
+///
+/// shape:         not NULL, of dimension 3.
+/// field:         not NULL, over the same (u,v).
+/// uv:            count rows of u, v, inside both domains.
+/// count:         may be 0.
+/// thread_count:  threads to use, at most 1024; 0 for all cores.
+/// out_gradients: receives count times dim rows of 3 numbers, dim being that of the field; NaN where the shape has no
+///                tangent plane.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension of shape,
+/// thread_count), PLANISH_STATUS_NOT_FINITE, PLANISH_STATUS_OUTSIDE (the index is the point for both) or
+/// PLANISH_STATUS_TOO_LARGE.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_surface_field_gradient(
+    shape: *const planish_surface,
+    field: *const planish_surface,
+    uv: *const f64,
+    count: usize,
+    thread_count: u32,
+    out_gradients: *mut f64,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let (shape, field) = (deref(shape, "shape")?.any(), deref(field, "field")?.any());
+        let uv = copy_rows(uv, count, 2, "uv", DVec2::from_array)?;
+        let rows = array_len::<f64>(count, field.dim(), "out_gradients")?;
+        let len = array_len::<f64>(rows, 3, "out_gradients")?;
+        let out_gradients = slice_mut(out_gradients, len, "out_gradients")?;
+        let pool = Pool::new(self::thread_count(thread_count)?);
+        Ok(field_gradient(shape, field, &uv, out_gradients, &pool)?)
+    })
+}
