@@ -19,8 +19,9 @@
 !> extent: uv(5,n) holds n points, u and v first. Sizes come from the arrays; strides and pointers of the options
 !> from the arguments. Counts that come back are integer(c_size_t).
 !>
-!> Indices count from 1: nodes, triangles, loops, trims, worst_index, corners, planish_error_index(). Only the
-!> sentences of planish_error_message() count as C does, from 0.
+!> Indices count from 1: nodes, triangles, loops, trims, patches, control curves and their knots, cells, vertices,
+!> worst_index, twisted_row, corners, planish_error_index(). Only the sentences of planish_error_message() and the
+!> addresses of cells count as C does, from 0: the halves of cell i of a level are 2 i and 2 i + 1 of the next.
 !>
 !> Errors. Calls end with (..., stat, errmsg), both optional. stat receives a PLANISH_STATUS: negative is an error
 !> and nothing has been changed, positive a success with a remark. errmsg receives the sentence of an error, else it
@@ -101,6 +102,14 @@ module planish
   integer(c_int64_t), parameter, public :: PLANISH_REMARK_SEGMENTATION_ADVISED = 256
   !> The data do not determine the beam energy's null space; the plate energy was used instead
   integer(c_int64_t), parameter, public :: PLANISH_REMARK_PLATE_ENERGY_USED = 512
+  !> Points that lay on the one before them in their row have been merged with it
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_MERGED_POINTS = 1048576
+  !> A row looks reversed or shifted against the one before it: see align in planish_skin_options
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_TWISTED_ROWS = 2097152
+  !> Some rows are much nearer to one another than to the next: control curves overshoot
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_CLUSTERED_ROWS = 4194304
+  !> The end points of rows are too near to those of the next to say how far apart rows are; mean distances do
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_MEAN_STEPS = 8388608
   !> Holes were closed by fans of triangles while the map was computed
   integer(c_int64_t), parameter, public :: PLANISH_REMARK_HOLES_FILLED = 65536
   !> Triangles without area in space were left out of the map's weights
@@ -155,6 +164,14 @@ module planish
   !> The polynomial at the domain's end is continued, and the point flagged
   integer(c_int32_t), parameter, public :: PLANISH_OUTSIDE_EXTRAPOLATE = 2
 
+  !> What a VTK file holds of a surface.
+  !> Triangles of the part inside the trims, or of deviation_from
+  integer(c_int32_t), parameter, public :: PLANISH_VTK_CONTENT_TRIANGLES = 0
+  !> Its Bezier patches as cells of type VTK_BEZIER_QUADRILATERAL (VTK 9): the surface itself, without trims
+  integer(c_int32_t), parameter, public :: PLANISH_VTK_CONTENT_PATCHES = 1
+  !> Its control points, joined by polylines as neighbours in the control net
+  integer(c_int32_t), parameter, public :: PLANISH_VTK_CONTENT_CONTROL_NET = 2
+
   !> Flags of a point: bits of the elements of out_flags.
   integer(c_int8_t), parameter, public :: PLANISH_FLAG_OUTSIDE_DOMAIN = 1 !! The parameters lie outside the domain
   !> The point lies outside the trims: in a hole, or beyond the boundary of the data
@@ -192,6 +209,47 @@ module planish
   integer(c_int32_t), parameter, public :: PLANISH_REGULARIZE_AUTO = 0
   integer(c_int32_t), parameter, public :: PLANISH_REGULARIZE_NEVER = 1 !! Take them as they are
   integer(c_int32_t), parameter, public :: PLANISH_REGULARIZE_ALWAYS = 2 !! Even them out
+
+  !> Which knots the control curves of a skin get.
+  !> Each its own, as few as the tolerance allows
+  integer(c_int32_t), parameter, public :: PLANISH_SKIN_METHOD_CONTROL_CURVES = 0
+  !> All the same: the classical skin, for comparison
+  integer(c_int32_t), parameter, public :: PLANISH_SKIN_METHOD_COMMON_KNOTS = 1
+
+  !> What happens at the ends of rows.
+  integer(c_int32_t), parameter, public :: PLANISH_SECTION_ENDS_AUTO = 0 !! Periodic for closed rows, else parabolic
+  !> The slope of the parabola through three points; at the seam of closed rows a kink may remain
+  integer(c_int32_t), parameter, public :: PLANISH_SECTION_ENDS_PARABOLIC = 1
+  integer(c_int32_t), parameter, public :: PLANISH_SECTION_ENDS_NATURAL = 2 !! No curvature
+  integer(c_int32_t), parameter, public :: PLANISH_SECTION_ENDS_SLOPES = 3 !! The slopes in end_slopes
+  !> Closed rows go on over the seam without a break in two derivatives
+  integer(c_int32_t), parameter, public :: PLANISH_SECTION_ENDS_PERIODIC = 4
+
+  !> How far apart rows are along v.
+  !> As their first and last points are; where that gives a step of next to nothing, as PLANISH_V_RULE_MEAN
+  integer(c_int32_t), parameter, public :: PLANISH_V_RULE_ENDPOINTS = 0
+  !> As points at equal fractions of their lengths are on average
+  integer(c_int32_t), parameter, public :: PLANISH_V_RULE_MEAN = 1
+
+  !> How the control points of a PHT-spline are estimated.
+  !> Least squares over all data with a weak bending energy: fewest coefficients
+  integer(c_int32_t), parameter, public :: PLANISH_PHT_ESTIMATOR_GLOBAL = 0
+  !> A quadratic fit around each datum, interpolated linearly (Deng et al., 2008): for comparison
+  integer(c_int32_t), parameter, public :: PLANISH_PHT_ESTIMATOR_LOCAL_QUADRATIC = 1
+  !> A weighted cubic fit around each vertex: no system to solve, for very large data
+  integer(c_int32_t), parameter, public :: PLANISH_PHT_ESTIMATOR_LOCAL_CUBIC = 2
+
+  !> Which basis functions control points of a PHT-spline belong to.
+  !> Of the cells at the birth of a vertex (Deng et al., 2008): independent of later splits
+  integer(c_int32_t), parameter, public :: PLANISH_PHT_BASIS_CANONICAL = 0
+  !> Of the widest cell of a vertex's support on each side: well conditioned whatever the levels
+  integer(c_int32_t), parameter, public :: PLANISH_PHT_BASIS_SUPPORT_SIZED = 1
+
+  !> An edge of the domain.
+  integer(c_int32_t), parameter, public :: PLANISH_BORDER_SIDE_LOW_U = 0 !! Least u
+  integer(c_int32_t), parameter, public :: PLANISH_BORDER_SIDE_HIGH_U = 1 !! Largest u
+  integer(c_int32_t), parameter, public :: PLANISH_BORDER_SIDE_LOW_V = 2 !! Least v
+  integer(c_int32_t), parameter, public :: PLANISH_BORDER_SIDE_HIGH_V = 3 !! Largest v
 
   !> The application protocol of a STEP file.
   !> AP214, automotive design: read by every CAD system
@@ -298,6 +356,28 @@ module planish
     integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 for all cores
   end type
 
+  !> Where a Bezier patch lies and how many numbers it has.
+  type, bind(c), public :: planish_patch
+    integer(c_size_t) :: struct_size = 3 * word + 4 * 8 + 4 * 4
+    real(c_double) :: u_min = 0 !! Least u of the rectangle
+    real(c_double) :: u_max = 0 !! Largest u of the rectangle
+    real(c_double) :: v_min = 0 !! Least v of the rectangle
+    real(c_double) :: v_max = 0 !! Largest v of the rectangle
+    integer(c_size_t) :: ordinate_count = 0 !! Number of ordinates: (degree_u + 1) * (degree_v + 1)
+    integer(c_size_t) :: ordinate_width = 0 !! Numbers of an ordinate: dim, or dim + 1 if the patch is rational
+    integer(c_int32_t) :: degree_u = 0 !! Degree along u
+    integer(c_int32_t) :: degree_v = 0 !! Degree along v
+    !> 1 if the last number of each ordinate is a weight, and the others are multiplied by it; else 0
+    integer(c_int32_t) :: is_rational = 0
+    integer(c_int32_t) :: reserved = 0
+  end type
+
+  !> How a surface becomes a tensor surface.
+  type, bind(c), public :: planish_convert_options
+    integer(c_size_t) :: struct_size = 2 * word
+    integer(c_size_t) :: max_coefficients = 4000000 !! Most control points of the result; with more the call fails
+  end type
+
   ! Tensor surface
 
   !> Options of tensor fits.
@@ -336,7 +416,7 @@ module planish
 
   !> What a fit did and how good it is.
   type, bind(c), public :: planish_fit_report
-    integer(c_size_t) :: struct_size = 7 * word + 13 * 8 + 2 * 4
+    integer(c_size_t) :: struct_size = 9 * word + 13 * 8 + 4 * 4
     !> Largest distance between a datum and the surface at the datum's (u,v): what the tolerance bounds
     real(c_double) :: max_error = 0
     real(c_double) :: rms_error = 0 !! Square root of the mean of its square
@@ -362,13 +442,25 @@ module planish
     integer(c_int64_t) :: remarks = 0 !! Everything worth knowing: bits of planish_remark
     integer(c_int32_t) :: pass_count = 0 !! Rounds of fitting and measuring
     integer(c_int32_t) :: stop_reason = 0 !! Why the fit ended: a planish_stop_reason
+    integer(c_size_t) :: cell_count = 0 !! Cells of an adaptive mesh; 0 for a grid
+    integer(c_size_t) :: rough_cell_count = 0 !! Cells of it in which an error exceeds the tolerance
+    integer(c_int32_t) :: deepest_level = 0 !! The deepest level of its cells: how often one of the first was halved
+    integer(c_int32_t) :: reserved = 0
   end type
 
   ! Queries
 
+  !> How good a tessellation is.
+  type, bind(c), public :: planish_tessellate_report
+    integer(c_size_t) :: struct_size = 1 * word + 2 * 8
+    real(c_double) :: smallest_angle = 0 !! Smallest angle of a triangle in space, in radians
+    !> Largest distance measured between the middle of an edge and the surface, in model units
+    real(c_double) :: chord_error = 0
+  end type
+
   !> How fine a tessellation is.
   type, bind(c), public :: planish_tessellate_options
-    integer(c_size_t) :: struct_size = 2 * word + 2 * 8 + 2 * 4
+    integer(c_size_t) :: struct_size = 3 * word + 2 * 8 + 2 * 4
     !> Largest distance between the surface and the middles of the edges, in model units, positive; 0 takes 1e-3 of
     !> the surface's diagonal
     real(c_double) :: chord_tolerance = 0
@@ -376,6 +468,7 @@ module planish
     integer(c_size_t) :: max_point_count = 4000000 !! Most nodes; with more the call fails
     integer(c_int32_t) :: keep_trims = 1 !! 1 keeps to the part inside the trims, 0 covers the whole domain
     integer(c_int32_t) :: reserved = 0
+    type(c_ptr) :: out_report = c_null_ptr !! The argument report
   end type
 
   !> How points are projected.
@@ -425,7 +518,7 @@ module planish
     type(c_ptr) :: deviation_from = c_null_ptr !! A mesh to compare with
     type(c_ptr) :: tessellate = c_null_ptr !! How the surface is tessellated otherwise
     integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 for all cores
-    integer(c_int32_t) :: reserved = 0
+    integer(c_int32_t) :: content = 0 !! A planish_vtk_content
   end type
 
   !> What was written to a STEP file.
@@ -453,11 +546,112 @@ module planish
     integer(c_int32_t) :: unit = 0 !! A planish_unit, what one model unit is
   end type
 
+  ! T-spline
+
+  !> What only skins report.
+  type, bind(c), public :: planish_skin_report
+    integer(c_size_t) :: struct_size = 10 * word + 4 * 8
+    !> By how much control curves may be larger than the rows, 1 at least: rows much nearer to one another than to
+    !> the next make it large
+    real(c_double) :: overshoot = 0
+    !> A bound of the distance between the surface and the skin through the section curves at any (u,v); NaN unless
+    !> certify asked for it, or if a section is no cubic
+    real(c_double) :: certified_distance = 0
+    real(c_double) :: v_error = 0 !! The part of the error that fewer knots along v leave; 0 with a knot for each row
+    !> The first row that looks reversed or shifted against the one before it, counted from 1; 0 if there is none
+    integer(c_int64_t) :: twisted_row = 0
+    integer(c_size_t) :: curve_count = 0 !! Control curves of the surface
+    integer(c_size_t) :: least_count = 0 !! Control points of the shortest control curve
+    integer(c_size_t) :: largest_count = 0 !! Control points of the longest control curve
+    integer(c_size_t) :: tensor_count = 0 !! Control points of the same surface as a tensor surface
+    integer(c_size_t) :: strip_count = 0 !! Control points of the same surface in strips
+    integer(c_size_t) :: common_count = 0 !! Control points of the skin over common knots; 0 unless compare asked
+    integer(c_size_t) :: removed_knot_count = 0 !! Knots that the removal pass took out
+    integer(c_size_t) :: merged_point_count = 0 !! Points that lay on the one before them
+    integer(c_size_t) :: aligned_row_count = 0 !! Rows that were turned round or given another first point
+  end type
+
+  !> Options of skins.
+  type, bind(c), public :: planish_skin_options
+    integer(c_size_t) :: struct_size = 10 * word + 1 * 8 + 14 * 4
+    !> The largest error allowed at the points, positive, measured in tolerance_scale
+    real(c_double) :: tolerance = 1e-3_c_double
+    type(c_ptr) :: end_slopes = c_null_ptr !! The argument end_slopes
+    type(c_ptr) :: begin_tangents = c_null_ptr !! The argument begin_tangents
+    type(c_ptr) :: end_tangents = c_null_ptr !! The argument end_tangents
+    type(c_funptr) :: progress = c_null_funptr !! The argument progress
+    type(c_ptr) :: user = c_null_ptr !! Set with progress
+    type(c_ptr) :: out_parameters = c_null_ptr !! The argument parameters
+    type(c_ptr) :: out_errors = c_null_ptr !! The argument errors
+    type(c_ptr) :: out_report = c_null_ptr !! The argument skin_report
+    integer(c_size_t) :: dim = 3 !! Set by calls: the first extent of points
+    integer(c_int32_t) :: tolerance_scale = 0 !! A planish_tolerance_scale
+    integer(c_int32_t) :: method = 0 !! A planish_skin_method
+    integer(c_int32_t) :: closed = 0 !! 1 if rows are closed: their first point is not repeated
+    integer(c_int32_t) :: ends = 0 !! A planish_section_ends; not used for curves
+    !> 1 if the last row is followed by the first one; needs three rows, and no tangents
+    integer(c_int32_t) :: closed_v = 0
+    integer(c_int32_t) :: v_rule = 0 !! A planish_v_rule
+    !> 1 turns rows round, and moves the first point of closed ones, where that brings them nearer to the row before
+    integer(c_int32_t) :: align = 0
+    integer(c_int32_t) :: approximate_v = 0 !! 1 looks for fewer knots along v than rows
+    !> Places between two data at which a control curve is checked too, at most 100; 0 as in the paper
+    integer(c_int32_t) :: extra_checks = 3
+    !> 1 inserts a knot into every span that needs one in each pass: faster, some more control points
+    integer(c_int32_t) :: batch = 0
+    integer(c_int32_t) :: removal = 0 !! 1 takes knots out again that turn out not to be needed
+    integer(c_int32_t) :: certify = 0 !! 1 bounds the distance from the skin through the section curves
+    !> 1 counts the control points of PLANISH_SKIN_METHOD_COMMON_KNOTS for the report
+    integer(c_int32_t) :: compare = 0
+    integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 for all cores
+  end type
+
+  ! PHT-spline
+
+  !> Options of PHT fits. A datum is a node of the mesh, or a point; a sample is a datum, or the middle of a triangle.
+  type, bind(c), public :: planish_pht_options
+    integer(c_size_t) :: struct_size = 8 * word + 2 * 8 + 12 * 4
+    !> The largest error allowed at the data, positive, measured in tolerance_scale
+    real(c_double) :: tolerance = 1e-3_c_double
+    real(c_double) :: smoothing = 1e-3_c_double !! Weight of the bending energy of each cell, mapped to the unit cell
+    type(c_ptr) :: parameterize = c_null_ptr !! The argument parameterize
+    type(c_ptr) :: weights = c_null_ptr !! The argument weights
+    type(c_funptr) :: progress = c_null_funptr !! The argument progress
+    type(c_ptr) :: user = c_null_ptr !! Set with progress
+    type(c_ptr) :: out_parameters = c_null_ptr !! The argument parameters
+    type(c_ptr) :: out_errors = c_null_ptr !! The argument errors
+    integer(c_size_t) :: max_cells = 200000 !! Most cells, at least the initial ones
+    integer(c_int32_t) :: tolerance_scale = 0 !! A planish_tolerance_scale
+    integer(c_int32_t) :: estimator = 0 !! A planish_pht_estimator
+    integer(c_int32_t) :: regularize = 0 !! A planish_regularize
+    integer(c_int32_t) :: grid_u = 1 !! Cells along u to start from, 1 to 4095
+    integer(c_int32_t) :: grid_v = 1 !! Cells along v to start from, 1 to 4095
+    integer(c_int32_t) :: max_level = 12 !! Deepest level of a cell, at most 20
+    integer(c_int32_t) :: min_samples = 2 !! A cell with fewer samples is not split, at least 1
+    integer(c_int32_t) :: grade = 1 !! Levels by which cells that share an edge may differ; 0 for any number
+    !> Sweeps of parameter correction in each round of the fit of a shape
+    integer(c_int32_t) :: correction_sweeps = 1
+    integer(c_int32_t) :: measure_distance = 0 !! 1 measures the closest-point distance of the nodes for the report
+    integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 for all cores
+    integer(c_int32_t) :: reserved = 0
+  end type
+
+  !> How a tensor surface becomes a PHT-spline.
+  type, bind(c), public :: planish_pht_convert_options
+    integer(c_size_t) :: struct_size = 2 * word + 1 * 8 + 2 * 4
+    !> Largest distance at equal parameters, in model units; 0 takes all knot lines, which is exact up to degree 3
+    real(c_double) :: tolerance = 0
+    integer(c_size_t) :: max_cells = 200000 !! Most cells; with more the call fails
+    integer(c_int32_t) :: max_level = 12 !! Deepest level of a cell, at most 20
+    integer(c_int32_t) :: reserved = 0
+  end type
+
   !> Puts a record back to the defaults that the library has: `call planish_options_init(options)`.
   interface planish_options_init
     module procedure mesh_options_init, parameterize_options_init, eval_options_init, tensor_options_init
     module procedure tessellate_options_init, project_options_init, deviation_options_init
-    module procedure vtk_options_init, step_options_init
+    module procedure vtk_options_init, step_options_init, convert_options_init, skin_options_init
+    module procedure pht_options_init, pht_convert_options_init
   end interface
 
   abstract interface
@@ -559,6 +753,10 @@ module planish
     procedure :: trim_point_count => surface_trim_point_count
     procedure :: copy_trim => surface_copy_trim
     procedure :: set_trims => surface_set_trims
+    procedure :: patch_count => surface_patch_count
+    procedure :: patch_at => surface_patch_at
+    procedure :: copy_patch => surface_copy_patch
+    procedure :: to_tensor => surface_to_tensor
     procedure :: tessellate => surface_tessellate
     procedure :: project => surface_project
     procedure :: deviation => surface_deviation
@@ -581,6 +779,7 @@ module planish
     procedure :: free => curve_free
     procedure :: get => curve_get
     procedure :: take => curve_take
+    procedure :: new => curve_new
     procedure, private :: fit_rows => curve_fit_rows
     procedure, private :: fit_scalars => curve_fit_scalars
     generic :: fit => fit_rows, fit_scalars
@@ -607,12 +806,34 @@ module planish
     module procedure tensor_fit_field_rows, tensor_fit_field_scalars
   end interface
 
+  !> Fits a PHT-spline to values(dim,n), or with dim = 1 values(n), at parameters uv(2,n).
+  interface planish_pht_fit_points
+    module procedure pht_fit_points_rows, pht_fit_points_scalars
+  end interface
+
+  !> Fits a PHT-spline to values(dim,n), or with dim = 1 values(n), on the nodes of a mesh, over its parameters.
+  interface planish_pht_fit_field
+    module procedure pht_fit_field_rows, pht_fit_field_scalars
+  end interface
+
   public :: planish_version, planish_status_name, planish_error_message, planish_error_index
   public :: planish_options_init, planish_progress
   public :: planish_tensor_fit, planish_tensor_fit_points, planish_tensor_fit_field, planish_tensor_new
   public :: planish_tensor_degree, planish_tensor_knot_count, planish_tensor_control_point_count
   public :: planish_tensor_copy_knots, planish_tensor_copy_control_points
   public :: planish_tensor_has_weights, planish_tensor_copy_weights
+  public :: planish_tensor_insert_knots, planish_tensor_elevate_degree, planish_tensor_reverse, planish_tensor_split
+  public :: planish_tspline_skin, planish_tspline_skin_curves, planish_tspline_new
+  public :: planish_tspline_curve_count, planish_tspline_clone_curve
+  public :: planish_tspline_knot_count, planish_tspline_copy_knots
+  public :: planish_tspline_insert_knot_u, planish_tspline_insert_knot_v, planish_tspline_remove_knot_u
+  public :: planish_pht_fit, planish_pht_fit_points, planish_pht_fit_field, planish_pht_new
+  public :: planish_pht_split, planish_pht_merge, planish_pht_simplify, planish_pht_refine_region
+  public :: planish_pht_from_surface, planish_pht_to_tensor_patches, planish_pht_stitch
+  public :: planish_pht_cell_count, planish_pht_vertex_count, planish_pht_hanging_count, planish_pht_width
+  public :: planish_pht_copy_cells, planish_pht_copy_vertices, planish_pht_copy_hanging, planish_pht_copy_neighbours
+  public :: planish_pht_copy_data, planish_pht_set_data, planish_pht_copy_control_points
+  public :: planish_pht_set_control_points, planish_pht_copy_extraction, planish_pht_cell_at
 
   ! ---------------------------------------------------------------------------------------------------------
   ! The functions of planish.h, in its order. NULL is an absent argument. A new one wants its interface here, its
@@ -1021,6 +1242,45 @@ module planish
       type(c_ptr), value :: surface
     end subroutine
 
+    pure integer(c_size_t) function c_surface_patch_count(surface) bind(c, name="planish_surface_patch_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    pure integer(c_size_t) function c_surface_patch_at(surface, u, v) bind(c, name="planish_surface_patch_at")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), value :: u, v
+    end function
+
+    integer(c_int) function c_surface_copy_patch( &
+        surface, index, out_patch, out_ordinates, count) bind(c, name="planish_surface_copy_patch")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_size_t), value :: index
+      type(planish_patch), intent(inout), optional :: out_patch
+      real(c_double), intent(inout), optional :: out_ordinates(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_convert_options_init(options, size) bind(c, name="planish_convert_options_init")
+      import
+      implicit none
+      type(planish_convert_options), intent(inout) :: options
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_surface_to_tensor(surface, options, out_surface) bind(c, name="planish_surface_to_tensor")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      type(planish_convert_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+    end function
+
     ! Tensor surface
 
     integer(c_int) function c_tensor_options_init(options, struct_size) bind(c, name="planish_tensor_options_init")
@@ -1134,6 +1394,39 @@ module planish
       integer(c_size_t), value :: count
     end function
 
+    integer(c_int) function c_tensor_insert_knots( &
+        surface, axis, knots, count) bind(c, name="planish_tensor_insert_knots")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), value :: axis
+      real(c_double), intent(in) :: knots(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_tensor_elevate_degree(surface, axis, degree) bind(c, name="planish_tensor_elevate_degree")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), value :: axis, degree
+    end function
+
+    integer(c_int) function c_tensor_reverse(surface, axis) bind(c, name="planish_tensor_reverse")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), value :: axis
+    end function
+
+    integer(c_int) function c_tensor_split(surface, axis, at, out_lower, out_upper) bind(c, name="planish_tensor_split")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), value :: axis
+      real(c_double), value :: at
+      type(c_ptr), intent(inout) :: out_lower, out_upper
+    end function
+
     ! Queries
 
     integer(c_int) function c_tessellate_options_init(options, size) bind(c, name="planish_tessellate_options_init")
@@ -1178,14 +1471,14 @@ module planish
     end function
 
     integer(c_int) function c_surface_deviation( &
-        surface, mesh, options, out_distances, count, report) bind(c, name="planish_surface_deviation")
+        surface, mesh, options, out_distances, count, out_report) bind(c, name="planish_surface_deviation")
       import
       implicit none
       type(c_ptr), value :: surface, mesh
       type(planish_deviation_options), intent(in), optional :: options
       real(c_double), intent(inout), optional :: out_distances(*)
       integer(c_size_t), value :: count
-      type(planish_deviation_report), intent(inout), optional :: report
+      type(planish_deviation_report), intent(inout), optional :: out_report
     end function
 
     ! Files
@@ -1269,6 +1562,18 @@ module planish
       type(planish_fit_report), intent(inout), optional :: out_report
     end function
 
+    integer(c_int) function c_curve_new( &
+        dim, degree, knots, knot_count, control_points, out_curve) bind(c, name="planish_curve_new")
+      import
+      implicit none
+      integer(c_size_t), value :: dim
+      integer(c_int32_t), value :: degree
+      real(c_double), intent(in) :: knots(*)
+      integer(c_size_t), value :: knot_count
+      real(c_double), intent(in) :: control_points(*)
+      type(c_ptr), intent(inout) :: out_curve
+    end function
+
     pure integer(c_size_t) function c_curve_dim(curve) bind(c, name="planish_curve_dim")
       import
       implicit none
@@ -1341,6 +1646,351 @@ module planish
       implicit none
       type(c_ptr), value :: curve
     end subroutine
+
+    ! T-spline
+
+    integer(c_int) function c_skin_options_init(options, size) bind(c, name="planish_skin_options_init")
+      import
+      implicit none
+      type(planish_skin_options), intent(inout) :: options
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_tspline_skin( &
+        points, row_counts, row_count, options, out_surface, out_report) bind(c, name="planish_tspline_skin")
+      import
+      implicit none
+      real(c_double), intent(in) :: points(*)
+      integer(c_size_t), intent(in) :: row_counts(*)
+      integer(c_size_t), value :: row_count
+      type(planish_skin_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+      type(planish_fit_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_tspline_skin_curves( &
+        curves, curve_count, options, out_surface, out_report) bind(c, name="planish_tspline_skin_curves")
+      import
+      implicit none
+      type(c_ptr), intent(in) :: curves(*)
+      integer(c_size_t), value :: curve_count
+      type(planish_skin_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+      type(planish_fit_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_tspline_new( &
+        knots, knot_count, curves, curve_count, out_surface) bind(c, name="planish_tspline_new")
+      import
+      implicit none
+      real(c_double), intent(in) :: knots(*)
+      integer(c_size_t), value :: knot_count
+      type(c_ptr), intent(in) :: curves(*)
+      integer(c_size_t), value :: curve_count
+      type(c_ptr), intent(inout) :: out_surface
+    end function
+
+    pure integer(c_size_t) function c_tspline_curve_count(surface) bind(c, name="planish_tspline_curve_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    integer(c_int) function c_tspline_clone_curve(surface, curve, out_curve) bind(c, name="planish_tspline_clone_curve")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_size_t), value :: curve
+      type(c_ptr), intent(inout) :: out_curve
+    end function
+
+    pure integer(c_size_t) function c_tspline_knot_count(surface) bind(c, name="planish_tspline_knot_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    integer(c_int) function c_tspline_copy_knots(surface, out_knots, count) bind(c, name="planish_tspline_copy_knots")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(inout) :: out_knots(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_tspline_insert_knot_u(surface, curve, u) bind(c, name="planish_tspline_insert_knot_u")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_size_t), value :: curve
+      real(c_double), value :: u
+    end function
+
+    integer(c_int) function c_tspline_insert_knot_v(surface, v) bind(c, name="planish_tspline_insert_knot_v")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), value :: v
+    end function
+
+    integer(c_int) function c_tspline_remove_knot_u( &
+        surface, curve, knot, tolerance, out_error) bind(c, name="planish_tspline_remove_knot_u")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_size_t), value :: curve, knot
+      real(c_double), value :: tolerance
+      real(c_double), intent(inout), optional :: out_error
+    end function
+
+    ! PHT-spline
+
+    integer(c_int) function c_pht_options_init(options, struct_size) bind(c, name="planish_pht_options_init")
+      import
+      implicit none
+      type(planish_pht_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_pht_fit(mesh, options, out_surface, out_report) bind(c, name="planish_pht_fit")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      type(planish_pht_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+      type(planish_fit_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_pht_fit_points( &
+        uv, values, count, dim, options, out_surface, out_report) bind(c, name="planish_pht_fit_points")
+      import
+      implicit none
+      real(c_double), intent(in) :: uv(*), values(*)
+      integer(c_size_t), value :: count, dim
+      type(planish_pht_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+      type(planish_fit_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_pht_fit_field( &
+        mesh, values, count, dim, options, out_surface, out_report) bind(c, name="planish_pht_fit_field")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      real(c_double), intent(in) :: values(*)
+      integer(c_size_t), value :: count, dim
+      type(planish_pht_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+      type(planish_fit_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_pht_new( &
+        dim, is_rational, lines_u, line_count_u, lines_v, line_count_v, cells, split_count, data, data_count, &
+        out_surface) bind(c, name="planish_pht_new")
+      import
+      implicit none
+      integer(c_size_t), value :: dim
+      integer(c_int32_t), value :: is_rational
+      real(c_double), intent(in) :: lines_u(*)
+      integer(c_size_t), value :: line_count_u
+      real(c_double), intent(in) :: lines_v(*)
+      integer(c_size_t), value :: line_count_v
+      integer(c_int32_t), intent(in) :: cells(*)
+      integer(c_size_t), value :: split_count
+      real(c_double), intent(in), optional :: data(*)
+      integer(c_size_t), value :: data_count
+      type(c_ptr), intent(inout) :: out_surface
+    end function
+
+    integer(c_int) function c_pht_split(surface, cells, count) bind(c, name="planish_pht_split")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), intent(in) :: cells(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_pht_merge(surface, cells, count) bind(c, name="planish_pht_merge")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), intent(in) :: cells(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_pht_simplify(surface, tolerance, out_deviation) bind(c, name="planish_pht_simplify")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), value :: tolerance
+      real(c_double), intent(inout), optional :: out_deviation
+    end function
+
+    integer(c_int) function c_pht_refine_region( &
+        surface, region, level, max_cells) bind(c, name="planish_pht_refine_region")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(in) :: region(*)
+      integer(c_int32_t), value :: level
+      integer(c_size_t), value :: max_cells
+    end function
+
+    integer(c_int) function c_pht_convert_options_init( &
+        options, struct_size) bind(c, name="planish_pht_convert_options_init")
+      import
+      implicit none
+      type(planish_pht_convert_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_pht_from_surface(surface, options, out_surface) bind(c, name="planish_pht_from_surface")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      type(planish_pht_convert_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+    end function
+
+    integer(c_int) function c_pht_to_tensor_patches( &
+        surface, sigma, out_surfaces, count, out_count) bind(c, name="planish_pht_to_tensor_patches")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), value :: sigma
+      type(c_ptr), intent(inout), optional :: out_surfaces(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), intent(inout) :: out_count
+    end function
+
+    integer(c_int) function c_pht_stitch( &
+        first, first_side, second, second_side, is_reversed) bind(c, name="planish_pht_stitch")
+      import
+      implicit none
+      type(c_ptr), value :: first
+      integer(c_int32_t), value :: first_side
+      type(c_ptr), value :: second
+      integer(c_int32_t), value :: second_side, is_reversed
+    end function
+
+    pure integer(c_size_t) function c_pht_cell_count(surface) bind(c, name="planish_pht_cell_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    pure integer(c_size_t) function c_pht_vertex_count(surface) bind(c, name="planish_pht_vertex_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    pure integer(c_size_t) function c_pht_hanging_count(surface) bind(c, name="planish_pht_hanging_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    pure integer(c_size_t) function c_pht_width(surface) bind(c, name="planish_pht_width")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    integer(c_int) function c_pht_copy_cells(surface, out_cells, count) bind(c, name="planish_pht_copy_cells")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), intent(inout) :: out_cells(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_pht_copy_vertices(surface, out_uv, count) bind(c, name="planish_pht_copy_vertices")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(inout) :: out_uv(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_pht_copy_hanging( &
+        surface, out_uv, out_hosts, count) bind(c, name="planish_pht_copy_hanging")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(inout), optional :: out_uv(*)
+      integer(c_int32_t), intent(inout), optional :: out_hosts(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_pht_copy_neighbours( &
+        surface, cell, out_cells, count, out_count) bind(c, name="planish_pht_copy_neighbours")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_size_t), value :: cell
+      integer(c_size_t), intent(inout), optional :: out_cells(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), intent(inout) :: out_count
+    end function
+
+    integer(c_int) function c_pht_copy_data(surface, out_data, count) bind(c, name="planish_pht_copy_data")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(inout) :: out_data(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_pht_set_data(surface, vertices, count, data) bind(c, name="planish_pht_set_data")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_size_t), intent(in) :: vertices(*)
+      integer(c_size_t), value :: count
+      real(c_double), intent(in) :: data(*)
+    end function
+
+    integer(c_int) function c_pht_copy_control_points( &
+        surface, basis, out_points, count) bind(c, name="planish_pht_copy_control_points")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), value :: basis
+      real(c_double), intent(inout) :: out_points(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_pht_set_control_points( &
+        surface, vertices, count, basis, points) bind(c, name="planish_pht_set_control_points")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_size_t), intent(in) :: vertices(*)
+      integer(c_size_t), value :: count
+      integer(c_int32_t), value :: basis
+      real(c_double), intent(in) :: points(*)
+    end function
+
+    integer(c_int) function c_pht_copy_extraction( &
+        surface, cell, basis, out_vertices, out_matrix, count, out_count) bind(c, name="planish_pht_copy_extraction")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_size_t), value :: cell
+      integer(c_int32_t), value :: basis
+      integer(c_int32_t), intent(inout), optional :: out_vertices(*)
+      real(c_double), intent(inout), optional :: out_matrix(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), intent(inout) :: out_count
+    end function
+
+    pure integer(c_size_t) function c_pht_cell_at(surface, u, v) bind(c, name="planish_pht_cell_at")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), value :: u, v
+    end function
   end interface
 
 contains
@@ -1560,6 +2210,26 @@ contains
   subroutine step_options_init(options)
     type(planish_step_options), intent(inout) :: options
     call conclude(c_step_options_init(options, c_sizeof(options)))
+  end subroutine
+
+  subroutine convert_options_init(options)
+    type(planish_convert_options), intent(inout) :: options
+    call conclude(c_convert_options_init(options, c_sizeof(options)))
+  end subroutine
+
+  subroutine skin_options_init(options)
+    type(planish_skin_options), intent(inout) :: options
+    call conclude(c_skin_options_init(options, c_sizeof(options)))
+  end subroutine
+
+  subroutine pht_options_init(options)
+    type(planish_pht_options), intent(inout) :: options
+    call conclude(c_pht_options_init(options, c_sizeof(options)))
+  end subroutine
+
+  subroutine pht_convert_options_init(options)
+    type(planish_pht_convert_options), intent(inout) :: options
+    call conclude(c_pht_convert_options_init(options, c_sizeof(options)))
   end subroutine
 
   ! ---------------------------------------------------------------------------------------------------------
@@ -2172,6 +2842,60 @@ contains
     call conclude(c_surface_set_trims(self%get(), uv, counts, size(counts, kind=c_size_t)), stat, errmsg)
   end subroutine
 
+  !> Number of Bezier patches: they cover the domain without overlap and are the surface exactly.
+  pure integer(c_size_t) function surface_patch_count(self) result(count)
+    class(planish_surface_t), intent(in) :: self
+    count = c_surface_patch_count(self%get())
+  end function
+
+  !> The number of the patch over (u,v), beyond the domain of the one continued there; 0 if there are no patches.
+  pure integer(c_size_t) function surface_patch_at(self, u, v) result(index)
+    class(planish_surface_t), intent(in) :: self
+    real(c_double), intent(in) :: u, v
+    index = 0
+    if (self%patch_count() > 0) index = c_surface_patch_at(self%get(), u, v) + 1
+  end function
+
+  !> A Bezier patch, counted from 1: where it lies, and its ordinates(ordinate_width, degree_v + 1, degree_u + 1).
+  !> Ask for the patch alone first: it says how many ordinates there are.
+  subroutine surface_copy_patch(self, index, patch, ordinates, stat, errmsg)
+    class(planish_surface_t), intent(in) :: self
+    integer, intent(in) :: index
+    type(planish_patch), intent(inout) :: patch
+    real(c_double), intent(inout), optional, contiguous :: ordinates(:, :, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_patch) :: found
+    integer(c_int) :: status
+    if (refuse(index < 1, PLANISH_STATUS_INDEX, "patches count from 1", stat, errmsg)) return
+    status = c_surface_copy_patch(self%get(), index - 1_c_size_t, found, count=0_c_size_t)
+    if (status >= 0 .and. present(ordinates)) then
+      if (refuse_extent(size(ordinates, 1, c_size_t), found%ordinate_width, "the first extent of ordinates", &
+          stat, errmsg)) return
+      if (refuse_extent(size(ordinates, 2, c_size_t), found%degree_v + 1_c_size_t, "the second extent of ordinates", &
+          stat, errmsg)) return
+      if (refuse_extent(size(ordinates, 3, c_size_t), found%degree_u + 1_c_size_t, "the third extent of ordinates", &
+          stat, errmsg)) return
+      status = c_surface_copy_patch(self%get(), index - 1_c_size_t, found, ordinates, found%ordinate_count)
+    end if
+    if (status >= 0) patch = found
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Makes a tensor surface that is the same surface exactly, with the same trims.
+  subroutine surface_to_tensor(self, tensor, options, stat, errmsg)
+    class(planish_surface_t), intent(in) :: self
+    class(planish_surface_t), intent(inout) :: tensor
+    type(planish_convert_options), intent(in), optional :: options
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    status = c_surface_to_tensor(self%get(), options, handle)
+    if (status >= 0) call tensor%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
   ! ---------------------------------------------------------------------------------------------------------
   ! Tensor surface
   ! ---------------------------------------------------------------------------------------------------------
@@ -2454,20 +3178,71 @@ contains
         "the extent along u of " // name, stat, errmsg)
   end function
 
+  !> Inserts knots along an axis, a PLANISH_AXIS; the surface stays the same.
+  subroutine planish_tensor_insert_knots(surface, axis, knots, stat, errmsg)
+    class(planish_surface_t), intent(inout) :: surface
+    integer(c_int32_t), intent(in) :: axis
+    real(c_double), intent(in), contiguous :: knots(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call conclude(c_tensor_insert_knots(surface%get(), axis, knots, size(knots, kind=c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> Raises the degree along an axis, a PLANISH_AXIS; the surface stays the same.
+  subroutine planish_tensor_elevate_degree(surface, axis, degree, stat, errmsg)
+    class(planish_surface_t), intent(inout) :: surface
+    integer(c_int32_t), intent(in) :: axis
+    integer, intent(in) :: degree
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call conclude(c_tensor_elevate_degree(surface%get(), axis, int(degree, c_int32_t)), stat, errmsg)
+  end subroutine
+
+  !> Turns a surface round along an axis, a PLANISH_AXIS: the same points in the other direction.
+  subroutine planish_tensor_reverse(surface, axis, stat, errmsg)
+    class(planish_surface_t), intent(inout) :: surface
+    integer(c_int32_t), intent(in) :: axis
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call conclude(c_tensor_reverse(surface%get(), axis), stat, errmsg)
+  end subroutine
+
+  !> Makes the parts below and above a parameter along an axis, a PLANISH_AXIS.
+  subroutine planish_tensor_split(surface, axis, at, lower, upper, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    integer(c_int32_t), intent(in) :: axis
+    real(c_double), intent(in) :: at
+    class(planish_surface_t), intent(inout) :: lower, upper
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: below, above
+    integer(c_int) :: status
+    status = c_tensor_split(surface%get(), axis, at, below, above)
+    if (status >= 0) then
+      call lower%take(below)
+      call upper%take(above)
+    end if
+    call conclude(status, stat, errmsg)
+  end subroutine
+
   ! ---------------------------------------------------------------------------------------------------------
   ! Queries
   ! ---------------------------------------------------------------------------------------------------------
 
-  !> Makes a mesh of a surface in space.
-  subroutine surface_tessellate(self, mesh, options, stat, errmsg)
+  !> Makes a mesh of a surface in space. report: receives how good the mesh is.
+  subroutine surface_tessellate(self, mesh, options, report, stat, errmsg)
     class(planish_surface_t), intent(in) :: self
     class(planish_mesh_t), intent(inout) :: mesh
     type(planish_tessellate_options), intent(in), optional :: options
+    type(planish_tessellate_report), intent(inout), optional, target :: report
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
+    type(planish_tessellate_options) :: call_options
     type(c_ptr) :: handle
     integer(c_int) :: status
-    status = c_surface_tessellate(self%get(), options, handle)
+    if (present(options)) call_options = options
+    if (present(report)) call_options%out_report = c_loc(report)
+    status = c_surface_tessellate(self%get(), call_options, handle)
     if (status >= 0) call mesh%take(handle)
     call conclude(status, stat, errmsg)
   end subroutine
@@ -2527,7 +3302,7 @@ contains
   ! Files
   ! ---------------------------------------------------------------------------------------------------------
 
-  !> Writes a surface in space as a VTK file of triangles.
+  !> Writes a surface in space as a VTK file: its triangles, patches or control net, as the options say.
   !>
   !> deviation_from: a mesh to compare with.
   !> tessellate:     how fine the triangles are.
@@ -2664,6 +3439,23 @@ contains
     if (.not. c_associated(handle)) return
     allocate (self%owner)
     self%owner%handle = handle
+  end subroutine
+
+  !> Makes a curve from its parts: knots and control_points(dim,n).
+  subroutine curve_new(self, degree, knots, control_points, stat, errmsg)
+    class(planish_curve_t), intent(inout) :: self
+    integer, intent(in) :: degree
+    real(c_double), intent(in), contiguous :: knots(:), control_points(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    if (refuse_extent(size(control_points, 2, c_size_t), size(knots, kind=c_size_t) - degree - 1, &
+        "the number of control points", stat, errmsg)) return
+    status = c_curve_new(size(control_points, 1, c_size_t), int(degree, c_int32_t), knots, &
+        size(knots, kind=c_size_t), control_points, handle)
+    if (status >= 0) call self%take(handle)
+    call conclude(status, stat, errmsg)
   end subroutine
 
   !> Fits a curve to values(dim,n) at u(n); the optional arguments are those of planish_tensor_fit().
@@ -2814,5 +3606,715 @@ contains
         return
     call conclude(c_curve_eval(self%get(), u, count, int(max_derivative, c_int32_t), call_options, out), stat, errmsg)
   end subroutine
+
+  ! ---------------------------------------------------------------------------------------------------------
+  ! T-spline
+  ! ---------------------------------------------------------------------------------------------------------
+
+  !> Skins points(dim,n), row after row, and how many points each row has.
+  !>
+  !> report:         receives how good the surface is; worst_index counts from 1.
+  !> skin_report:    receives what only skins report; twisted_row counts from 1, 0 is none.
+  !> end_slopes:     (dim, 2, rows), slopes at begin and end of each row, for PLANISH_SECTION_ENDS_SLOPES.
+  !> begin_tangents: (dim,n), derivatives across the first row, one for each of its points.
+  !> end_tangents:   (dim,n), the same at the last row.
+  !> parameters:     (2,n), receives the (u,v) at which the error of each point is measured.
+  !> errors:         receives the error of each point.
+  !> progress:       hears how far the fit is, and may cancel it.
+  subroutine planish_tspline_skin(points, point_counts, surface, options, report, skin_report, end_slopes, &
+      begin_tangents, end_tangents, parameters, errors, progress, stat, errmsg)
+    real(c_double), intent(in), contiguous :: points(:, :)
+    integer, intent(in) :: point_counts(:)
+    class(planish_surface_t), intent(inout) :: surface
+    type(planish_skin_options), intent(in), optional :: options
+    type(planish_fit_report), intent(inout), optional :: report
+    type(planish_skin_report), intent(inout), optional, target :: skin_report
+    real(c_double), intent(in), optional, target, contiguous :: end_slopes(:, :, :)
+    real(c_double), intent(in), optional, target, contiguous :: begin_tangents(:, :), end_tangents(:, :)
+    real(c_double), intent(inout), optional, target, contiguous :: parameters(:, :), errors(:)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_skin_options) :: call_options
+    type(planish_tensor_options) :: data
+    type(planish_parameterize_options), target :: map
+    type(listener), target :: user
+    type(c_ptr) :: handle
+    integer(c_size_t) :: counts(size(point_counts)), dim, row_count
+    integer(c_int) :: status
+    if (present(options)) call_options = options
+    dim = size(points, 1, c_size_t)
+    row_count = size(point_counts, kind=c_size_t)
+    if (refuse(any(point_counts < 0), PLANISH_STATUS_INVALID_ARGUMENT, "a row has less than no points", &
+        stat, errmsg)) return
+    counts = point_counts
+    if (refuse_extent(size(points, 2, c_size_t), sum(counts), "the number of points", stat, errmsg)) return
+    if (refuse_data(data, map, user, sum(counts), parameters=parameters, errors=errors, progress=progress, &
+        stat=stat, errmsg=errmsg)) return
+    if (present(end_slopes)) then
+      if (refuse_extent(size(end_slopes, 1, c_size_t), dim, "the first extent of end_slopes", stat, errmsg)) return
+      if (refuse_extent(size(end_slopes, 2, c_size_t), 2_c_size_t, "the second extent of end_slopes", &
+          stat, errmsg)) return
+      if (refuse_extent(size(end_slopes, 3, c_size_t), row_count, "the third extent of end_slopes", stat, errmsg)) &
+          return
+      call_options%end_slopes = c_loc(end_slopes)
+    end if
+    if (row_count > 0) then ! with no rows the library says what is wrong
+      if (refuse_tangents(begin_tangents, dim, counts(1), "begin_tangents", call_options%begin_tangents, &
+          stat, errmsg)) return
+      if (refuse_tangents(end_tangents, dim, counts(row_count), "end_tangents", call_options%end_tangents, &
+          stat, errmsg)) return
+    end if
+    call_options%dim = dim
+    call_options%out_parameters = data%out_parameters
+    call_options%out_errors = data%out_errors
+    call_options%progress = data%progress
+    call_options%user = data%user
+    if (present(skin_report)) call_options%out_report = c_loc(skin_report)
+    status = c_tspline_skin(points, counts, row_count, call_options, handle, report)
+    if (status >= 0) call surface%take(handle)
+    call conclude_skin(status, report, skin_report, stat, errmsg)
+  end subroutine
+
+  !> Skins section curves; the arguments are those of planish_tspline_skin(). The tangents have one vector for each
+  !> different knot of the first and of the last curve.
+  subroutine planish_tspline_skin_curves(curves, surface, options, report, skin_report, begin_tangents, &
+      end_tangents, progress, stat, errmsg)
+    class(planish_curve_t), intent(in) :: curves(:)
+    class(planish_surface_t), intent(inout) :: surface
+    type(planish_skin_options), intent(in), optional :: options
+    type(planish_fit_report), intent(inout), optional :: report
+    type(planish_skin_report), intent(inout), optional, target :: skin_report
+    real(c_double), intent(in), optional, target, contiguous :: begin_tangents(:, :), end_tangents(:, :)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_skin_options) :: call_options
+    type(planish_tensor_options) :: data
+    type(planish_parameterize_options), target :: map
+    type(listener), target :: user
+    type(c_ptr) :: handle
+    integer(c_size_t) :: count
+    integer(c_int) :: status
+    if (present(options)) call_options = options
+    count = size(curves, kind=c_size_t)
+    if (refuse_data(data, map, user, count, progress=progress, stat=stat, errmsg=errmsg)) return
+    if (count > 0) then ! with no curves the library says what is wrong
+      if (refuse_tangents(begin_tangents, curves(1)%dim(), different_knots(curves(1)), "begin_tangents", &
+          call_options%begin_tangents, stat, errmsg)) return
+      if (refuse_tangents(end_tangents, curves(count)%dim(), different_knots(curves(count)), "end_tangents", &
+          call_options%end_tangents, stat, errmsg)) return
+    end if
+    call_options%progress = data%progress
+    call_options%user = data%user
+    if (present(skin_report)) call_options%out_report = c_loc(skin_report)
+    status = c_tspline_skin_curves(handles_of(curves), count, call_options, handle, report)
+    if (status >= 0) call surface%take(handle)
+    call conclude_skin(status, report, skin_report, stat, errmsg)
+  end subroutine
+
+  !> Leads options to the tangents across a row, and refuses those that are not one for each of its data.
+  logical function refuse_tangents(tangents, dim, count, name, address, stat, errmsg) result(refused)
+    real(c_double), intent(in), optional, target, contiguous :: tangents(:, :)
+    integer(c_size_t), intent(in) :: dim, count
+    character(*), intent(in) :: name
+    type(c_ptr), intent(inout) :: address
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    refused = .false.
+    if (.not. present(tangents)) return
+    refused = .true.
+    if (refuse_extent(size(tangents, 1, c_size_t), dim, "the first extent of " // name, stat, errmsg)) return
+    if (refuse_extent(size(tangents, 2, c_size_t), count, "the second extent of " // name, stat, errmsg)) return
+    address = c_loc(tangents)
+    refused = .false.
+  end function
+
+  !> Ends a skin: its reports name data and rows.
+  subroutine conclude_skin(status, report, skin_report, stat, errmsg)
+    integer(c_int), intent(in) :: status
+    type(planish_fit_report), intent(inout), optional :: report
+    type(planish_skin_report), intent(inout), optional :: skin_report
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (status >= 0 .and. present(skin_report)) skin_report%twisted_row = skin_report%twisted_row + 1
+    call conclude_fit(status, report, stat, errmsg)
+  end subroutine
+
+  !> Curves for C.
+  pure function handles_of(curves) result(handles)
+    class(planish_curve_t), intent(in) :: curves(:)
+    type(c_ptr) :: handles(size(curves))
+    integer :: i
+    do i = 1, size(curves)
+      handles(i) = curves(i)%get()
+    end do
+  end function
+
+  !> How many different knots a curve has in its domain.
+  integer(c_size_t) function different_knots(curve) result(count)
+    class(planish_curve_t), intent(in) :: curve
+    real(c_double) :: knots(curve%knot_count()), interval(2)
+    integer(c_size_t) :: i
+    integer :: stat
+    count = 0
+    call curve%domain(interval, stat)
+    if (stat < 0) return
+    call curve%copy_knots(knots, stat)
+    knots = min(max(knots, interval(1)), interval(2))
+    count = 1
+    do i = 2, size(knots, kind=c_size_t)
+      if (knots(i) > knots(i - 1)) count = count + 1
+    end do
+  end function
+
+  !> Makes a T-spline from its parts: the knots along v, and size(knots) - 4 control curves.
+  subroutine planish_tspline_new(knots, curves, surface, stat, errmsg)
+    real(c_double), intent(in), contiguous :: knots(:)
+    class(planish_curve_t), intent(in) :: curves(:)
+    class(planish_surface_t), intent(inout) :: surface
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    status = c_tspline_new(knots, size(knots, kind=c_size_t), handles_of(curves), size(curves, kind=c_size_t), handle)
+    if (status >= 0) call surface%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Number of control curves.
+  pure integer(c_size_t) function planish_tspline_curve_count(surface) result(count)
+    class(planish_surface_t), intent(in) :: surface
+    count = c_tspline_curve_count(surface%get())
+  end function
+
+  !> Makes a copy of a control curve, which counts from 1.
+  subroutine planish_tspline_clone_curve(surface, index, curve, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    integer, intent(in) :: index
+    class(planish_curve_t), intent(inout) :: curve
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    if (refuse(index < 1, PLANISH_STATUS_INDEX, "control curves count from 1", stat, errmsg)) return
+    status = c_tspline_clone_curve(surface%get(), index - 1_c_size_t, handle)
+    if (status >= 0) call curve%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Number of knots along v.
+  pure integer(c_size_t) function planish_tspline_knot_count(surface) result(count)
+    class(planish_surface_t), intent(in) :: surface
+    count = c_tspline_knot_count(surface%get())
+  end function
+
+  !> The knots along v: at least planish_tspline_knot_count() of them.
+  subroutine planish_tspline_copy_knots(surface, knots, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    real(c_double), intent(inout), contiguous :: knots(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call conclude(c_tspline_copy_knots(surface%get(), knots, size(knots, kind=c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> Inserts a knot into one control curve, which counts from 1; the surface stays the same.
+  subroutine planish_tspline_insert_knot_u(surface, curve, u, stat, errmsg)
+    class(planish_surface_t), intent(inout) :: surface
+    integer, intent(in) :: curve
+    real(c_double), intent(in) :: u
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse(curve < 1, PLANISH_STATUS_INDEX, "control curves count from 1", stat, errmsg)) return
+    call conclude(c_tspline_insert_knot_u(surface%get(), curve - 1_c_size_t, u), stat, errmsg)
+  end subroutine
+
+  !> Inserts a knot along v; the surface stays the same and has one control curve more.
+  subroutine planish_tspline_insert_knot_v(surface, v, stat, errmsg)
+    class(planish_surface_t), intent(inout) :: surface
+    real(c_double), intent(in) :: v
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call conclude(c_tspline_insert_knot_v(surface%get(), v), stat, errmsg)
+  end subroutine
+
+  !> Removes a knot from one control curve if the surface then moves by no more than a tolerance; else stat is
+  !> PLANISH_STATUS_TOLERANCE_NOT_MET. Curve and knot count from 1.
+  !>
+  !> error: receives a bound of the distance that the surface moves, or would have moved.
+  subroutine planish_tspline_remove_knot_u(surface, curve, knot, tolerance, error, stat, errmsg)
+    class(planish_surface_t), intent(inout) :: surface
+    integer, intent(in) :: curve, knot
+    real(c_double), intent(in) :: tolerance
+    real(c_double), intent(inout), optional :: error
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse(curve < 1 .or. knot < 1, PLANISH_STATUS_INDEX, "control curves and knots count from 1", &
+        stat, errmsg)) return
+    call conclude(c_tspline_remove_knot_u(surface%get(), curve - 1_c_size_t, knot - 1_c_size_t, tolerance, error), &
+        stat, errmsg)
+  end subroutine
+
+  ! ---------------------------------------------------------------------------------------------------------
+  ! PHT-spline
+  ! ---------------------------------------------------------------------------------------------------------
+
+  !> Fits a PHT-spline to the shape of a mesh; the optional arguments are those of planish_tensor_fit().
+  subroutine planish_pht_fit( &
+      mesh, surface, options, report, parameterize, weights, parameters, errors, progress, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: mesh
+    class(planish_surface_t), intent(inout) :: surface
+    type(planish_pht_options), intent(in), optional :: options
+    type(planish_fit_report), intent(inout), optional :: report
+    type(planish_parameterize_options), intent(in), optional :: parameterize
+    real(c_double), intent(in), optional, target, contiguous :: weights(:)
+    real(c_double), intent(inout), optional, target, contiguous :: parameters(:, :), errors(:)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_pht_options) :: call_options
+    type(planish_tensor_options) :: data
+    type(planish_parameterize_options), target :: map
+    type(listener), target :: user
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    if (present(options)) call_options = options
+    if (refuse_data(data, map, user, mesh%point_count(), parameterize, weights, parameters, errors, progress, &
+        stat, errmsg)) return
+    call lead(call_options, data)
+    status = c_pht_fit(mesh%get(), call_options, handle, report)
+    if (status >= 0) call surface%take(handle)
+    call conclude_fit(status, report, stat, errmsg)
+  end subroutine
+
+  subroutine pht_fit_points_rows( &
+      uv, values, surface, options, report, weights, parameters, errors, progress, stat, errmsg)
+    real(c_double), intent(in), contiguous :: uv(:, :), values(:, :)
+    class(planish_surface_t), intent(inout) :: surface
+    type(planish_pht_options), intent(in), optional :: options
+    type(planish_fit_report), intent(inout), optional :: report
+    real(c_double), intent(in), optional, target, contiguous :: weights(:)
+    real(c_double), intent(inout), optional, target, contiguous :: parameters(:, :), errors(:)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_pht_options) :: call_options
+    type(planish_tensor_options) :: data
+    type(planish_parameterize_options), target :: map
+    type(listener), target :: user
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    integer(c_size_t) :: count
+    count = size(uv, 2, c_size_t)
+    if (present(options)) call_options = options
+    if (refuse_extent(size(uv, 1, c_size_t), 2_c_size_t, "the first extent of uv", stat, errmsg)) return
+    if (refuse_extent(size(values, 2, c_size_t), count, "the number of values", stat, errmsg)) return
+    if (refuse_data(data, map, user, count, weights=weights, parameters=parameters, errors=errors, &
+        progress=progress, stat=stat, errmsg=errmsg)) return
+    call lead(call_options, data)
+    status = c_pht_fit_points(uv, values, count, size(values, 1, c_size_t), call_options, handle, report)
+    if (status >= 0) call surface%take(handle)
+    call conclude_fit(status, report, stat, errmsg)
+  end subroutine
+
+  subroutine pht_fit_points_scalars( &
+      uv, values, surface, options, report, weights, parameters, errors, progress, stat, errmsg)
+    real(c_double), intent(in), contiguous :: uv(:, :)
+    real(c_double), intent(in), contiguous, target :: values(:)
+    class(planish_surface_t), intent(inout) :: surface
+    type(planish_pht_options), intent(in), optional :: options
+    type(planish_fit_report), intent(inout), optional :: report
+    real(c_double), intent(in), optional, target, contiguous :: weights(:)
+    real(c_double), intent(inout), optional, target, contiguous :: parameters(:, :), errors(:)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    real(c_double), pointer, contiguous :: rows(:, :)
+    rows(1:1, 1:size(values)) => values
+    call pht_fit_points_rows( &
+        uv, rows, surface, options, report, weights, parameters, errors, progress, stat, errmsg)
+  end subroutine
+
+  subroutine pht_fit_field_rows( &
+      mesh, values, surface, options, report, parameterize, weights, parameters, errors, progress, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: mesh
+    real(c_double), intent(in), contiguous :: values(:, :)
+    class(planish_surface_t), intent(inout) :: surface
+    type(planish_pht_options), intent(in), optional :: options
+    type(planish_fit_report), intent(inout), optional :: report
+    type(planish_parameterize_options), intent(in), optional :: parameterize
+    real(c_double), intent(in), optional, target, contiguous :: weights(:)
+    real(c_double), intent(inout), optional, target, contiguous :: parameters(:, :), errors(:)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_pht_options) :: call_options
+    type(planish_tensor_options) :: data
+    type(planish_parameterize_options), target :: map
+    type(listener), target :: user
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    if (present(options)) call_options = options
+    if (refuse_data(data, map, user, mesh%point_count(), parameterize, weights, parameters, errors, progress, &
+        stat, errmsg)) return
+    call lead(call_options, data)
+    status = c_pht_fit_field( &
+        mesh%get(), values, size(values, 2, c_size_t), size(values, 1, c_size_t), call_options, handle, report)
+    if (status >= 0) call surface%take(handle)
+    call conclude_fit(status, report, stat, errmsg)
+  end subroutine
+
+  subroutine pht_fit_field_scalars( &
+      mesh, values, surface, options, report, parameterize, weights, parameters, errors, progress, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: mesh
+    real(c_double), intent(in), contiguous, target :: values(:)
+    class(planish_surface_t), intent(inout) :: surface
+    type(planish_pht_options), intent(in), optional :: options
+    type(planish_fit_report), intent(inout), optional :: report
+    type(planish_parameterize_options), intent(in), optional :: parameterize
+    real(c_double), intent(in), optional, target, contiguous :: weights(:)
+    real(c_double), intent(inout), optional, target, contiguous :: parameters(:, :), errors(:)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    real(c_double), pointer, contiguous :: rows(:, :)
+    rows(1:1, 1:size(values)) => values
+    call pht_fit_field_rows( &
+        mesh, rows, surface, options, report, parameterize, weights, parameters, errors, progress, stat, errmsg)
+  end subroutine
+
+  !> Leads options to the same arguments as those of a tensor fit.
+  subroutine lead(options, data)
+    type(planish_pht_options), intent(inout) :: options
+    type(planish_tensor_options), intent(in) :: data
+    options%parameterize = data%parameterize
+    options%weights = data%weights
+    options%progress = data%progress
+    options%user = data%user
+    options%out_parameters = data%out_parameters
+    options%out_errors = data%out_errors
+  end subroutine
+
+  !> Makes a PHT-spline of values of dim numbers from an initial grid and cells(3,n) to split, each level, i, j.
+  !>
+  !> data:        (width, 4, vertices), f, f_u, f_v, f_uv of each basis vertex; zeros, and weights of 1, without it.
+  !> is_rational: whether values are followed by a weight and multiplied by it.
+  subroutine planish_pht_new(dim, lines_u, lines_v, cells, surface, data, is_rational, stat, errmsg)
+    integer, intent(in) :: dim
+    real(c_double), intent(in), contiguous :: lines_u(:), lines_v(:)
+    integer(c_int32_t), intent(in), contiguous :: cells(:, :)
+    class(planish_surface_t), intent(inout) :: surface
+    real(c_double), intent(in), optional, contiguous :: data(:, :, :)
+    logical, intent(in), optional :: is_rational
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handle
+    integer(c_int32_t) :: with_weights
+    integer(c_size_t) :: data_count
+    integer(c_int) :: status
+    with_weights = 0
+    if (present(is_rational)) with_weights = merge(1_c_int32_t, 0_c_int32_t, is_rational)
+    data_count = 0
+    if (present(data)) then
+      if (refuse_extent(size(data, 1, c_size_t), int(dim + with_weights, c_size_t), "the first extent of data", &
+          stat, errmsg)) return
+      if (refuse_extent(size(data, 2, c_size_t), 4_c_size_t, "the second extent of data", stat, errmsg)) return
+      data_count = size(data, kind=c_size_t)
+    end if
+    if (refuse_extent(size(cells, 1, c_size_t), 3_c_size_t, "the first extent of cells", stat, errmsg)) return
+    if (refuse(dim < 1, PLANISH_STATUS_INVALID_ARGUMENT, "dim is less than 1", stat, errmsg)) return
+    status = c_pht_new(int(dim, c_size_t), with_weights, lines_u, size(lines_u, kind=c_size_t), lines_v, &
+        size(lines_v, kind=c_size_t), cells, size(cells, 2, c_size_t), data, data_count, handle)
+    if (status >= 0) call surface%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Splits cells(3,n), each level, i, j, at their middles; the surface stays the same.
+  subroutine planish_pht_split(surface, cells, stat, errmsg)
+    class(planish_surface_t), intent(inout) :: surface
+    integer(c_int32_t), intent(in), contiguous :: cells(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_extent(size(cells, 1, c_size_t), 3_c_size_t, "the first extent of cells", stat, errmsg)) return
+    call conclude(c_pht_split(surface%get(), cells, size(cells, 2, c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> Merges the quarters of cells(3,n), each level, i, j: the inverse of planish_pht_split().
+  subroutine planish_pht_merge(surface, cells, stat, errmsg)
+    class(planish_surface_t), intent(inout) :: surface
+    integer(c_int32_t), intent(in), contiguous :: cells(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_extent(size(cells, 1, c_size_t), 3_c_size_t, "the first extent of cells", stat, errmsg)) return
+    call conclude(c_pht_merge(surface%get(), cells, size(cells, 2, c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> Merges as many cells as it can while no point moves by more than a tolerance.
+  !>
+  !> deviation: receives a bound of how far a point has moved.
+  subroutine planish_pht_simplify(surface, tolerance, deviation, stat, errmsg)
+    class(planish_surface_t), intent(inout) :: surface
+    real(c_double), intent(in) :: tolerance
+    real(c_double), intent(inout), optional :: deviation
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call conclude(c_pht_simplify(surface%get(), tolerance, deviation), stat, errmsg)
+  end subroutine
+
+  !> Splits all cells that meet the inside of a region, least u, largest u, least v, largest v, until they have at
+  !> least some level; the surface stays the same. With more than max_cells cells the call fails.
+  subroutine planish_pht_refine_region(surface, region, level, max_cells, stat, errmsg)
+    class(planish_surface_t), intent(inout) :: surface
+    real(c_double), intent(in) :: region(4)
+    integer, intent(in) :: level, max_cells
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse(max_cells < 0, PLANISH_STATUS_INVALID_ARGUMENT, "max_cells is negative", stat, errmsg)) return
+    call conclude(c_pht_refine_region(surface%get(), region, int(level, c_int32_t), int(max_cells, c_size_t)), &
+        stat, errmsg)
+  end subroutine
+
+  !> Makes a PHT-spline of a tensor surface, with its weights and trims.
+  subroutine planish_pht_from_surface(surface, pht, options, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    class(planish_surface_t), intent(inout) :: pht
+    type(planish_pht_convert_options), intent(in), optional :: options
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    status = c_pht_from_surface(surface%get(), options, handle)
+    if (status >= 0) call pht%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Makes tensor surfaces that together are a PHT-spline, each over cells whose levels differ by at most sigma.
+  subroutine planish_pht_to_tensor_patches(surface, sigma, patches, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    integer, intent(in) :: sigma
+    type(planish_surface_t), allocatable, intent(inout) :: patches(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr), allocatable :: handles(:)
+    integer(c_size_t) :: count
+    integer(c_int) :: status
+    integer :: i
+    status = c_pht_to_tensor_patches(surface%get(), int(sigma, c_int32_t), count=0_c_size_t, out_count=count)
+    if (status >= 0) then
+      allocate (handles(count))
+      status = c_pht_to_tensor_patches(surface%get(), int(sigma, c_int32_t), handles, count, count)
+    end if
+    if (status >= 0) then
+      if (allocated(patches)) deallocate (patches)
+      allocate (patches(size(handles)))
+      do i = 1, size(handles)
+        call patches(i)%take(handles(i))
+      end do
+    end if
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Makes two PHT-splines meet with common tangents along an edge of each, a PLANISH_BORDER_SIDE.
+  !>
+  !> is_reversed: whether the edges run in opposite directions; they do not without it.
+  subroutine planish_pht_stitch(first, first_side, second, second_side, is_reversed, stat, errmsg)
+    class(planish_surface_t), intent(inout) :: first, second
+    integer(c_int32_t), intent(in) :: first_side, second_side
+    logical, intent(in), optional :: is_reversed
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: turned
+    turned = 0
+    if (present(is_reversed)) turned = merge(1_c_int32_t, 0_c_int32_t, is_reversed)
+    call conclude(c_pht_stitch(first%get(), first_side, second%get(), second_side, turned), stat, errmsg)
+  end subroutine
+
+  !> Number of cells. Cell k is patch k of copy_patch().
+  pure integer(c_size_t) function planish_pht_cell_count(surface) result(count)
+    class(planish_surface_t), intent(in) :: surface
+    count = c_pht_cell_count(surface%get())
+  end function
+
+  !> Number of basis vertices, each with four control points.
+  pure integer(c_size_t) function planish_pht_vertex_count(surface) result(count)
+    class(planish_surface_t), intent(in) :: surface
+    count = c_pht_vertex_count(surface%get())
+  end function
+
+  !> Number of T-vertices: they lie inside an edge of a cell, their host, and have its data.
+  pure integer(c_size_t) function planish_pht_hanging_count(surface) result(count)
+    class(planish_surface_t), intent(in) :: surface
+    count = c_pht_hanging_count(surface%get())
+  end function
+
+  !> Numbers of a row of data: dim, or dim + 1 with weights.
+  pure integer(c_size_t) function planish_pht_width(surface) result(width)
+    class(planish_surface_t), intent(in) :: surface
+    width = c_pht_width(surface%get())
+  end function
+
+  !> cells(3,n), each level, i, j: n at least planish_pht_cell_count().
+  subroutine planish_pht_copy_cells(surface, cells, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    integer(c_int32_t), intent(inout), contiguous :: cells(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_extent(size(cells, 1, c_size_t), 3_c_size_t, "the first extent of cells", stat, errmsg)) return
+    call conclude(c_pht_copy_cells(surface%get(), cells, size(cells, 2, c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> uv(2,n) of the basis vertices, ordered along u, then along v: n at least planish_pht_vertex_count().
+  subroutine planish_pht_copy_vertices(surface, uv, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    real(c_double), intent(inout), contiguous :: uv(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_extent(size(uv, 1, c_size_t), 2_c_size_t, "the first extent of uv", stat, errmsg)) return
+    call conclude(c_pht_copy_vertices(surface%get(), uv, size(uv, 2, c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> uv(2,n) of the T-vertices and the cells that host them, which count from 1: n at least
+  !> planish_pht_hanging_count().
+  subroutine planish_pht_copy_hanging(surface, uv, hosts, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    real(c_double), intent(inout), contiguous :: uv(:, :)
+    integer(c_int32_t), intent(inout), contiguous :: hosts(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_size_t) :: count
+    integer(c_int) :: status
+    if (refuse_extent(size(uv, 1, c_size_t), 2_c_size_t, "the first extent of uv", stat, errmsg)) return
+    count = planish_pht_hanging_count(surface)
+    status = c_pht_copy_hanging(surface%get(), uv, hosts, min(size(uv, 2, c_size_t), size(hosts, kind=c_size_t)))
+    if (status >= 0) hosts(:count) = hosts(:count) + 1
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> The cells that share a part of an edge with a cell: those at its least u, largest u, least v and largest v, in
+  !> order along each; cells count from 1.
+  subroutine planish_pht_copy_neighbours(surface, cell, cells, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    integer, intent(in) :: cell
+    integer(c_size_t), allocatable, intent(inout) :: cells(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_size_t) :: count
+    integer(c_int) :: status
+    if (refuse(cell < 1, PLANISH_STATUS_INDEX, "cells count from 1", stat, errmsg)) return
+    status = c_pht_copy_neighbours(surface%get(), cell - 1_c_size_t, count=0_c_size_t, out_count=count)
+    if (status >= 0) then
+      if (allocated(cells)) deallocate (cells)
+      allocate (cells(count))
+      status = c_pht_copy_neighbours(surface%get(), cell - 1_c_size_t, cells, count, count)
+      cells = cells + 1
+    end if
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> data(width, 4, n), f, f_u, f_v, f_uv of each basis vertex; with weights those of (w x, .., w). n at least
+  !> planish_pht_vertex_count().
+  subroutine planish_pht_copy_data(surface, data, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    real(c_double), intent(inout), contiguous :: data(:, :, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_quadruples(surface, shape(data, c_size_t), "data", stat, errmsg)) return
+    call conclude(c_pht_copy_data(surface%get(), data, size(data, 3, c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> Replaces the data(width, 4, n) of some basis vertices, which count from 1.
+  subroutine planish_pht_set_data(surface, vertices, data, stat, errmsg)
+    class(planish_surface_t), intent(inout) :: surface
+    integer, intent(in) :: vertices(:)
+    real(c_double), intent(in), contiguous :: data(:, :, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_quadruples(surface, shape(data, c_size_t), "data", stat, errmsg)) return
+    if (refuse_vertices(vertices, size(data, 3, c_size_t), "data", stat, errmsg)) return
+    call conclude(c_pht_set_data(surface%get(), vertices - 1_c_size_t, size(vertices, kind=c_size_t), data), &
+        stat, errmsg)
+  end subroutine
+
+  !> points(width, 4, n), towards less or more u, then v, --, +-, -+, ++ of each basis vertex, in a PLANISH_PHT_BASIS;
+  !> with weights those of (w x, .., w). n at least planish_pht_vertex_count().
+  subroutine planish_pht_copy_control_points(surface, basis, points, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    integer(c_int32_t), intent(in) :: basis
+    real(c_double), intent(inout), contiguous :: points(:, :, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_quadruples(surface, shape(points, c_size_t), "points", stat, errmsg)) return
+    call conclude(c_pht_copy_control_points(surface%get(), basis, points, size(points, 3, c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> Replaces the control points(width, 4, n) of some basis vertices, which count from 1.
+  subroutine planish_pht_set_control_points(surface, vertices, basis, points, stat, errmsg)
+    class(planish_surface_t), intent(inout) :: surface
+    integer, intent(in) :: vertices(:)
+    integer(c_int32_t), intent(in) :: basis
+    real(c_double), intent(in), contiguous :: points(:, :, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_quadruples(surface, shape(points, c_size_t), "points", stat, errmsg)) return
+    if (refuse_vertices(vertices, size(points, 3, c_size_t), "points", stat, errmsg)) return
+    call conclude(c_pht_set_control_points(surface%get(), vertices - 1_c_size_t, size(vertices, kind=c_size_t), &
+        basis, points), stat, errmsg)
+  end subroutine
+
+  !> Refuses an array that has not four rows of the surface's width for each vertex.
+  logical function refuse_quadruples(surface, extents, name, stat, errmsg) result(refused)
+    class(planish_surface_t), intent(in) :: surface
+    integer(c_size_t), intent(in) :: extents(3)
+    character(*), intent(in) :: name
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    refused = refuse_dim(extents(1), planish_pht_width(surface), name, stat, errmsg)
+    if (.not. refused) refused = refuse_extent(extents(2), 4_c_size_t, "the second extent of " // name, stat, errmsg)
+  end function
+
+  !> Refuses vertices that do not count from 1, or are not as many as their rows.
+  logical function refuse_vertices(vertices, row_count, name, stat, errmsg) result(refused)
+    integer, intent(in) :: vertices(:)
+    integer(c_size_t), intent(in) :: row_count
+    character(*), intent(in) :: name
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    refused = refuse(any(vertices < 1), PLANISH_STATUS_INDEX, "vertices count from 1", stat, errmsg)
+    if (refused) return
+    refused = refuse_extent(row_count, size(vertices, kind=c_size_t), "the third extent of " // name, stat, errmsg)
+  end function
+
+  !> The operator that makes the Bezier ordinates of a cell from the control points that act on it, those of
+  !> vertices(n): ordinates(:,k) are the sums of matrix(q,i,k) times control point q of vertex i, matrix(4,n,16).
+  !> Cells and vertices count from 1.
+  subroutine planish_pht_copy_extraction(surface, cell, basis, vertices, matrix, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    integer, intent(in) :: cell
+    integer(c_int32_t), intent(in) :: basis
+    integer(c_int32_t), allocatable, intent(inout) :: vertices(:)
+    real(c_double), allocatable, intent(inout) :: matrix(:, :, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_size_t) :: count
+    integer(c_int) :: status
+    if (refuse(cell < 1, PLANISH_STATUS_INDEX, "cells count from 1", stat, errmsg)) return
+    status = c_pht_copy_extraction(surface%get(), cell - 1_c_size_t, basis, count=0_c_size_t, out_count=count)
+    if (status >= 0) then
+      if (allocated(vertices)) deallocate (vertices)
+      if (allocated(matrix)) deallocate (matrix)
+      allocate (vertices(count), matrix(4, count, 16))
+      status = c_pht_copy_extraction(surface%get(), cell - 1_c_size_t, basis, vertices, matrix, count, count)
+      vertices = vertices + 1
+    end if
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> The number of the cell that has (u,v), beyond the domain of the nearest one; 0 if there are no cells.
+  pure integer(c_size_t) function planish_pht_cell_at(surface, u, v) result(cell)
+    class(planish_surface_t), intent(in) :: surface
+    real(c_double), intent(in) :: u, v
+    cell = 0
+    if (planish_pht_cell_count(surface) > 0) cell = c_pht_cell_at(surface%get(), u, v) + 1
+  end function
 
 end module

@@ -41,12 +41,16 @@ class Header:
 
     def argument(self, text):
         """Name and declaration; `optional` may come to it where C allows NULL."""
-        const, base, stars, name = re.fullmatch(r"\s*(const )?(\w+) (\**)(\w+)\s*", text).groups()
+        const, base, handles, stars, name = re.fullmatch(r"\s*(const )?(\w+) (\*const )?(\**)(\w+)\s*", text).groups()
         intent = "intent(in)" if const else "intent(inout)"
+        if handles:
+            return name, ("type(c_ptr)", "intent(in)")  # an array of them
         if stars == "":
             return name, (KINDS[base], "value")
         if stars == "**":
             return name, ("type(c_ptr)", "intent(inout)")
+        if base == "void":
+            return name, (KINDS["uint8_t"], intent)  # bytes
         if base in KINDS:
             return name, (KINDS[base], intent)
         if base in self.records:
