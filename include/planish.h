@@ -1603,7 +1603,8 @@ typedef struct planish_pht_options {
      */
     double tolerance;
     /**
-     * Weight of the bending energy of each cell, mapped to the unit cell. Default 1e-3.
+     * Weight of the bending energy of each cell, mapped to the unit cell; lowered where cells cannot be split any
+     * more. Default 1e-3.
      */
     double smoothing;
     /**
