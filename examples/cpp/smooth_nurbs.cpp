@@ -51,4 +51,4 @@ int main() try {
   std::fprintf(stderr, "%s: %s\n", error.status_name(), error.what());
   return 1;
 }
-// Output: 3600 control points with 84 turns became 400 with 4, within 0.0059
+// Output: 3600 control points with 30 turns became 812 with 16, within 0.0042

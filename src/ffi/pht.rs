@@ -41,7 +41,8 @@ pub struct planish_pht_options {
     pub struct_size: usize,
     /// The largest error allowed at the data, positive, measured in tolerance_scale. Default 1e-3.
     pub tolerance: f64,
-    /// Weight of the bending energy of each cell, mapped to the unit cell. Default 1e-3.
+    /// Weight of the bending energy of each cell, mapped to the unit cell; lowered where cells cannot be split any
+    /// more. Default 1e-3.
     pub smoothing: f64,
     /// How a mesh without parameters gets them; NULL (default) for a circle, with one stretch step unless the
     /// tolerance is fine and the plain map even. Of this record progress, user and thread_count are not looked at, and node_weights must be

@@ -52,7 +52,8 @@ pub struct PhtOptions<'a> {
     /// What determines the jets.
     pub estimator: Estimator,
     /// Weight of the plate energy of each cell, mapped to the unit cell; of [`Estimator::Global`]. Default 1e-3:
-    /// ten times more flattens, a hundred times less lets the surface swing where a cell has few data.
+    /// ten times more flattens, a hundred times less lets the surface swing where a cell has few data. Where cells
+    /// cannot be split any more it is lowered.
     pub smoothing: f64,
     /// Cells to start from, along u and v.
     pub initial_grid: [usize; 2],

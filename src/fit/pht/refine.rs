@@ -21,6 +21,8 @@ pub struct Refinement<'a> {
     options: &'a PhtOptions<'a>,
     mesh: TMesh,
     known: KnownSums,
+    /// Weight of the energy: that of the options, less where cells cannot be split any more.
+    smoothing: f64,
     /// The tolerance in model units, and whether it was raised.
     tolerance: (f64, bool),
 }
@@ -32,6 +34,7 @@ struct Round {
     uv: Vec<DVec2>,
     /// The leaves in which an error exceeds the tolerance.
     rough: Vec<Rough>,
+    smoothing: f64,
 }
 
 /// A leaf that misses the tolerance.
@@ -41,6 +44,11 @@ struct Rough {
     /// The largest error in it.
     error: f64,
 }
+
+/// Where no cell can be split the energy is lowered by this factor,
+const SMOOTHING_STEP: f64 = 1e-2;
+/// as long as its weight is above this: far below, rounding decides in cells without data.
+const LEAST_SMOOTHING: f64 = 1e-6;
 
 /// Smallest share of its first area that a triangle keeps when its nodes move. Sweeps follow each other; with less
 /// the map is crushed here and there, and the surface swings between the nodes: of 0, 0.1, .. 0.75 this needed the
@@ -80,7 +88,7 @@ impl<'a> Refinement<'a> {
         let mesh = mesh.map_err(|_| FitError::DegenerateRange { axis: 'u', at: min.x })?;
         let tolerance = options.tolerance.absolute(&data.bounds);
         let known = KnownSums::new(!data.is_shape);
-        Ok(Self { data, options, mesh, known, tolerance })
+        Ok(Self { data, options, mesh, known, smoothing: options.smoothing, tolerance })
     }
 
     pub fn run(mut self, control: &mut Control) -> Result<PhtFit, FitError> {
@@ -104,6 +112,12 @@ impl<'a> Refinement<'a> {
             if best.as_ref().is_none_or(|best| round.errors.max < best.errors.max) {
                 best = Some(round);
             }
+            if outcome.is_err() && !is_met && self.smoothing > LEAST_SMOOTHING {
+                // no cell can be split: what is left may be the energy's doing
+                self.smoothing *= SMOOTHING_STEP;
+                noise = NoiseTest::default();
+                continue;
+            }
             if let Err(stop) = outcome {
                 break if is_met { StopReason::ToleranceMet } else { stop };
             }
@@ -120,13 +134,11 @@ impl<'a> Refinement<'a> {
             Estimator::Global => Some(System::new(&mesh, &topology)),
             _ => None,
         };
-        let options = self.options;
+        let (options, smoothing) = (self.options, self.smoothing);
         let mut estimate = |data: &Data, by_leaf: &ByLeaf| -> Result<PhtSurface, FitError> {
             watch.check()?;
             let jets = match &system {
-                Some(system) => {
-                    system.solve(data, by_leaf, &mut self.known, options.smoothing, pool, watch)?
-                }
+                Some(system) => system.solve(data, by_leaf, &mut self.known, smoothing, pool, watch)?,
                 None if options.estimator == Estimator::LocalCubic => {
                     local::cubic(data, &mesh, &topology, pool)
                 }
@@ -144,7 +156,7 @@ impl<'a> Refinement<'a> {
         }
         let errors = data_errors(&surface, &self.data.uv, &self.data.values, pool);
         let rough = self.rough_leaves(&surface, &errors, &by_leaf, pool);
-        Ok(Round { surface, errors, uv: self.data.uv.clone(), rough })
+        Ok(Round { surface, errors, uv: self.data.uv.clone(), rough, smoothing })
     }
 
     /// The leaves that miss the tolerance at a datum, or inside a triangle by more than its sagitta.
@@ -214,7 +226,7 @@ impl<'a> Refinement<'a> {
     }
 
     fn finish(&mut self, best: Round, stop: StopReason, passes: usize, control: &Control) -> PhtFit {
-        let Round { mut surface, errors, uv, rough } = best;
+        let Round { mut surface, errors, uv, rough, smoothing } = best;
         self.data.uv = uv;
         let pool = control.pool();
         let trims = self.trims(&surface);
@@ -251,7 +263,7 @@ impl<'a> Refinement<'a> {
             deepest_level: mesh.leaves().map(|leaf| mesh.cell(leaf).level).max().unwrap_or(0),
             rough_cell_count: rough.len(),
             coefficient_count: surface.coefficient_count(),
-            smoothing: self.options.smoothing,
+            smoothing,
             empty_cell_count,
             passes,
             stop,
