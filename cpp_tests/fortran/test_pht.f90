@@ -209,7 +209,8 @@ contains
     do corner = 1, 4
       data(:, 1, corner) = [2, 4] ! a value of 1/2 with weight 4
     end do
-    call planish_pht_new(1, unit_line, unit_line, reshape([integer(int32) ::], [3, 0]), surface, data, is_rational=.true.)
+    call planish_pht_new(1, unit_line, unit_line, reshape([integer(int32) ::], [3, 0]), surface, data, &
+        is_rational=.true.)
     call check(planish_pht_width(surface) == 2 .and. surface%dim() == 1, "the width has the weight")
     call check(abs(value(surface, 0.3_real64, 0.6_real64) - 0.5_real64) <= roundoff, "values are divided by it")
   end subroutine
