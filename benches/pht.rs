@@ -1,16 +1,23 @@
 //! PHT fits: coefficients, levels, errors, held-out errors, seconds, peak memory; conversion, evaluation.
 //!
-//! `cargo bench --bench pht -- [fits | points | meshes | convert | evaluate] DATA`, DATA the folder of shapes. Peak memory is that
-//! of a process, so each fit runs in one of its own.
+//! `cargo bench --bench pht -- points DATA`, `meshes DATA`, `convert DATA`, `evaluate` or `one FILE TOLERANCE [HELD]`, DATA the
+//! folder of shapes. Peak memory is that of a process, so each fit runs in one of its own.
 
 use glam::DVec2;
 use planish::Control;
+use planish::control::Pool;
 use planish::fit::pht::{Estimator, PhtFit, PhtOptions, fit_mesh, fit_points};
 use planish::fit::report::Tolerance;
+use planish::fit::tessellation::{self, TensorOptions};
 use planish::mesh::{MeshOptions, read};
-use planish::surface::Surface;
+use planish::query::project::{ProjectOptions, Projector};
+use planish::samples::Random;
+use planish::surface::pht::{ConvertOptions, PhtSurface, TMesh};
+use planish::surface::tensor::TensorSurface;
+use planish::surface::{Patches, Surface, derivative_rows};
 use std::path::Path;
 use std::process::Command;
+use std::time::Instant;
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
@@ -21,7 +28,11 @@ fn main() {
         }
         ["points", folder] => points(folder),
         ["meshes", folder] => meshes(folder),
-        _ => println!("cargo bench --bench pht -- points DATA | meshes DATA | one FILE TOLERANCE [HELD]"),
+        ["convert", folder] => convert(folder),
+        ["evaluate"] => evaluate(),
+        _ => println!(
+            "cargo bench --bench pht -- points|meshes|convert DATA | evaluate | one FILE TOLERANCE [HELD]"
+        ),
     }
 }
 
@@ -35,6 +46,9 @@ fn apart(arguments: &[&str]) {
 fn points(folder: &str) {
     let at = |name: &str| format!("{folder}/synthetic/{name}");
     apart(&[&at("ridges_45k.f64"), "1e-3", &at("ridges_held_100k.f64")]);
+    for count in ["ridges:45000", "ridges:350000", "ridges:1400000"] {
+        apart(&[count, "1e-3"]);
+    }
     for tolerance in ["1.5e-3", "1e-4"] {
         apart(&[&at("rough_4k_noise.f64"), tolerance]);
     }
@@ -54,6 +68,149 @@ fn meshes(folder: &str) {
             apart(&[&format!("{folder}/{name}"), tolerance]);
         }
     }
+}
+
+/// The shortest of some runs, in milliseconds, and what the last one made.
+fn fastest<R>(runs: usize, mut work: impl FnMut() -> R) -> (f64, R) {
+    let mut timed = || {
+        let start = Instant::now();
+        let result = work();
+        (1e3 * start.elapsed().as_secs_f64(), result)
+    };
+    let first = timed();
+    (1..runs).fold(first, |best, _| {
+        let next = timed();
+        (best.0.min(next.0), next.1)
+    })
+}
+
+/// Largest distance of two surfaces over 10 by 10 places in each of `spans` by `spans` cells.
+fn distance(a: &dyn Surface, b: &dyn Surface, spans: [usize; 2]) -> f64 {
+    let domain = a.domain();
+    let places = |count: usize, from: f64, to: f64| -> Vec<f64> {
+        (0..=10 * count).map(|k| from + (to - from) * k as f64 / (10 * count) as f64).collect()
+    };
+    let (u, v) = (places(spans[0], domain.min.x, domain.max.x), places(spans[1], domain.min.y, domain.max.y));
+    let (mut x, mut y) = (vec![0.0; 3 * u.len() * v.len()], vec![0.0; 3 * u.len() * v.len()]);
+    a.eval_grid(&u, &v, &mut x);
+    b.eval_grid(&u, &v, &mut y);
+    let square = |(a, b): (&[f64], &[f64])| a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
+    x.chunks_exact(3).zip(y.chunks_exact(3)).map(square).fold(0.0, f64::max).sqrt()
+}
+
+/// The 95 by 93 tensor fit of a head as a PHT-spline, against uniform PHT grids; simplification; tensor patches.
+fn convert(folder: &str) {
+    let (mut mesh, _) =
+        read(Path::new(&format!("{folder}/igea_disk_43k.ply")), &MeshOptions::default()).expect("a mesh");
+    mesh.clear_parameters();
+    let options = TensorOptions { fixed_grid: Some([93, 91]), ..TensorOptions::default() };
+    let fit = tessellation::fit_mesh(&mesh, &options, &mut Control::new(2)).expect("a fit");
+    let (tensor, diagonal) = (fit.surface, fit.report.diagonal);
+    let spans = [92, 90];
+    println!("tensor fit: {} control points", tensor.coefficient_count());
+    for share in [0.35e-2, 1.1e-2] {
+        let options = ConvertOptions { tolerance: share * diagonal, ..ConvertOptions::default() };
+        let (milliseconds, pht) =
+            fastest(5, || PhtSurface::from_tensor(&tensor, &options).expect("limits suffice"));
+        let uniform =
+            (1..200).find(|&count| distance(&uniform(&tensor, count), &tensor, spans) <= options.tolerance);
+        println!(
+            "within {share:.4}: {} control points, measured {:.5}, {milliseconds:.1} ms; smallest uniform grid {:?} with {:?}",
+            pht.coefficient_count(),
+            distance(&pht, &tensor, spans) / diagonal,
+            uniform,
+            uniform.map(|count| 4 * (count + 1) * (count + 1)),
+        );
+    }
+    let fit = fit_mesh(
+        &mesh,
+        &PhtOptions {
+            tolerance: Tolerance { value: 1.8e-3, ..Tolerance::default() },
+            ..PhtOptions::default()
+        },
+        &mut Control::new(2),
+    )
+    .expect("a fit");
+    let pht = fit.surface;
+    let (cells, before) = (pht.mesh().leaf_count(), pht.coefficient_count());
+    let (milliseconds, simple) = fastest(5, || {
+        let mut simple = pht.clone();
+        let result = simple.simplify(2e-3 * diagonal).expect("a tolerance");
+        (simple, result)
+    });
+    println!(
+        "simplify {cells} cells, {before} control points within 2e-3: {} left, {milliseconds:.1} ms",
+        simple.0.coefficient_count()
+    );
+    println!("sigma  patches  poles  milliseconds");
+    for sigma in 0..8 {
+        let (milliseconds, patches) = fastest(5, || pht.to_tensor_patches(sigma).expect("finite numbers"));
+        let poles: usize = patches.iter().map(Surface::coefficient_count).sum();
+        println!("{sigma:5}  {:7}  {poles:5}  {milliseconds:.2}", patches.len());
+    }
+}
+
+/// A tensor surface on a uniform PHT grid of `count` by `count` cells.
+fn uniform(tensor: &TensorSurface, count: usize) -> PhtSurface {
+    let domain = tensor.domain();
+    let lines = |from: f64, to: f64| -> Vec<f64> {
+        (0..=count)
+            .map(|k| if k == count { to } else { from + (to - from) * k as f64 / count as f64 })
+            .collect()
+    };
+    let (u, v) = (lines(domain.min.x, domain.max.x), lines(domain.min.y, domain.max.y));
+    let uv: Vec<DVec2> = u.iter().flat_map(|&u| v.iter().map(move |&v| DVec2::new(u, v))).collect();
+    let mut rows = vec![0.0; 18 * uv.len()];
+    tensor.eval_rows(&uv, 2, &mut rows);
+    let jets: Vec<f64> = rows
+        .chunks_exact(18)
+        .flat_map(|rows| [0, 1, 2, 4].into_iter().flat_map(move |k| rows[3 * k..3 * k + 3].to_vec()))
+        .collect();
+    PhtSurface::new(3, false, TMesh::new(&u, &v).expect("lines"), &jets).expect("finite numbers")
+}
+
+/// Random places on a surface of 4,000 cells, one thread.
+fn evaluate() {
+    let mut random = Random::new(1);
+    let mut mesh = TMesh::new(&[0.0, 1.0], &[0.0, 1.0]).expect("lines");
+    while mesh.leaf_count() < 4000 {
+        let place = DVec2::new(random.unit(), random.unit() * random.unit());
+        let leaf = mesh.locate(place);
+        if mesh.cell(leaf).level < 9 {
+            mesh.split(leaf);
+        }
+    }
+    let surface = PhtSurface::zero(3, false, mesh).expect("a surface");
+    let ranks: Vec<usize> = (0..surface.jets().len()).collect();
+    let jets: Vec<f64> = (0..12 * ranks.len()).map(|_| random.signed()).collect();
+    let mut surface = surface;
+    surface.set_jets(&ranks, &jets).expect("finite numbers");
+    let count = 1_000_000;
+    let uv: Vec<DVec2> = (0..count).map(|_| DVec2::new(random.unit(), random.unit())).collect();
+    let million = |milliseconds: f64| count as f64 / milliseconds / 1e3;
+    println!("{} cells", surface.mesh().leaf_count());
+    for (order, name) in ["values", "first derivatives", "second derivatives"].into_iter().enumerate() {
+        let mut out = vec![0.0; count * 3 * derivative_rows(order)];
+        let (milliseconds, ()) = fastest(5, || surface.eval_rows(&uv, order, &mut out));
+        println!("{name}: {:.1} million points a second", million(milliseconds));
+        let width = 3 * derivative_rows(order);
+        let off = uv.iter().zip(out.chunks_exact(width)).step_by(97).map(|(&uv, row)| {
+            let exact = surface.patch(surface.patch_at(uv)).eval(uv);
+            row.iter().zip(exact).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+        });
+        println!("  from the patches: {:.1e}", off.fold(0.0, f64::max));
+    }
+    let points: Vec<f64> = (0..3 * 20_000).map(|_| random.signed()).collect();
+    let projector = Projector::new(&surface).expect("patches");
+    let (mut places, mut distances) = (vec![DVec2::ZERO; 20_000], vec![0.0; 20_000]);
+    let pool = Pool::new(1);
+    let (milliseconds, _) = fastest(2, || {
+        projector.project(&points, &ProjectOptions::default(), &mut places, &mut distances, &pool)
+    });
+    println!(
+        "projection of random points onto the random surface: {:.0} points a second",
+        2e7 / milliseconds
+    );
 }
 
 /// Rows of u, v, x, y, z as little-endian doubles.
@@ -78,7 +235,10 @@ fn one(file: &str, value: f64, held: Option<&&str>) {
     };
     let name = file.rsplit('/').next().unwrap_or(file);
     let mut control = Control::new(2);
-    let fit = if file.ends_with(".f64") {
+    let fit = if let Some(count) = file.strip_prefix("ridges:") {
+        let (uv, values) = ridges(count.parse().expect("a number of samples"));
+        fit_points(&uv, &values, 3, &options, &mut control)
+    } else if file.ends_with(".f64") {
         let (uv, values) = read_points(file);
         fit_points(&uv, &values, 3, &options, &mut control)
     } else {
@@ -90,6 +250,31 @@ fn one(file: &str, value: f64, held: Option<&&str>) {
         Err(error) => println!("{name:24} {value:7.1e} {error}"),
         Ok(fit) => row(name, value, &fit, held.map(|held| held_out(&fit, held))),
     }
+}
+
+/// Scattered samples of a smooth warp with two ridges and twelve bumps over the unit square.
+fn ridges(count: usize) -> (Vec<DVec2>, Vec<f64>) {
+    use std::f64::consts::PI;
+    let mut random = Random::new(7);
+    let mut between = |from: f64, to: f64| from + (to - from) * random.unit();
+    let bumps: Vec<[f64; 4]> = (0..12)
+        .map(|_| [between(0.05, 0.95), between(0.05, 0.95), between(0.008, 0.03), between(-0.06, 0.06)])
+        .collect();
+    let surface = |u: f64, v: f64| {
+        let wave = 0.15 * (2.0 * PI * u).sin() * (1.5 * PI * v).cos() + 0.10 * u * v;
+        let ridge = 0.10 / ((v - (0.30 + 0.15 * (2.5 * u).sin())) / 0.02).cosh();
+        let step = 0.06 * ((u - (0.65 + 0.10 * v * v)) / 0.015).tanh();
+        let slant = 0.08 * (3.0 * PI * (u - 0.3 * v)).cos();
+        let hill = |[a, b, s, h]: &[f64; 4]| h * (-((u - a).powi(2) + (v - b).powi(2)) / (2.0 * s * s)).exp();
+        let x = u + 0.16 * (2.0 * PI * v).sin() * u * (1.0 - u);
+        let y = v + 0.04 * (2.0 * PI * u).sin();
+        [x, y, wave + slant + ridge + step + bumps.iter().map(hill).sum::<f64>()]
+    };
+    let corners = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)].map(|(u, v)| DVec2::new(u, v));
+    let inner = (4..count).map(|_| DVec2::new(random.unit(), random.unit()));
+    let uv: Vec<DVec2> = corners.into_iter().chain(inner).collect();
+    let values = uv.iter().flat_map(|uv| surface(uv.x, uv.y)).collect();
+    (uv, values)
 }
 
 fn held_out(fit: &PhtFit, file: &str) -> f64 {

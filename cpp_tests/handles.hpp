@@ -33,6 +33,12 @@ inline planish_tensor_options tensor_options() {
   return options;
 }
 
+inline planish_skin_options skin_options() {
+  planish_skin_options options;
+  planish_skin_options_init(&options, sizeof options);
+  return options;
+}
+
 inline planish_pht_options pht_options() {
   planish_pht_options options;
   planish_pht_options_init(&options, sizeof options);

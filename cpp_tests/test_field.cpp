@@ -63,8 +63,8 @@ TEST(FieldFitter, RefusesByName) {
   options.smoothing = -1;
   CHECK(status_of([&] { planish::field_fitter(mesh, options); }) == PLANISH_STATUS_INVALID_ARGUMENT);
   const shapes::arrays octahedron{{1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1},
-                                  {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4, 1, 0, 5, 2, 1, 5, 3, 2, 5, 0, 3, 5},
-                                  {}};
+                                  {},
+                                  {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4, 1, 0, 5, 2, 1, 5, 3, 2, 5, 0, 3, 5}};
   const planish::mesh closed(octahedron.points, octahedron.triangles);
   CHECK(status_of([&] { planish::field_fitter{closed}; }) == PLANISH_STATUS_TOPOLOGY);
 }

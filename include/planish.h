@@ -458,6 +458,74 @@ typedef enum planish_regularize {
 } planish_regularize;
 
 /**
+ * What determines a PHT-spline at its vertices.
+ */
+typedef enum planish_pht_estimator {
+    /**
+     * Least squares over all data with a weak bending energy: fewest coefficients.
+     */
+    PLANISH_PHT_ESTIMATOR_GLOBAL = 0,
+    /**
+     * A quadratic fit around each datum, interpolated linearly (Deng et al., 2008): for comparison.
+     */
+    PLANISH_PHT_ESTIMATOR_LOCAL_QUADRATIC = 1,
+    /**
+     * A weighted cubic fit around each vertex: no system to solve, for very large data.
+     */
+    PLANISH_PHT_ESTIMATOR_LOCAL_CUBIC = 2,
+} planish_pht_estimator;
+
+/**
+ * Which control points a PHT-spline has.
+ */
+typedef enum planish_pht_basis {
+    /**
+     * Of the cells at the birth of a vertex (Deng et al., 2008): independent of later splits.
+     */
+    PLANISH_PHT_BASIS_CANONICAL = 0,
+    /**
+     * Of the widest cell of a vertex's support on each side: well conditioned whatever the levels.
+     */
+    PLANISH_PHT_BASIS_SUPPORT_SIZED = 1,
+} planish_pht_basis;
+
+/**
+ * An edge of a surface's domain.
+ */
+typedef enum planish_border_side {
+    /**
+     * Least u.
+     */
+    PLANISH_BORDER_SIDE_LOW_U = 0,
+    /**
+     * Largest u.
+     */
+    PLANISH_BORDER_SIDE_HIGH_U = 1,
+    /**
+     * Least v.
+     */
+    PLANISH_BORDER_SIDE_LOW_V = 2,
+    /**
+     * Largest v.
+     */
+    PLANISH_BORDER_SIDE_HIGH_V = 3,
+} planish_border_side;
+
+/**
+ * What the rows of planish_mesh_sample_rows() lie between.
+ */
+typedef enum planish_row_source {
+    /**
+     * A boundary loop.
+     */
+    PLANISH_ROW_SOURCE_LOOP = 0,
+    /**
+     * A node.
+     */
+    PLANISH_ROW_SOURCE_NODE = 1,
+} planish_row_source;
+
+/**
  * Which knots the control curves of a skin get.
  */
 typedef enum planish_skin_method {
@@ -512,58 +580,18 @@ typedef enum planish_v_rule {
 } planish_v_rule;
 
 /**
- * What determines a PHT-spline at its vertices.
+ * What a STEP file holds of a T-spline.
  */
-typedef enum planish_pht_estimator {
+typedef enum planish_step_form {
     /**
-     * Least squares over all data with a weak bending energy: fewest coefficients.
+     * The same surface as one tensor surface.
      */
-    PLANISH_PHT_ESTIMATOR_GLOBAL = 0,
+    PLANISH_STEP_FORM_TENSOR = 0,
     /**
-     * A quadratic fit around each datum, interpolated linearly (Deng et al., 2008): for comparison.
+     * One face for each span of v, over the knots of four control curves: far fewer control points.
      */
-    PLANISH_PHT_ESTIMATOR_LOCAL_QUADRATIC = 1,
-    /**
-     * A weighted cubic fit around each vertex: no system to solve, for very large data.
-     */
-    PLANISH_PHT_ESTIMATOR_LOCAL_CUBIC = 2,
-} planish_pht_estimator;
-
-/**
- * Which control points a PHT-spline has.
- */
-typedef enum planish_pht_basis {
-    /**
-     * Of the cells at the birth of a vertex (Deng et al., 2008): independent of later splits.
-     */
-    PLANISH_PHT_BASIS_CANONICAL = 0,
-    /**
-     * Of the widest cell of a vertex's support on each side: well conditioned whatever the levels.
-     */
-    PLANISH_PHT_BASIS_SUPPORT_SIZED = 1,
-} planish_pht_basis;
-
-/**
- * An edge of a surface's domain.
- */
-typedef enum planish_border_side {
-    /**
-     * Least u.
-     */
-    PLANISH_BORDER_SIDE_LOW_U = 0,
-    /**
-     * Largest u.
-     */
-    PLANISH_BORDER_SIDE_HIGH_U = 1,
-    /**
-     * Least v.
-     */
-    PLANISH_BORDER_SIDE_LOW_V = 2,
-    /**
-     * Largest v.
-     */
-    PLANISH_BORDER_SIDE_HIGH_V = 3,
-} planish_border_side;
+    PLANISH_STEP_FORM_STRIPS = 1,
+} planish_step_form;
 
 /**
  * The application protocol of a STEP file.
@@ -1399,6 +1427,44 @@ typedef struct planish_deviation_report {
 } planish_deviation_report;
 
 /**
+ * What rows to take from a mesh. Fill with planish_sample_rows_options_init(), then change what you need.
+ */
+typedef struct planish_sample_rows_options {
+    /**
+     * Set by planish_sample_rows_options_init().
+     */
+    size_t struct_size;
+    /**
+     * About how far apart points are along a row, in model units; 0 (default) takes the mean length of edges.
+     */
+    double spacing;
+    /**
+     * The loop or node that the first row is nearest to. Default 0.
+     */
+    size_t begin_index;
+    /**
+     * The loop or node that the last row is nearest to. Default 1.
+     */
+    size_t end_index;
+    /**
+     * Hears of the progress and may cancel; NULL (default) for nobody.
+     */
+    planish_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *user;
+    /**
+     * A planish_row_source: what begin_index counts. Default PLANISH_ROW_SOURCE_LOOP.
+     */
+    uint32_t begin;
+    /**
+     * A planish_row_source: what end_index counts. Default PLANISH_ROW_SOURCE_LOOP.
+     */
+    uint32_t end;
+} planish_sample_rows_options;
+
+/**
  * What a VTK file shows. Fill with planish_vtk_options_init(), then change what you need.
  */
 typedef struct planish_vtk_options {
@@ -1448,13 +1514,21 @@ typedef struct planish_step_report {
      */
     double diagonal;
     /**
-     * Bounds of the face, the outer one included.
+     * Bounds of all faces, the outer ones included.
      */
     size_t loop_count;
     /**
      * Edges of all bounds.
      */
     size_t edge_count;
+    /**
+     * Faces.
+     */
+    size_t face_count;
+    /**
+     * Control points of all faces.
+     */
+    size_t pole_count;
 } planish_step_report;
 
 /**
@@ -1495,6 +1569,18 @@ typedef struct planish_step_options {
      * A planish_unit, what one model unit is; PLANISH_UNIT_MILLIMETRE (default).
      */
     uint32_t unit;
+    /**
+     * Most control points of PLANISH_STEP_FORM_TENSOR. Default 4000000.
+     */
+    size_t max_coefficients;
+    /**
+     * A planish_step_form, what is written of a T-spline; PLANISH_STEP_FORM_TENSOR (default).
+     */
+    uint32_t form;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
 } planish_step_options;
 
 /**
@@ -3008,6 +3094,45 @@ enum planish_status planish_surface_deviation(const struct planish_surface *surf
  * Fills options with the defaults.
  *
  * options: not NULL.
+ * size:    sizeof(planish_sample_rows_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ */
+PLANISH_API
+enum planish_status planish_sample_rows_options_init(struct planish_sample_rows_options *options,
+                                                     size_t size);
+
+/**
+ * Takes closed rows of points from a mesh: level curves of a harmonic field between two loops or nodes, which all
+ * start on one seam along the field's gradient and run the same way; ready for planish_tspline_skin() with closed.
+ * Call it once without out_points for the counts, then with room for all points.
+ *
+ * mesh:            not NULL, in one piece.
+ * options:         NULL for the defaults: rows from the first loop to the second.
+ * out_row_counts:  receives the number of points of each row, which does not repeat its first.
+ * row_count:       rows to take, 1 to 1000000.
+ * out_points:      receives rows of x, y, z, row after row; NULL to learn the counts only.
+ * point_count:     points that out_points has room for.
+ * out_point_count: receives the number of points of all rows.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, the number of
+ * rows, or both sources share a node, which is the index), PLANISH_STATUS_INDEX (no such loop or node),
+ * PLANISH_STATUS_TOPOLOGY (the mesh has several pieces; or a row is not one closed curve, as on a mesh with handles or
+ * further loops: the index is the row), PLANISH_STATUS_SINGULAR (the field is lost in rounding),
+ * PLANISH_STATUS_BUFFER_TOO_SMALL, PLANISH_STATUS_VERSION or PLANISH_STATUS_CANCELLED.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_sample_rows(const struct planish_mesh *mesh,
+                                             const struct planish_sample_rows_options *options,
+                                             size_t *out_row_counts,
+                                             size_t row_count,
+                                             double *out_points,
+                                             size_t point_count,
+                                             size_t *out_point_count);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options: not NULL.
  * size:    sizeof(planish_vtk_options).
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
  */
@@ -3102,18 +3227,18 @@ enum planish_status planish_surface_load_file(const char *path,
 PLANISH_API enum planish_status planish_step_options_init(struct planish_step_options *options, size_t size);
 
 /**
- * Writes a tensor surface in space as a STEP file with one face, bounded by the surface's trims or, if it has
- * none, by its domain. P-curves are the trims themselves, of degree 1; curves in space are cubic and follow
+ * Writes a surface in space as a STEP file with one face, bounded by the surface's trims or, if it has none, by its
+ * domain. A T-spline is written as the same tensor surface, or in strips. P-curves are the trims themselves, of degree 1; curves in space are cubic and follow
  * them over the same parameters within the uncertainty that the file states. The file appears whole or not at
  * all; equal input gives equal bytes.
  *
- * surface: not NULL, a tensor surface of dimension 3.
+ * surface: not NULL, of dimension 3.
  * path:    UTF-8, ends with a NUL; an existing file is replaced.
  * options: NULL for the defaults.
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension, an
  * option, a text that is not UTF-8), PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOPOLOGY (trims that cross or
  * touch, the index is one of them; trims around several pieces; a knot inside the domain that occurs more often
- * than the degree), PLANISH_STATUS_DEGENERATE (a trim without area, the index; a face without size) or
+ * than the degree), PLANISH_STATUS_TOO_LARGE (max_coefficients), PLANISH_STATUS_DEGENERATE (a trim without area, the index; a face without size) or
  * PLANISH_STATUS_FILE.
  */
 PLANISH_API

@@ -126,6 +126,12 @@ inline planish_status init(planish_parameterize_options &options) {
 inline planish_status init(planish_tensor_options &options) {
   return planish_tensor_options_init(&options, sizeof options);
 }
+inline planish_status init(planish_sample_rows_options &options) {
+  return planish_sample_rows_options_init(&options, sizeof options);
+}
+inline planish_status init(planish_skin_options &options) {
+  return planish_skin_options_init(&options, sizeof options);
+}
 inline planish_status init(planish_pht_options &options) {
   return planish_pht_options_init(&options, sizeof options);
 }
@@ -666,7 +672,7 @@ class surface {
     detail::checked(planish_surface_write_vtk(get(), path.c_str(), &options));
   }
 
-  /// Writes a STEP file of one trimmed face; `path` is UTF-8.
+  /// Writes a STEP file of one trimmed face, or of a T-spline in strips; `path` is UTF-8.
   planish_step_report write_step(const std::string &path,
                                  planish_step_options options = defaults<planish_step_options>()) const {
     auto report = detail::sized<planish_step_report>();
@@ -851,6 +857,18 @@ class curve {
   std::unique_ptr<planish_curve, detail::destroy> handle_;
 };
 
+/// What came of a skin.
+struct skinned {
+  /// The T-spline.
+  planish::surface surface;
+  /// What every fit reports.
+  planish_fit_report report;
+  /// What only skins report.
+  planish_skin_report skin;
+  /// PLANISH_STATUS_OK, or the gravest remark, such as PLANISH_STATUS_INPUT_REPAIRED.
+  planish_status status;
+};
+
 /// What came of a fit.
 struct fitted {
   /// The best surface found.
@@ -889,6 +907,15 @@ Fitted fit_any(Options options, const progress &hear, const Call &call) {
 template <class Options, class Call>
 fitted fit(const Options &options, const progress &hear, const Call &call) {
   return fit_any<fitted, surface, planish_surface>(options, hear, call);
+}
+
+template <class Call>
+skinned skin(planish_skin_options options, const progress &hear, const Call &call) {
+  auto skin = sized<planish_skin_report>();
+  if (!options.out_report) options.out_report = &skin;
+  auto made = fit_any<fitted, surface, planish_surface>(options, hear, call);
+  return {std::move(made.surface), made.report, options.out_report == &skin ? skin : *options.out_report,
+          made.status};
 }
 
 inline void check_rows(std::size_t value_count, std::size_t row_count, std::size_t dim) {
@@ -1192,6 +1219,125 @@ inline std::vector<double> field_gradient(const surface &shape, const surface &f
   detail::checked(planish_surface_field_gradient(shape.get(), field.get(), uv.data(), uv.count(), thread_count,
                                                  gradients.data()));
   return gradients;
+}
+
+/// Makes a curve from its parts. Control points are rows of `dim` numbers.
+inline curve curve_new(std::size_t dim, std::uint32_t degree, const values<double> &knots,
+                       const values<double> &control_points) {
+  detail::check_rows(control_points.count(), knots.count() > degree + 1 ? knots.count() - degree - 1 : 0, dim);
+  planish_curve *made = nullptr;
+  detail::checked(planish_curve_new(dim, degree, knots.data(), knots.count(), control_points.data(), &made));
+  return curve(made);
+}
+
+/// Skins rows of points of options.dim numbers: row after row, `row_counts` points each.
+inline skinned tspline_skin(const values<double> &points, const std::vector<std::size_t> &row_counts,
+                            const planish_skin_options &options = defaults<planish_skin_options>(),
+                            const progress &hear = {}) {
+  std::size_t count = 0;
+  for (std::size_t row_count : row_counts) count += row_count;
+  detail::check_rows(points.count(), count, options.dim);
+  return detail::skin(options, hear, [&](const planish_skin_options *given, auto out, auto report) {
+    return planish_tspline_skin(points.data(), row_counts.data(), row_counts.size(), given, out, report);
+  });
+}
+
+/// Skins rows of points in space.
+inline skinned tspline_skin(const std::vector<std::vector<point3>> &point_rows,
+                            const planish_skin_options &options = defaults<planish_skin_options>(),
+                            const progress &hear = {}) {
+  std::vector<double> points;
+  std::vector<std::size_t> row_counts;
+  for (const auto &row : point_rows) {
+    for (const point3 &point : row) points.insert(points.end(), point.begin(), point.end());
+    row_counts.push_back(row.size());
+  }
+  return tspline_skin(points, row_counts, options, hear);
+}
+
+/// Rows of points of a mesh, level curves of a harmonic field between two loops or nodes; no first point is repeated.
+inline std::vector<std::vector<point3>> sample_rows(
+    const mesh &mesh, std::size_t row_count,
+    const planish_sample_rows_options &options = defaults<planish_sample_rows_options>()) {
+  std::vector<std::size_t> counts(row_count);
+  std::size_t total = 0;
+  detail::checked(
+      planish_mesh_sample_rows(mesh.get(), &options, counts.data(), row_count, nullptr, 0, &total));
+  std::vector<point3> points(total);
+  detail::checked(planish_mesh_sample_rows(mesh.get(), &options, counts.data(), row_count, detail::flat(points),
+                                           points.size(), &total));
+  std::vector<std::vector<point3>> rows;
+  auto next = points.begin();
+  for (std::size_t count : counts) {
+    rows.emplace_back(next, next + static_cast<std::ptrdiff_t>(count));
+    next += static_cast<std::ptrdiff_t>(count);
+  }
+  return rows;
+}
+
+/// Skins section curves.
+inline skinned tspline_skin_curves(const std::vector<curve> &curves,
+                                   const planish_skin_options &options = defaults<planish_skin_options>(),
+                                   const progress &hear = {}) {
+  std::vector<const planish_curve *> handles;
+  for (const curve &one : curves) handles.push_back(one.get());
+  return detail::skin(options, hear, [&](const planish_skin_options *given, auto out, auto report) {
+    return planish_tspline_skin_curves(handles.data(), handles.size(), given, out, report);
+  });
+}
+
+/// Makes a T-spline from its knots along v and a cubic control curve for each of their basis functions.
+inline surface tspline_new(const values<double> &knots, const std::vector<curve> &curves) {
+  std::vector<const planish_curve *> handles;
+  for (const curve &one : curves) handles.push_back(one.get());
+  planish_surface *made = nullptr;
+  detail::checked(planish_tspline_new(knots.data(), knots.count(), handles.data(), handles.size(), &made));
+  return surface(made);
+}
+
+/// Copies of the control curves of a T-spline; none for other families.
+inline std::vector<curve> tspline_curves(const surface &tspline) {
+  std::vector<curve> curves;
+  for (std::size_t k = 0; k < planish_tspline_curve_count(tspline.get()); ++k) {
+    planish_curve *copy = nullptr;
+    detail::checked(planish_tspline_clone_curve(tspline.get(), k, &copy));
+    curves.emplace_back(copy);
+  }
+  return curves;
+}
+
+/// The knots of a T-spline along v.
+inline std::vector<double> tspline_knots(const surface &tspline) {
+  std::vector<double> knots(planish_tspline_knot_count(tspline.get()));
+  detail::checked(planish_tspline_copy_knots(tspline.get(), knots.data(), knots.size()));
+  return knots;
+}
+
+/// Inserts a knot into one control curve; the surface stays the same.
+inline void tspline_insert_knot_u(surface &tspline, std::size_t curve, double u) {
+  detail::checked(planish_tspline_insert_knot_u(tspline.get(), curve, u));
+}
+
+/// Inserts a knot along v; the surface stays the same.
+inline void tspline_insert_knot_v(surface &tspline, double v) {
+  detail::checked(planish_tspline_insert_knot_v(tspline.get(), v));
+}
+
+/// What became of a knot that was to be removed.
+struct removal {
+  /// A bound of the distance that the surface moves, or would have moved.
+  double error;
+  /// Whether the knot is gone.
+  bool is_removed;
+};
+
+/// Removes a knot from one control curve if the surface then moves by no more than `tolerance`.
+inline removal tspline_remove_knot_u(surface &tspline, std::size_t curve, std::size_t knot, double tolerance) {
+  removal done{0, false};
+  const auto status =
+      detail::checked(planish_tspline_remove_knot_u(tspline.get(), curve, knot, tolerance, &done.error));
+  done.is_removed = status == PLANISH_STATUS_OK;
+  return done;
 }
 
 } // namespace planish

@@ -17,6 +17,7 @@ use crate::parameterize::ParameterizeError;
 use crate::query::deviation::DeviationError;
 use crate::query::gradient::GradientError;
 use crate::query::project::ProjectError;
+use crate::query::rows::SampleRowsError;
 use crate::query::tessellate::TessellateError;
 use crate::surface::evaluate::EvalError;
 use crate::surface::pht::PhtError;
@@ -104,6 +105,9 @@ pub enum Error {
     /// Points cannot be projected.
     #[error(transparent)]
     Project(#[from] ProjectError),
+    /// Rows of points cannot be taken from a mesh.
+    #[error(transparent)]
+    SampleRows(#[from] SampleRowsError),
     /// A surface cannot be tessellated.
     #[error(transparent)]
     Tessellate(#[from] TessellateError),
@@ -160,6 +164,7 @@ impl Error {
             Self::Deviation(error) => (error.kind(), error.index()),
             Self::Gradient(error) => (error.kind(), error.index()),
             Self::Project(error) => (error.kind(), error.index()),
+            Self::SampleRows(error) => (error.kind(), error.index()),
             Self::Tessellate(error) => (error.kind(), None),
             Self::Export(error) => (error.kind(), None),
             Self::Step(error) => (error.kind(), error.index()),

@@ -14,6 +14,8 @@ mod output;
 mod render;
 #[path = "planish/sample.rs"]
 mod sample;
+#[path = "planish/skin.rs"]
+mod skin;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -30,6 +32,8 @@ struct Arguments {
 enum Command {
     /// Fit a surface to a mesh file (OFF, OBJ, PLY, STL) and report how close it came.
     Fit(fit::FitArguments),
+    /// Skin rows of points by one surface and report how close it came.
+    Skin(skin::SkinArguments),
     /// Say what a mesh file or a saved surface holds.
     Info(info::InfoArguments),
     /// Evaluate a saved surface.
@@ -79,6 +83,7 @@ fn main() -> ExitCode {
     };
     let outcome = match arguments.command {
         Command::Fit(arguments) => fit::run(&arguments),
+        Command::Skin(arguments) => skin::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),

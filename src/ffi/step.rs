@@ -1,10 +1,10 @@
 //! STEP files.
 
-use super::arguments::{ArgumentError, ReportOut, choice, deref, init_options, options, text};
+use super::arguments::{ArgumentError, Record, ReportOut, choice, deref, init_options, options, text};
 use super::guard::guard;
 use super::planish_status;
 use super::surface::planish_surface;
-use crate::export::step::{Schema, StepOptions, StepReport, Unit, write};
+use crate::export::step::{Form, Schema, StepOptions, StepReport, Unit, write};
 use std::ffi::c_char;
 use std::path::Path;
 
@@ -30,6 +30,16 @@ pub enum planish_unit {
     Inch = 2,
 }
 
+/// What a STEP file holds of a T-spline.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum planish_step_form {
+    /// The same surface as one tensor surface.
+    Tensor = 0,
+    /// One face for each span of v, over the knots of four control curves: far fewer control points.
+    Strips = 1,
+}
+
 /// What was written to a STEP file.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -43,14 +53,19 @@ pub struct planish_step_report {
     pub uncertainty: f64,
     /// Diagonal of the box around the part of the surface inside the trims.
     pub diagonal: f64,
-    /// Bounds of the face, the outer one included.
+    /// Bounds of all faces, the outer ones included.
     pub loop_count: usize,
     /// Edges of all bounds.
     pub edge_count: usize,
+    /// Faces.
+    pub face_count: usize,
+    /// Control points of all faces.
+    pub pole_count: usize,
 }
 
-record!(planish_step_report, 48, {
+record!(planish_step_report, 64, {
     struct_size: 0, curve_deviation: 8, uncertainty: 16, diagonal: 24, loop_count: 32, edge_count: 40,
+    face_count: 48, pole_count: 56,
 });
 
 impl Default for planish_step_report {
@@ -62,6 +77,8 @@ impl Default for planish_step_report {
             diagonal: 0.0,
             loop_count: 0,
             edge_count: 0,
+            face_count: 0,
+            pole_count: 0,
         }
     }
 }
@@ -75,6 +92,8 @@ impl From<StepReport> for planish_step_report {
             diagonal: report.diagonal,
             loop_count: report.loop_count,
             edge_count: report.edge_count,
+            face_count: report.face_count,
+            pole_count: report.pole_count,
         }
     }
 }
@@ -101,10 +120,17 @@ pub struct planish_step_options {
     pub schema: u32,
     /// A planish_unit, what one model unit is; PLANISH_UNIT_MILLIMETRE (default).
     pub unit: u32,
+    /// Most control points of PLANISH_STEP_FORM_TENSOR. Default 4000000.
+    pub max_coefficients: usize,
+    /// A planish_step_form, what is written of a T-spline; PLANISH_STEP_FORM_TENSOR (default).
+    pub form: u32,
+    /// 0.
+    pub reserved: u32,
 }
 
-record!(planish_step_options, 56, {
+record!(planish_step_options, 72, {
     struct_size: 0, product: 8, author: 16, organization: 24, timestamp: 32, out_report: 40, schema: 48, unit: 52,
+    max_coefficients: 56, form: 64, reserved: 68,
 });
 
 impl Default for planish_step_options {
@@ -118,6 +144,9 @@ impl Default for planish_step_options {
             out_report: std::ptr::null_mut(),
             schema: planish_step_schema::Ap214 as u32,
             unit: planish_unit::Millimetre as u32,
+            max_coefficients: StepOptions::default().max_coefficients,
+            form: planish_step_form::Tensor as u32,
+            reserved: 0,
         }
     }
 }
@@ -126,6 +155,9 @@ impl planish_step_options {
     /// # Safety
     /// The texts are NULL or end with a NUL, and nobody changes them for `'a`.
     unsafe fn core<'a>(&self) -> Result<StepOptions<'a>, ArgumentError> {
+        if self.reserved != 0 {
+            return Err(ArgumentError::Reserved { record: Self::NAME, given: self.reserved });
+        }
         let defaults = StepOptions::default();
         let or = |at: *const c_char, name, default| match at.is_null() {
             true => Ok(default),
@@ -139,6 +171,8 @@ impl planish_step_options {
             author: or(self.author, "author", defaults.author)?,
             organization: or(self.organization, "organization", defaults.organization)?,
             timestamp: or(self.timestamp, "timestamp", defaults.timestamp)?,
+            form: choice(self.form, &[Form::Tensor, Form::Strips], "form")?,
+            max_coefficients: self.max_coefficients,
         })
     }
 }
@@ -157,18 +191,18 @@ pub unsafe extern "C" fn planish_step_options_init(
     guard(|| unsafe { init_options(options, size) })
 }
 
-/// Writes a tensor surface in space as a STEP file with one face, bounded by the surface's trims or, if it has
-/// none, by its domain. P-curves are the trims themselves, of degree 1; curves in space are cubic and follow
+/// Writes a surface in space as a STEP file with one face, bounded by the surface's trims or, if it has none, by its
+/// domain. A T-spline is written as the same tensor surface, or in strips. P-curves are the trims themselves, of degree 1; curves in space are cubic and follow
 /// them over the same parameters within the uncertainty that the file states. The file appears whole or not at
 /// all; equal input gives equal bytes.
 ///
-/// surface: not NULL, a tensor surface of dimension 3.
+/// surface: not NULL, of dimension 3.
 /// path:    UTF-8, ends with a NUL; an existing file is replaced.
 /// options: NULL for the defaults.
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension, an
 /// option, a text that is not UTF-8), PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOPOLOGY (trims that cross or
 /// touch, the index is one of them; trims around several pieces; a knot inside the domain that occurs more often
-/// than the degree), PLANISH_STATUS_DEGENERATE (a trim without area, the index; a face without size) or
+/// than the degree), PLANISH_STATUS_TOO_LARGE (max_coefficients), PLANISH_STATUS_DEGENERATE (a trim without area, the index; a face without size) or
 /// PLANISH_STATUS_FILE.
 #[must_use]
 #[unsafe(no_mangle)]
@@ -179,12 +213,12 @@ pub unsafe extern "C" fn planish_surface_write_step(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let tensor = deref(surface, "surface")?.tensor()?;
+        let surface = deref(surface, "surface")?.family()?;
         let path = text(path, "path")?;
         let given = self::options(options)?;
         let core = given.core()?;
         let report = ReportOut::new(given.out_report)?;
-        report.store(write(tensor, &core, Path::new(path))?.into());
+        report.store(write(surface, &core, Path::new(path))?.into());
         Ok(())
     })
 }

@@ -33,6 +33,7 @@ const _: () = {
 
 /// What a handle holds.
 #[derive(Clone)]
+#[cfg_attr(test, allow(clippy::large_enum_variant, reason = "handles hold it in a box"))]
 pub(super) enum Family {
     Any(AnySurface),
     /// Stands for every family that is not known here.

@@ -3,5 +3,6 @@
 pub mod deviation;
 pub mod gradient;
 pub mod project;
+pub mod rows;
 pub mod tessellate;
 pub mod triangles;

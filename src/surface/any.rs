@@ -37,6 +37,7 @@ impl ConvertError {
 
 /// A surface of one of the families, for those who keep surfaces of all: handles and files.
 #[derive(Debug, Clone, PartialEq)]
+#[allow(clippy::large_enum_variant, reason = "few are alive at once, and handles hold them in boxes")]
 pub enum AnySurface {
     /// Tensor product B-spline.
     Tensor(TensorSurface),

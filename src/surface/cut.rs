@@ -86,7 +86,7 @@ fn join(chains: &[Vec<DVec2>], half: HalfPlane) -> Vec<Vec<DVec2>> {
     // end 2c is the first point of chain c, end 2c + 1 its last
     let place = |end: usize| {
         let chain = &chains[end / 2];
-        half.along(if end % 2 == 0 { chain[0] } else { chain[chain.len() - 1] })
+        half.along(if end.is_multiple_of(2) { chain[0] } else { chain[chain.len() - 1] })
     };
     let mut ends: Vec<usize> = (0..2 * chains.len()).collect();
     ends.sort_by(|&a, &b| place(a).total_cmp(&place(b)));
@@ -162,7 +162,7 @@ mod tests {
     fn nodes_on_the_line_and_empty_halves_do_no_harm() {
         let diamond =
             [(0.5, 0.0), (1.0, 0.5), (0.5, 1.0), (0.0, 0.5)].map(|(u, v)| DVec2::new(u, v)).to_vec();
-        let right = cut(&[diamond.clone()], HalfPlane { normal: DVec2::X, offset: 0.5 });
+        let right = cut(std::slice::from_ref(&diamond), HalfPlane { normal: DVec2::X, offset: 0.5 });
         assert_eq!(right, [[(0.5, 0.0), (1.0, 0.5), (0.5, 1.0)].map(|(u, v)| DVec2::new(u, v)).to_vec()]);
         let nothing = cut(&[diamond], HalfPlane { normal: DVec2::X, offset: 2.0 });
         assert_eq!(nothing.len(), 1);

@@ -183,8 +183,7 @@ impl Region {
 
     /// With other parameters for the same places.
     pub(super) fn map(&self, change: impl Fn(DVec2) -> DVec2) -> Self {
-        let data_box =
-            self.data_box.map(|data| Domain::around([change(data.min), change(data.max)].into_iter()));
+        let data_box = self.data_box.map(|data| Domain::around([change(data.min), change(data.max)]));
         let mapped = |polyline: &Vec<DVec2>| polyline.iter().map(|&uv| change(uv)).collect();
         let loops = self.trims.loops.iter().map(mapped).collect();
         Self { data_box, trims: Trims { loops, bands: OnceLock::new() } }

@@ -65,6 +65,11 @@ fn extension(path: &Path) -> String {
     path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
 }
 
+/// Whether a name asks for a STEP file.
+pub fn is_step(path: &Path) -> bool {
+    ["step", "stp"].contains(&extension(path).as_str())
+}
+
 /// A fit by any method.
 #[derive(Debug)]
 pub struct Fit {
@@ -76,22 +81,29 @@ pub struct Fit {
     pub errors: Vec<f64>,
 }
 
-/// Most control points of the tensor surface that stands for another family in a STEP file.
-const MOST_STEP_COEFFICIENTS: usize = 1_000_000;
-
 /// Writes a fit in the format of the name; `step` says what STEP files say beside the shape.
 pub fn write_fit(mesh: &Mesh, fit: &Fit, path: &Path, step: &StepOptions) -> Result<(), Failure> {
-    let surface = fit.surface.as_surface();
+    if extension(path) == "vtu" {
+        let data = vtk::PointData { name: "deviation", dim: 1, values: &fit.errors };
+        let moved = vtk::on_surface(fit.surface.as_surface(), mesh, &fit.parameters)?;
+        vtk::write_mesh(&moved, &[data], path)?;
+        return Ok(());
+    }
+    write_surface(&fit.surface, path, step)
+}
+
+/// Writes a surface in the format of the name.
+pub fn write_surface(surface: &AnySurface, path: &Path, step: &StepOptions) -> Result<(), Failure> {
     match extension(path).as_str() {
         "step" | "stp" => {
-            step::write(&fit.surface.to_tensor(MOST_STEP_COEFFICIENTS)?, step, path)?;
+            step::write(surface, step, path)?;
         }
-        "vtu" => {
-            let data = vtk::PointData { name: "deviation", dim: 1, values: &fit.errors };
-            vtk::write_mesh(&vtk::on_surface(surface, mesh, &fit.parameters)?, &[data], path)?;
-        }
-        "obj" => obj::write(&tessellate(surface, &TessellateOptions::default())?.mesh, path)?,
-        _ => native::save_file(fit.surface.as_saved(), path)?,
+        "vtu" => match surface.as_surface().patches() {
+            Some(patches) => vtk::write_patches(patches, path)?,
+            None => return Err(Failure::new("this family of surface has no patches for .vtu")),
+        },
+        "obj" => obj::write(&tessellate(surface.as_surface(), &TessellateOptions::default())?.mesh, path)?,
+        _ => native::save_file(surface.as_saved(), path)?,
     }
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! STEP files: a tensor surface in space as one trimmed face.
+//! STEP files: a tensor surface in space as one trimmed face, a T-spline as one, or as a face for each strip.
 //!
 //! ISO 10303-21 (clear text), 10303-42 (geometry and topology), application protocols 214 and 242. The face lies
 //! on a `B_SPLINE_SURFACE_WITH_KNOTS` (rational where the surface has weights) and is bounded by the surface's
@@ -20,8 +20,8 @@ use super::error::{ExportError, write_file};
 use crate::curve::CurveError;
 use crate::geometry::{Bounds, Domain};
 use crate::knots::KnotError;
-use crate::surface::Surface;
 use crate::surface::tensor::{Axis, TensorError, TensorSurface};
+use crate::surface::{AnySurface, ConvertError, Surface};
 use edges::Boundary;
 use glam::DVec2;
 use net::Net;
@@ -49,6 +49,16 @@ pub enum Unit {
     Inch,
 }
 
+/// What a file holds of a surface that the format does not know.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Form {
+    /// The same surface as one tensor surface.
+    #[default]
+    Tensor,
+    /// A T-spline as one face for each span of v, over the knots of four control curves: far fewer control points.
+    Strips,
+}
+
 /// What a file says beside the shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepOptions<'a> {
@@ -64,6 +74,10 @@ pub struct StepOptions<'a> {
     pub organization: &'a str,
     /// When, as `2026-01-31T12:00:00`; always the same by default, so that equal input gives equal bytes.
     pub timestamp: &'a str,
+    /// What is written of a T-spline.
+    pub form: Form,
+    /// Most control points that [`Form::Tensor`] may take.
+    pub max_coefficients: usize,
 }
 
 impl Default for StepOptions<'_> {
@@ -75,6 +89,8 @@ impl Default for StepOptions<'_> {
             author: "",
             organization: "",
             timestamp: "1970-01-01T00:00:00",
+            form: Form::default(),
+            max_coefficients: 4_000_000,
         }
     }
 }
@@ -82,7 +98,11 @@ impl Default for StepOptions<'_> {
 /// What was written.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepReport {
-    /// Bounds of the face, the outer one included.
+    /// Faces.
+    pub face_count: usize,
+    /// Control points of all faces.
+    pub pole_count: usize,
+    /// Bounds of all faces, the outer ones included.
     pub loop_count: usize,
     /// Edges of all bounds.
     pub edge_count: usize,
@@ -150,6 +170,12 @@ pub enum StepError {
     /// The part of the surface over its domain is none: numbers overflow.
     #[error("the surface cannot be cut off at its domain: {0}")]
     Tensor(#[from] TensorError),
+    /// The surface is no tensor surface of a size that is allowed.
+    #[error(transparent)]
+    Convert(#[from] ConvertError),
+    /// Trims would have to be cut along the strips.
+    #[error("a surface with trims is not written in strips")]
+    TrimmedStrips,
     /// A curve on the surface is none: numbers overflow.
     #[error("a curve on the surface cannot be computed: {0}")]
     Curve(#[from] CurveError),
@@ -161,6 +187,8 @@ impl StepError {
         use crate::ErrorKind;
         match self {
             Self::Export(error) => error.kind(),
+            Self::Convert(error) => error.kind(),
+            Self::TrimmedStrips => ErrorKind::InvalidArgument,
             Self::Crossing { .. } | Self::Pieces { .. } | Self::Torn { .. } => ErrorKind::Topology,
             _ => ErrorKind::Degenerate,
         }
@@ -181,38 +209,68 @@ const CURVE_TOLERANCE: f64 = 1e-7;
 const UNCERTAINTY_MARGIN: f64 = 2.0;
 
 /// Writes a surface in space, which appears whole or not at all.
-pub fn write(surface: &TensorSurface, options: &StepOptions, path: &Path) -> Result<StepReport, StepError> {
+pub fn write(surface: &AnySurface, options: &StepOptions, path: &Path) -> Result<StepReport, StepError> {
     let (text, report) = to_text(surface, options)?;
     write_file(path, text.as_bytes())?;
     Ok(report)
 }
 
 /// The content of a file.
-pub fn to_text(surface: &TensorSurface, options: &StepOptions) -> Result<(String, StepReport), StepError> {
-    if surface.dim() != 3 {
-        return Err(ExportError::Dimension { dim: surface.dim() }.into());
+pub fn to_text(surface: &AnySurface, options: &StepOptions) -> Result<(String, StepReport), StepError> {
+    match (surface, options.form) {
+        (AnySurface::Tensor(tensor), _) => faces_to_text(&[tensor], options),
+        (AnySurface::TSpline(tspline), Form::Strips) => {
+            if !tspline.region().trims.is_empty() {
+                return Err(StepError::TrimmedStrips);
+            }
+            let strips = tspline.to_strips().map_err(ConvertError::from)?;
+            faces_to_text(&strips.iter().collect::<Vec<_>>(), options)
+        }
+        _ => faces_to_text(&[&surface.to_tensor(options.max_coefficients)?], options),
     }
-    let net = Net::new(surface)?;
-    let loops = loops::bounds(surface)?;
-    let diagonal = diagonal(surface, &loops);
+}
+
+/// One face for each surface.
+fn faces_to_text(
+    surfaces: &[&TensorSurface],
+    options: &StepOptions,
+) -> Result<(String, StepReport), StepError> {
+    let mut faces = Vec::with_capacity(surfaces.len());
+    let mut samples = Vec::new();
+    for &surface in surfaces {
+        if surface.dim() != 3 {
+            return Err(ExportError::Dimension { dim: surface.dim() }.into());
+        }
+        let loops = loops::bounds(surface)?;
+        samples.extend(self::samples(surface, &loops));
+        faces.push((Net::new(surface)?, loops));
+    }
+    let diagonal = Bounds::of_rows(&samples, 3).diagonal();
     let tolerance = CURVE_TOLERANCE * diagonal;
     if !(diagonal.is_finite() && tolerance.is_normal()) {
         return Err(StepError::Size { diagonal });
     }
-    let boundary = Boundary::new(surface, &loops, tolerance)?;
-    let curve_deviation = boundary.deviation();
+    let bounded = surfaces
+        .iter()
+        .zip(faces)
+        .map(|(surface, (net, loops))| Ok((net, Boundary::new(surface, &loops, tolerance)?)));
+    let faces = bounded.collect::<Result<Vec<(Net, Boundary)>, StepError>>()?;
+    let boundaries = || faces.iter().map(|(_, boundary)| boundary);
+    let curve_deviation = boundaries().map(Boundary::deviation).fold(0.0, f64::max);
     let report = StepReport {
-        loop_count: boundary.loops.len(),
-        edge_count: boundary.edges().count(),
+        face_count: faces.len(),
+        pole_count: faces.iter().map(|(net, _)| net.points.len()).sum(),
+        loop_count: boundaries().map(|boundary| boundary.loops.len()).sum(),
+        edge_count: boundaries().map(|boundary| boundary.edges().count()).sum(),
         curve_deviation,
         uncertainty: tolerance.max(UNCERTAINTY_MARGIN * curve_deviation),
         diagonal,
     };
-    Ok((write::file(&net, &boundary, &report, options), report))
+    Ok((write::file(&faces, &report, options), report))
 }
 
-/// Diagonal of the box of samples inside the trims and on them.
-fn diagonal(surface: &TensorSurface, loops: &[Vec<DVec2>]) -> f64 {
+/// Points of the surface inside the trims and on them.
+fn samples(surface: &TensorSurface, loops: &[Vec<DVec2>]) -> Vec<f64> {
     const SAMPLES: usize = 33;
     let box_of_loops = Domain::around(loops.iter().flatten().copied());
     let trims = &surface.region().trims;
@@ -228,7 +286,7 @@ fn diagonal(surface: &TensorSurface, loops: &[Vec<DVec2>]) -> f64 {
     }
     let mut rows = vec![0.0; 3 * places.len()];
     surface.eval_rows(&places, 0, &mut rows);
-    Bounds::of_rows(&rows, 3).diagonal()
+    rows
 }
 
 #[cfg(test)]

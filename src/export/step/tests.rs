@@ -54,11 +54,11 @@ fn trimmed(mut surface: TensorSurface, loops: Vec<Vec<DVec2>>) -> TensorSurface 
 }
 
 fn text(surface: &TensorSurface) -> (String, StepReport) {
-    to_text(surface, &StepOptions::default()).unwrap()
+    to_text(&surface.clone().into(), &StepOptions::default()).unwrap()
 }
 
 fn refusal(surface: &TensorSurface) -> StepError {
-    to_text(surface, &StepOptions::default()).map(|(_, report)| report).unwrap_err()
+    to_text(&surface.clone().into(), &StepOptions::default()).map(|(_, report)| report).unwrap_err()
 }
 
 /// The numbers of the entities that a text without quotes refers to.
@@ -116,15 +116,16 @@ fn options_are_in_the_file() {
         author: "A. N. Other",
         organization: "O'Hara",
         timestamp: "2026-01-31T12:00:00",
+        ..StepOptions::default()
     };
-    let text = to_text(&wave(), &options).unwrap().0;
+    let text = to_text(&wave().into(), &options).unwrap().0;
     check_syntax(&text);
     for part in
         ["AP242_MANAGED", "'INCH'", "Fl\\X2\\00E4\\X0\\che", "('A. N. Other'),('O''Hara')", "2026-01-31"]
     {
         assert!(text.contains(part), "{part}");
     }
-    let metres = to_text(&wave(), &StepOptions { unit: Unit::Metre, ..options }).unwrap().0;
+    let metres = to_text(&wave().into(), &StepOptions { unit: Unit::Metre, ..options }).unwrap().0;
     assert!(metres.contains("SI_UNIT($,.METRE.)"));
 }
 
@@ -248,11 +249,39 @@ fn a_fitted_panel_keeps_its_windows() {
 #[test]
 fn files_appear_whole_or_not_at_all() {
     let path = std::env::temp_dir().join(format!("planish_{}.step", std::process::id()));
-    write(&wave(), &StepOptions::default(), &path).unwrap();
+    write(&wave().into(), &StepOptions::default(), &path).unwrap();
     let written = std::fs::read_to_string(&path).unwrap();
     assert_eq!(written, text(&wave()).0);
     let crossing = trimmed(wave(), vec![rectangle(0.1, 0.6), rectangle(0.4, 0.9)]);
-    assert!(write(&crossing, &StepOptions::default(), &path).is_err());
+    assert!(write(&crossing.into(), &StepOptions::default(), &path).is_err());
     assert_eq!(std::fs::read_to_string(&path).unwrap(), written);
     std::fs::remove_file(&path).unwrap();
+}
+
+#[test]
+fn a_t_spline_is_written_whole_or_in_strips() {
+    use crate::Control;
+    use crate::fit::skin::{Rows, SkinOptions, skin};
+    let set = crate::samples::rows::dustpan();
+    let rows = Rows { points: &set.points, counts: &set.counts, dim: 3 };
+    let fit = skin(&rows, &SkinOptions::default(), &mut Control::new(1)).unwrap();
+    let surface = AnySurface::from(fit.surface.clone());
+    let whole = StepOptions::default();
+    let (_, report) = to_text(&surface, &whole).unwrap();
+    assert_eq!((report.face_count, report.pole_count), (1, fit.skin.tensor_count));
+    let strips = StepOptions { form: Form::Strips, ..whole };
+    let (text, report) = to_text(&surface, &strips).unwrap();
+    assert_eq!((report.face_count, report.pole_count), (set.counts.len() - 1, fit.skin.strip_count));
+    assert_eq!(text.matches("ADVANCED_FACE").count(), report.face_count);
+
+    let limited = StepOptions { max_coefficients: 10, ..whole };
+    let error = to_text(&surface, &limited).unwrap_err();
+    assert_eq!(
+        error,
+        StepError::Convert(ConvertError::TooLarge { needed: fit.skin.tensor_count, limit: 10 })
+    );
+    let mut trimmed = fit.surface;
+    let triangle = [(0.1, 0.1), (0.9, 0.1), (0.5, 0.8)].map(|(u, v)| DVec2::new(u, v)).to_vec();
+    trimmed.region_mut().trims = Trims::new(vec![triangle], &trimmed.domain()).unwrap();
+    assert_eq!(to_text(&trimmed.into(), &strips).unwrap_err(), StepError::TrimmedStrips);
 }

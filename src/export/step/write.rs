@@ -8,14 +8,17 @@ use crate::curve::Curve;
 use glam::DVec3;
 
 /// The whole file.
-pub(super) fn file(net: &Net, boundary: &Boundary, report: &StepReport, options: &StepOptions) -> String {
+pub(super) fn file(faces: &[(Net, Boundary)], report: &StepReport, options: &StepOptions) -> String {
     let mut out = Part21::default();
     let definition = product(&mut out, options);
     let context = context(&mut out, options.unit, report.uncertainty);
     let placement = placement(&mut out);
-    let surface = surface(&mut out, net);
-    let face = face(&mut out, surface, boundary);
-    let shell = out.add(format!("OPEN_SHELL('',({face}))"));
+    let mut ids = Vec::with_capacity(faces.len());
+    for (net, boundary) in faces {
+        let surface = surface(&mut out, net);
+        ids.push(face(&mut out, surface, boundary));
+    }
+    let shell = out.add(format!("OPEN_SHELL('',{})", list(ids)));
     let model = out.add(format!("SHELL_BASED_SURFACE_MODEL('',({shell}))"));
     let name = Text(options.product);
     let items = list([placement, model]);

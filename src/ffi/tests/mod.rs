@@ -8,6 +8,7 @@ mod meshes;
 mod pht;
 mod queries;
 mod records;
+mod rows;
 mod statuses;
 mod surfaces;
 mod tsplines;

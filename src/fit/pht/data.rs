@@ -11,6 +11,7 @@ use crate::geometry::{Bounds, Domain};
 use crate::mesh::Mesh;
 use crate::surface::Surface;
 use glam::{DVec2, DVec3};
+use std::borrow::Cow;
 
 /// Weight of the middle of a triangle against that of a node: an estimate, which must not pull the surface off the
 /// nodes.
@@ -22,7 +23,7 @@ pub struct Data<'a> {
     /// Whether the values are the nodes' places in space.
     pub is_shape: bool,
     /// Rows of `dim` numbers, as given.
-    pub values: &'a [f64],
+    pub values: Cow<'a, [f64]>,
     pub dim: usize,
     /// Parameters of the data; sweeps move them.
     pub uv: Vec<DVec2>,
@@ -36,19 +37,33 @@ pub struct Data<'a> {
     pub sample_values: Vec<f64>,
     /// A weight for each sample; empty for all 1.
     pub sample_weights: Vec<f64>,
+    /// `order[k]` is the number that datum `k` was given with; empty if they are as given.
+    pub order: Vec<u32>,
     /// Height of the shape above each triangle; empty for what is no shape.
     sagittas: Vec<f64>,
 }
 
 impl<'a> Data<'a> {
-    pub fn of_points(uv: Vec<DVec2>, values: &'a [f64], dim: usize, weights: Option<&[f64]>) -> Self {
-        let (bounds, data_box) = (Bounds::of_rows(values, dim), Domain::around(uv.iter().copied()));
+    /// Scattered data, in an order in which neighbours in the plane are neighbours in memory: later passes over
+    /// the data of a cell find them together.
+    pub fn of_points(uv: &[DVec2], values: &[f64], dim: usize, weights: Option<&[f64]>) -> Self {
+        let order = z_order(uv);
+        let at = |&k: &u32| k as usize;
+        let sorted = order.iter().flat_map(|k| &values[at(k) * dim..][..dim]).copied().collect();
+        let weights: Option<Vec<f64>> = weights.map(|weights| order.iter().map(|k| weights[at(k)]).collect());
+        let uv = order.iter().map(|k| uv[at(k)]).collect();
+        Self { order, ..Self::new(uv, Cow::Owned(sorted), dim, weights.as_deref()) }
+    }
+
+    fn new(uv: Vec<DVec2>, values: Cow<'a, [f64]>, dim: usize, weights: Option<&[f64]>) -> Self {
+        let (bounds, data_box) = (Bounds::of_rows(&values, dim), Domain::around(uv.iter().copied()));
         let frame = Frame::new(&bounds);
         Self {
             mesh: None,
             is_shape: false,
-            sample_values: frame.inward(values),
+            sample_values: frame.inward(&values),
             sample_weights: weights.map_or(Vec::new(), <[f64]>::to_vec),
+            order: Vec::new(),
             sagittas: Vec::new(),
             values,
             dim,
@@ -60,6 +75,13 @@ impl<'a> Data<'a> {
         }
     }
 
+    /// Something of each datum in the order in which they were given.
+    pub fn as_given<T: Copy>(&self, sorted: Vec<T>) -> Vec<T> {
+        let mut given = sorted.clone();
+        self.order.iter().zip(sorted).for_each(|(&k, x)| given[k as usize] = x);
+        given
+    }
+
     pub fn of_mesh(
         mesh: &'a Mesh,
         uv: Vec<DVec2>,
@@ -68,7 +90,8 @@ impl<'a> Data<'a> {
         is_shape: bool,
         weights: Option<&[f64]>,
     ) -> Self {
-        let mut data = Self { mesh: Some(mesh), is_shape, ..Self::of_points(uv, values, dim, weights) };
+        let base = Self::new(uv, Cow::Borrowed(values), dim, weights);
+        let mut data = Self { mesh: Some(mesh), is_shape, ..base };
         let middles = if is_shape { bulged_middles(mesh, &data) } else { flat_middles(mesh, &data) };
         data.sample_values.extend(middles);
         if is_shape {
@@ -101,7 +124,7 @@ impl<'a> Data<'a> {
 
     pub fn on_mesh(&self) -> Option<MeshData<'_>> {
         let is_shape = self.is_shape;
-        self.mesh.map(|mesh| MeshData { mesh, uv: &self.uv, values: self.values, is_shape })
+        self.mesh.map(|mesh| MeshData { mesh, uv: &self.uv, values: &self.values, is_shape })
     }
 }
 
@@ -121,4 +144,24 @@ fn flat_middles(mesh: &Mesh, data: &Data) -> Vec<f64> {
     let middle =
         |&[a, b, c]: &[u32; 3]| (0..data.dim).map(move |k| (row(a)[k] + row(b)[k] + row(c)[k]) / 3.0);
     mesh.triangles().iter().flat_map(middle).collect()
+}
+
+/// Numbers of places along a Z curve (G. Morton, "A computer oriented geodetic data base", 1966) of 2^16 cells a
+/// side; equal cells in the order given.
+fn z_order(uv: &[DVec2]) -> Vec<u32> {
+    let domain = Domain::around(uv.iter().copied());
+    let spread = |x: f64| {
+        let mut bits = u64::from((x * 65535.0) as u32);
+        bits = (bits | bits << 8) & 0x00ff_00ff;
+        bits = (bits | bits << 4) & 0x0f0f_0f0f;
+        bits = (bits | bits << 2) & 0x3333_3333;
+        (bits | bits << 1) & 0x5555_5555
+    };
+    let code = |uv: DVec2| {
+        let at = (uv - domain.min) / domain.size();
+        spread(at.x) << 1 | spread(at.y)
+    };
+    let mut order: Vec<(u64, u32)> = uv.iter().zip(0..).map(|(&uv, k)| (code(uv), k)).collect();
+    order.sort_unstable();
+    order.into_iter().map(|(_, k)| k).collect()
 }

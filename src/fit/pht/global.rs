@@ -8,23 +8,27 @@
 //! of blocks of four by four.
 
 use super::data::Data;
-use super::hermite_cell::{COUNT, CellSums, weights};
+use super::hermite_cell::{CellMatrix, CellSums, weights};
 use crate::control::{Pool, Watch};
 use crate::fit::tessellation::FitError;
 use crate::linalg::SymbolicCholesky;
-use crate::surface::pht::{Matrix, TMesh, Topology};
+use crate::surface::pht::{Cell, Matrix, TMesh, Topology};
 use glam::DVec2;
 use rayon::prelude::*;
 use sprs::CsMat;
+use std::collections::BTreeMap;
 
 /// Samples sorted by leaf: `order[starts[leaf]..starts[leaf + 1]]` lie in a leaf.
-struct ByLeaf {
+pub struct ByLeaf {
+    /// Parameters of all samples.
+    pub uv: Vec<DVec2>,
     starts: Vec<u32>,
     order: Vec<u32>,
 }
 
 impl ByLeaf {
-    fn sort(mesh: &TMesh, topology: &Topology, uv: &[DVec2], pool: &Pool) -> Self {
+    pub fn sort(mesh: &TMesh, topology: &Topology, data: &Data, pool: &Pool) -> Self {
+        let uv = data.sample_uv();
         let leaf = |&uv: &DVec2| topology.leaf_of(mesh.locate(uv)) as u32;
         let leaves: Vec<u32> = pool.run(|| uv.par_iter().with_min_len(4096).map(leaf).collect());
         let mut starts = vec![0u32; topology.leaves.len() + 1];
@@ -38,13 +42,30 @@ impl ByLeaf {
             order[next[leaf as usize] as usize] = sample as u32;
             next[leaf as usize] += 1;
         }
-        Self { starts, order }
+        Self { uv, starts, order }
     }
 
-    fn of(&self, leaf: usize) -> &[u32] {
+    pub fn of(&self, leaf: usize) -> &[u32] {
         &self.order[self.starts[leaf] as usize..self.starts[leaf + 1] as usize]
     }
 }
+
+/// Sums of cells that the next mesh may have too. They hold as long as no sample moves.
+#[derive(Default)]
+pub struct KnownSums {
+    keeps: bool,
+    sums: BTreeMap<Cell, CellSums>,
+}
+
+impl KnownSums {
+    /// None yet; later ones are kept if samples stay where they are.
+    pub fn new(keeps: bool) -> Self {
+        Self { keeps, sums: BTreeMap::new() }
+    }
+}
+
+/// Most cells whose sums are kept: a little over two kilobytes each.
+const MOST_KEPT: usize = 16_384;
 
 /// Leaves summed in one piece of work; what they add is kept at once.
 const PIECE: usize = 64;
@@ -65,6 +86,7 @@ pub struct System<'a> {
 }
 
 /// What one leaf adds.
+#[derive(Default)]
 struct Share {
     blocks: Vec<(u32, Block)>,
     right: Vec<(u32, Vec<f64>)>,
@@ -103,25 +125,35 @@ impl<'a> System<'a> {
     pub fn solve(
         &self,
         data: &Data,
+        by_leaf: &ByLeaf,
+        known: &mut KnownSums,
         smoothing: f64,
         pool: &Pool,
         watch: &Watch,
     ) -> Result<Vec<f64>, FitError> {
-        let uv = data.sample_uv();
-        let by_leaf = ByLeaf::sort(self.mesh, self.topology, &uv, pool);
         let (dim, n) = (data.dim, 4 * self.topology.basis.len());
         let mut blocks = vec![[[0.0; 4]; 4]; self.rows.len()];
         let mut right = vec![0.0; n * dim];
         let leaves: Vec<usize> = (0..self.topology.leaves.len()).collect();
+        let mut kept = KnownSums::default();
         // pieces of a batch are kept at once: the batch bounds the memory, and is fixed
         for batch in leaves.chunks(16 * PIECE) {
             watch.check()?;
-            let shares: Vec<Share> = pool.run(|| {
+            let shares: Vec<(Option<CellSums>, Share)> = pool.run(|| {
+                let share = |&leaf: &usize| {
+                    let before = known.sums.get(&self.cell(leaf));
+                    let new = if before.is_none() { Some(self.sums(leaf, data, by_leaf)) } else { None };
+                    let share = before.or(new.as_ref()).map(|sums| self.share(leaf, sums, smoothing, dim));
+                    (new, share.unwrap_or_default())
+                };
                 let pieces = batch.par_chunks(PIECE);
-                let share = |leaf: &usize| self.share(*leaf, data, &uv, &by_leaf, smoothing);
                 pieces.flat_map_iter(|piece| piece.iter().map(share).collect::<Vec<_>>()).collect()
             });
-            for share in shares {
+            for (&leaf, (new, share)) in batch.iter().zip(shares) {
+                let cell = self.cell(leaf);
+                if known.keeps && leaves.len() <= MOST_KEPT {
+                    kept.sums.extend(new.or_else(|| known.sums.remove(&cell)).map(|sums| (cell, sums)));
+                }
                 for (place, block) in share.blocks {
                     let sums = blocks[place as usize].iter_mut().flatten();
                     sums.zip(block.iter().flatten()).for_each(|(sum, x)| *sum += x);
@@ -133,6 +165,7 @@ impl<'a> System<'a> {
                 }
             }
         }
+        known.sums = kept.sums;
         watch.check()?;
         let matrix = lower_triangle(&self.starts, &self.rows, &blocks);
         let factor = self.symbolic.factor(&matrix.view()).map_err(|_| FitError::Singular)?;
@@ -152,27 +185,43 @@ impl<'a> System<'a> {
         jets
     }
 
-    fn share(&self, leaf: usize, data: &Data, uv: &[DVec2], by_leaf: &ByLeaf, smoothing: f64) -> Share {
-        let domain = self.mesh.cell_domain(self.mesh.cell(self.topology.leaves[leaf]));
+    fn cell(&self, leaf: usize) -> Cell {
+        self.mesh.cell(self.topology.leaves[leaf])
+    }
+
+    /// The sums over the samples of a leaf.
+    fn sums(&self, leaf: usize, data: &Data, by_leaf: &ByLeaf) -> CellSums {
+        let domain = self.mesh.cell_domain(self.cell(leaf));
         let mut sums = CellSums::new(data.dim);
         pulp::Arch::new().dispatch(
             #[inline(always)]
             || {
                 for &sample in by_leaf.of(leaf) {
                     let sample = sample as usize;
-                    let at = (uv[sample] - domain.min) / domain.size();
+                    let at = (by_leaf.uv[sample] - domain.min) / domain.size();
                     let value = &data.sample_values[sample * data.dim..][..data.dim];
                     let weight = data.sample_weights.get(sample).copied().unwrap_or(1.0);
                     sums.add(&weights(at.x, at.y), value, weight);
                 }
             },
         );
-        sums.add_energy(smoothing);
-        self.expand(leaf, &sums, units(domain.size()), data.dim)
+        sums
+    }
+
+    fn share(&self, leaf: usize, sums: &CellSums, smoothing: f64, dim: usize) -> Share {
+        let domain = self.mesh.cell_domain(self.cell(leaf));
+        self.expand(leaf, &sums.with_energy(smoothing), &sums.right, units(domain.size()), dim)
     }
 
     /// From the unknowns of a cell to those of the basis vertices that its corners are made of.
-    fn expand(&self, leaf: usize, sums: &CellSums, cell_units: [f64; 4], dim: usize) -> Share {
+    fn expand(
+        &self,
+        leaf: usize,
+        matrix: &CellMatrix,
+        right_rows: &[f64],
+        cell_units: [f64; 4],
+        dim: usize,
+    ) -> Share {
         let corners = self.topology.corners[leaf].map(|vertex| &self.expansions[vertex as usize]);
         let transforms: Vec<(usize, u32, Block)> = corners
             .iter()
@@ -187,7 +236,7 @@ impl<'a> System<'a> {
             .collect();
         let mut share = Share { blocks: Vec::with_capacity(10), right: Vec::with_capacity(4) };
         for (corner_b, column, b) in &transforms {
-            let rows = sums.right[4 * corner_b * dim..][..4 * dim].chunks_exact(dim);
+            let rows = right_rows[4 * corner_b * dim..][..4 * dim].chunks_exact(dim);
             let mut right = vec![0.0; 4 * dim];
             for (row, weights) in rows.zip(b) {
                 for (sum, weight) in right.chunks_exact_mut(dim).zip(weights) {
@@ -199,7 +248,7 @@ impl<'a> System<'a> {
                 if row < column {
                     continue;
                 }
-                let product = congruence(&sums.matrix, *corner_a, a, *corner_b, b);
+                let product = congruence(matrix, *corner_a, a, *corner_b, b);
                 let place = self.place(*row, *column);
                 match share.blocks.iter_mut().find(|(other, _)| *other == place) {
                     Some((_, sum)) => {
@@ -227,13 +276,7 @@ fn units(size: DVec2) -> [f64; 4] {
 }
 
 /// `a^T M b` for the part of `M` that belongs to two corners.
-fn congruence(
-    matrix: &[[f64; COUNT]; COUNT],
-    corner_a: usize,
-    a: &Block,
-    corner_b: usize,
-    b: &Block,
-) -> Block {
+fn congruence(matrix: &CellMatrix, corner_a: usize, a: &Block, corner_b: usize, b: &Block) -> Block {
     let mut half = [[0.0; 4]; 4];
     for r in 0..4 {
         let part = &matrix[4 * corner_a + r][4 * corner_b..][..4];

@@ -57,11 +57,13 @@ impl CellSums {
         }
     }
 
-    /// Adds `weight` times the plate energy.
-    pub fn add_energy(&mut self, weight: f64) {
-        for (row, energy) in self.matrix.iter_mut().zip(PLATE.iter()) {
+    /// The matrix with `weight` times the plate energy.
+    pub fn with_energy(&self, weight: f64) -> CellMatrix {
+        let mut matrix = self.matrix;
+        for (row, energy) in matrix.iter_mut().zip(PLATE.iter()) {
             row.iter_mut().zip(energy).for_each(|(sum, e)| *sum += weight * e);
         }
+        matrix
     }
 }
 

@@ -139,7 +139,7 @@ pub fn fit_points(
     check_options(options)?;
     check_values(uv.len(), values, dim, options.weights)?;
     check_parameters(uv)?;
-    let data = Data::of_points(uv.to_vec(), values, dim, options.weights);
+    let data = Data::of_points(uv, values, dim, options.weights);
     let mut fit = Refinement::new(data, options)?.run(control)?;
     fit.report.seconds = start.elapsed().as_secs_f64();
     Ok(fit)

@@ -1,7 +1,7 @@
 //! The outer loop: estimate, correct, measure, split.
 
 use super::data::Data;
-use super::global::System;
+use super::global::{ByLeaf, KnownSums, System};
 use super::{Estimator, PhtFit, PhtOptions, local};
 use crate::control::{Control, Pool, Watch};
 use crate::fit::errors::{DataErrors, data_errors};
@@ -20,6 +20,7 @@ pub struct Refinement<'a> {
     data: Data<'a>,
     options: &'a PhtOptions<'a>,
     mesh: TMesh,
+    known: KnownSums,
     /// The tolerance in model units, and whether it was raised.
     tolerance: (f64, bool),
 }
@@ -46,13 +47,20 @@ struct Rough {
 /// fewest coefficients.
 const LEAST_AREA: f64 = 0.6;
 
-/// By how much the error at a datum grows when the datum is left out of the fit: `1 / (1 - h)`, its leverage h half as
-/// much again as the mean, which is the four unknowns of a cell by its data (D. Allen, "The relationship between variable selection and data augmentation
-/// and a method for prediction", Technometrics 16 (1974)). What lies between scattered data is known no better.
-fn left_out_factor(samples: usize) -> f64 {
-    const UNKNOWNS: f64 = 1.5 * 4.0;
+/// By how much the error at a datum grows when the datum is left out of the fit: `1 / (1 - h)`, its leverage h up to
+/// twice the mean, which is the unknowns of a cell by its data (D. Allen, "The relationship between variable
+/// selection and data augmentation and a method for prediction", Technometrics 16 (1974)). What lies between
+/// scattered data is known no better.
+fn left_out_factor(unknowns: f64, samples: usize) -> f64 {
     const MOST: f64 = 2.0;
-    (1.0 / (1.0 - UNKNOWNS / samples as f64).max(1.0 / MOST)).min(MOST)
+    (1.0 / (1.0 - 2.0 * unknowns / samples as f64).max(1.0 / MOST)).min(MOST)
+}
+
+/// The four unknowns of each corner, shared by the cells that touch it: fewer at the border.
+fn unknowns_of(mesh: &TMesh, cell: Cell) -> f64 {
+    let (last, [low, _, _, high]) = (mesh.last_vertex(), cell.corners());
+    let along = |is_at_border: bool| if is_at_border { 1.5 } else { 1.0 };
+    4.0 * along(low.i == 0 || high.i == last.i) * along(low.j == 0 || high.j == last.j)
 }
 
 impl<'a> Refinement<'a> {
@@ -71,7 +79,8 @@ impl<'a> Refinement<'a> {
         // the box has a range, but no room for more lines than it has roundings
         let mesh = mesh.map_err(|_| FitError::DegenerateRange { axis: 'u', at: min.x })?;
         let tolerance = options.tolerance.absolute(&data.bounds);
-        Ok(Self { data, options, mesh, tolerance })
+        let known = KnownSums::new(!data.is_shape);
+        Ok(Self { data, options, mesh, known, tolerance })
     }
 
     pub fn run(mut self, control: &mut Control) -> Result<PhtFit, FitError> {
@@ -111,70 +120,56 @@ impl<'a> Refinement<'a> {
             Estimator::Global => Some(System::new(&mesh, &topology)),
             _ => None,
         };
-        let estimate = |data: &Data| -> Result<PhtSurface, FitError> {
+        let options = self.options;
+        let mut estimate = |data: &Data, by_leaf: &ByLeaf| -> Result<PhtSurface, FitError> {
             watch.check()?;
             let jets = match &system {
-                Some(system) => system.solve(data, self.options.smoothing, pool, watch)?,
-                None if self.options.estimator == Estimator::LocalCubic => {
+                Some(system) => {
+                    system.solve(data, by_leaf, &mut self.known, options.smoothing, pool, watch)?
+                }
+                None if options.estimator == Estimator::LocalCubic => {
                     local::cubic(data, &mesh, &topology, pool)
                 }
                 None => local::quadratic(data, &mesh, &topology, pool)?,
             };
             outward(data, &mesh, jets)
         };
-        let mut surface = estimate(&self.data)?;
-        let sweeps = if self.data.is_shape { self.options.correction_sweeps } else { 0 };
+        let mut by_leaf = ByLeaf::sort(&mesh, &topology, &self.data, pool);
+        let mut surface = estimate(&self.data, &by_leaf)?;
+        let sweeps = if self.data.is_shape { options.correction_sweeps } else { 0 };
         for _ in 0..sweeps {
-            self.data.uv = self.foot_points(&surface, pool);
-            surface = estimate(&self.data)?;
+            self.data.uv = foot_points(&self.data, &surface, pool);
+            by_leaf = ByLeaf::sort(&mesh, &topology, &self.data, pool);
+            surface = estimate(&self.data, &by_leaf)?;
         }
-        let errors = data_errors(&surface, &self.data.uv, self.data.values, pool);
-        let rough = self.rough_leaves(&surface, &errors, pool);
+        let errors = data_errors(&surface, &self.data.uv, &self.data.values, pool);
+        let rough = self.rough_leaves(&surface, &errors, &by_leaf, pool);
         Ok(Round { surface, errors, uv: self.data.uv.clone(), rough })
     }
 
-    /// Where the nodes go: towards their foot points, but no triangle folds.
-    fn foot_points(&self, surface: &PhtSurface, pool: &Pool) -> Vec<DVec2> {
-        let (data, dim) = (&self.data, self.data.dim);
-        let mut moved = data.uv.clone();
-        pool.run(|| {
-            moved.par_iter_mut().zip(data.values.par_chunks(dim)).with_min_len(256).for_each(|(uv, value)| {
-                let mut row = vec![0.0; 3 * dim];
-                for _ in 0..STEPS {
-                    surface.eval_rows(&[*uv], 1, &mut row);
-                    let cell = self.mesh.cell_domain(self.mesh.cell(self.mesh.locate(*uv)));
-                    let longest = LONGEST_STEP * cell.size();
-                    let step = gauss_newton_step(&row, value).clamp(-longest, longest);
-                    *uv = data.data_box.clamp(*uv + step);
-                }
-            })
-        });
-        if let Some(mesh) = data.mesh {
-            hold_back(mesh.triangles(), (&data.first_uv, LEAST_AREA), &data.uv, &mut moved);
-        }
-        moved
-    }
-
     /// The leaves that miss the tolerance at a datum, or inside a triangle by more than its sagitta.
-    fn rough_leaves(&self, surface: &PhtSurface, errors: &DataErrors, pool: &Pool) -> Vec<Rough> {
-        let (topology, uv) = (surface.topology(), self.data.sample_uv());
-        let excesses = self.data.excesses(surface, &uv, pool);
-        let mut largest = vec![0.0_f64; topology.leaves.len()];
-        let mut samples = vec![0; topology.leaves.len()];
-        let misses = errors.each.iter().chain(&excesses);
-        for (&uv, &miss) in uv.iter().zip(misses.chain(std::iter::repeat(&0.0))) {
-            let leaf = topology.leaf_of(self.mesh.locate(uv));
-            samples[leaf] += 1;
-            largest[leaf] = largest[leaf].max(miss);
-        }
-        let is_scattered = self.data.mesh.is_none();
-        let leaves = topology.leaves.iter().zip(largest.into_iter().zip(samples));
-        let misses = |error: f64, samples: usize| {
-            let between = if is_scattered { error * left_out_factor(samples) } else { error };
-            !(between <= self.tolerance.0)
+    fn rough_leaves(
+        &self,
+        surface: &PhtSurface,
+        errors: &DataErrors,
+        by_leaf: &ByLeaf,
+        pool: &Pool,
+    ) -> Vec<Rough> {
+        let (topology, count) = (surface.topology(), self.data.uv.len());
+        let excesses = self.data.excesses(surface, &by_leaf.uv, pool);
+        let miss = |sample: usize| match sample.checked_sub(count) {
+            None => errors.each[sample],
+            Some(triangle) => excesses.get(triangle).copied().unwrap_or(0.0),
         };
-        let rough = leaves.filter(|&(_, (error, samples))| misses(error, samples));
-        rough.map(|(&node, (error, samples))| Rough { cell: self.mesh.cell(node), samples, error }).collect()
+        let is_scattered = self.data.mesh.is_none();
+        let rough = |(leaf, &node): (usize, &NodeId)| {
+            let (cell, samples) = (self.mesh.cell(node), by_leaf.of(leaf));
+            let error = samples.iter().map(|&sample| miss(sample as usize)).fold(0.0, f64::max);
+            let unknowns = unknowns_of(&self.mesh, cell);
+            let between = if is_scattered { error * left_out_factor(unknowns, samples.len()) } else { error };
+            (!(between <= self.tolerance.0)).then_some(Rough { cell, samples: samples.len(), error })
+        };
+        topology.leaves.iter().enumerate().filter_map(rough).collect()
     }
 
     /// Splits the rough cells, or says why none can be split.
@@ -188,10 +183,11 @@ impl<'a> Refinement<'a> {
             if fits { Ok(()) } else { Err(StopReason::Limit) }
         };
         let grade = if options.grade == 0 { MAX_LEVEL } else { options.grade };
-        // where the tolerance is met and only the places between the data are in doubt, quarters shall have data
+        // where the tolerance is met and only the places between the data are in doubt, quarters shall have as many
+        // data as unknowns
         let least = |rough: &&Rough| {
             let is_met = rough.error <= self.tolerance.0;
-            if is_met { 4 * options.min_samples } else { options.min_samples }
+            if is_met { options.min_samples.max(16) } else { options.min_samples }
         };
         for rough in round.rough.iter().filter(|rough| rough.samples >= least(rough)) {
             // a neighbour may have split it
@@ -237,7 +233,7 @@ impl<'a> Refinement<'a> {
         let measures_distance =
             self.options.measure_distance && (self.data.mesh.is_none() || self.data.is_shape);
         let distance = if measures_distance {
-            max_distance(&surface, self.data.values, &self.data.uv, pool)
+            max_distance(&surface, &self.data.values, &self.data.uv, pool)
         } else {
             f64::NAN
         };
@@ -245,7 +241,7 @@ impl<'a> Refinement<'a> {
             max_error: errors.max,
             rms_error: errors.rms,
             mean_error: errors.mean,
-            worst_index: errors.worst_index,
+            worst_index: self.data.order.get(errors.worst_index).map_or(errors.worst_index, |&k| k as usize),
             tolerance,
             diagonal: self.data.bounds.diagonal(),
             max_interior_error: interior.max,
@@ -262,7 +258,9 @@ impl<'a> Refinement<'a> {
             remarks,
             ..FitReport::default()
         };
-        PhtFit { surface, report, parameters: std::mem::take(&mut self.data.uv), errors: errors.each }
+        let uv = std::mem::take(&mut self.data.uv);
+        let parameters = self.data.as_given(uv);
+        PhtFit { surface, report, parameters, errors: self.data.as_given(errors.each) }
     }
 
     /// The boundary loops of the mesh in the parameter plane.
@@ -282,6 +280,28 @@ impl<'a> Refinement<'a> {
         let leaves = topology.leaves.iter().zip(is_empty);
         leaves.filter(|(node, is_empty)| *is_empty && trims.contains(middle(node))).count()
     }
+}
+
+/// Where the nodes go: towards their foot points, but no triangle folds.
+fn foot_points(data: &Data, surface: &PhtSurface, pool: &Pool) -> Vec<DVec2> {
+    let (mesh, dim) = (surface.mesh(), data.dim);
+    let mut moved = data.uv.clone();
+    pool.run(|| {
+        moved.par_iter_mut().zip(data.values.par_chunks(dim)).with_min_len(256).for_each(|(uv, value)| {
+            let mut row = vec![0.0; 3 * dim];
+            for _ in 0..STEPS {
+                surface.eval_rows(&[*uv], 1, &mut row);
+                let cell = mesh.cell_domain(mesh.cell(mesh.locate(*uv)));
+                let longest = LONGEST_STEP * cell.size();
+                let step = gauss_newton_step(&row, value).clamp(-longest, longest);
+                *uv = data.data_box.clamp(*uv + step);
+            }
+        })
+    });
+    if let Some(mesh) = data.mesh {
+        hold_back(mesh.triangles(), (&data.first_uv, LEAST_AREA), &data.uv, &mut moved);
+    }
+    moved
 }
 
 /// How far the error has come from the first towards the tolerance, on a logarithmic scale.

@@ -4,23 +4,15 @@
 //! each row is interpolated there, and the parameter of the worst datum of all rows becomes the next knot. The
 //! control points of the rows are then combined as the rows themselves would be.
 
-use super::SkinError;
 use super::loft::Loft;
 use super::sections::{Section, Sources};
+use super::{ControlCurves, SkinError};
 use crate::control::Watch;
 use crate::curve::{Curve, EndRule, Interpolant};
 use rayon::prelude::*;
 
 /// Parameters nearer than this to a knot do not become knots.
 const LEAST_GAP: f64 = 1e-9;
-
-/// The control curves.
-pub(super) struct CommonKnots {
-    pub curves: Vec<Curve>,
-    pub passes: usize,
-    /// Whether only data violate the tolerance that are too near to knots.
-    pub is_stalled: bool,
-}
 
 /// Skins with common knots.
 pub(super) fn skin(
@@ -29,7 +21,7 @@ pub(super) fn skin(
     tolerance: f64,
     is_periodic: bool,
     watch: &Watch,
-) -> Result<CommonKnots, SkinError> {
+) -> Result<ControlCurves, SkinError> {
     let mut knots = vec![0.0, 1.0];
     let mut passes = 0;
     let is_stalled = loop {
@@ -57,7 +49,13 @@ pub(super) fn skin(
         }
         Curve::new(sources.dim, curves[0].knots().clone(), points)
     });
-    Ok(CommonKnots { curves: combined.collect::<Result<_, _>>()?, passes, is_stalled })
+    Ok(ControlCurves {
+        curves: combined.collect::<Result<_, _>>()?,
+        passes,
+        removed_knots: 0,
+        certified_distance: f64::NAN,
+        is_stalled,
+    })
 }
 
 fn interpolate(section: &Section, knots: &[f64], is_periodic: bool) -> Result<Interpolant, SkinError> {

@@ -104,6 +104,16 @@ struct ControlCurves {
     is_stalled: bool,
 }
 
+/// What the work on threads comes to.
+struct Solved {
+    loft: Loft,
+    found: ControlCurves,
+    /// The part of the error that fewer knots along v leave.
+    v_error: f64,
+    /// Control points over common knots; 0 unless asked for.
+    common_count: usize,
+}
+
 fn skin_data(
     data: &Data,
     options: &SkinOptions,
@@ -111,89 +121,97 @@ fn skin_data(
     start: Instant,
 ) -> Result<SkinFit, SkinError> {
     let (tolerance, is_raised) = options.tolerance.absolute(&data.bounds);
-    let mut report = FitReport {
-        tolerance,
-        diagonal: data.bounds.diagonal(),
-        max_distance: f64::NAN,
-        ..FitReport::default()
-    };
-    report.remarks.add_if(is_raised, Remarks::TOLERANCE_RAISED);
-    report.remarks.add_if(data.merged_points > 0, Remarks::MERGED_POINTS);
-    report.remarks.add_if(data.twisted_row.is_some(), Remarks::TWISTED_ROWS);
-
     let steps = Steps::new(data, options)?;
-    report.remarks.add_if(steps.is_mean && options.v_rule == VRule::Endpoints, Remarks::MEAN_STEPS);
-    let work = |watch: &Watch| -> Result<_, SkinError> {
-        let (loft, v_error) = lofted(data, &steps, options, tolerance, watch)?;
-        let rules = Rules {
-            tolerance: tolerance - v_error,
-            extra_checks: options.extra_checks,
-            batch: options.batch,
-            removal: options.removal,
-            is_periodic: data.is_periodic,
-        };
-        let wants_common = options.method == SkinMethod::CommonKnots;
-        let common = match wants_common || options.compare {
-            true => Some(common::skin(&loft, &data.sources, rules.tolerance, data.is_periodic, watch)?),
-            false => None,
-        };
-        let common_count = common
-            .as_ref()
-            .map_or(0, |common| loft.knots_v.basis_count() * common.curves[0].knots().basis_count());
-        let found = match common.filter(|_| wants_common) {
-            Some(common) => ControlCurves {
-                curves: common.curves,
-                passes: common.passes,
-                removed_knots: 0,
-                certified_distance: f64::NAN,
-                is_stalled: common.is_stalled,
-            },
-            None => control_curves(&loft, data, &rules, options.certify, watch)?,
-        };
-        Ok((loft, v_error, common_count, found))
-    };
-    let (loft, v_error, common_count, found) = control.watch(|_, watch| work(watch))??;
-
-    let mut curves = found.curves;
-    let repeated = loft.knots_v.basis_count() - curves.len(); // closed along v: the first three once more
-    curves.extend_from_within(..repeated);
-    let surface = TSplineSurface::new(loft.knots_v.clone(), curves)?;
-    let place = |&(row, u): &(usize, f64)| DVec2::new(u, loft.parameters[row]);
+    let mut solved = control.watch(|_, watch| solve(data, &steps, options, tolerance, watch))??;
+    let surface = assemble(&mut solved)?;
+    let place = |&(row, u): &(usize, f64)| DVec2::new(u, solved.loft.parameters[row]);
     let parameters: Vec<DVec2> = data.places.iter().map(place).collect();
     let errors = data_errors(&surface, &parameters, &data.values, control.pool());
     control.report(1.0, errors.max)?;
 
+    let skin = skin_report(data, &solved, &surface)?;
+    let mut remarks = Remarks::default();
+    remarks.add_if(is_raised, Remarks::TOLERANCE_RAISED);
+    remarks.add_if(data.merged_points > 0, Remarks::MERGED_POINTS);
+    remarks.add_if(data.twisted_row.is_some(), Remarks::TWISTED_ROWS);
+    remarks.add_if(steps.is_mean && options.v_rule == VRule::Endpoints, Remarks::MEAN_STEPS);
+    remarks.add_if(!(errors.max <= tolerance), Remarks::TOLERANCE_NOT_MET);
+    remarks.add_if(solved.found.is_stalled, Remarks::STAGNATED);
+    remarks.add_if(skin.overshoot > CLUSTERED_OVERSHOOT, Remarks::CLUSTERED_ROWS);
+    let report = FitReport {
+        max_error: errors.max,
+        rms_error: errors.rms,
+        mean_error: errors.mean,
+        worst_index: errors.worst_index,
+        tolerance,
+        diagonal: data.bounds.diagonal(),
+        max_distance: f64::NAN,
+        grid_u: skin.largest_count - 2,
+        grid_v: surface.knots_v().spans().len() + 1,
+        coefficient_count: surface.coefficient_count(),
+        passes: solved.found.passes,
+        stop: if solved.found.is_stalled { StopReason::Stagnated } else { StopReason::ToleranceMet },
+        seconds: start.elapsed().as_secs_f64(),
+        remarks,
+        ..FitReport::default()
+    };
+    Ok(SkinFit { surface, report, skin, parameters, errors: errors.each })
+}
+
+/// Finds the control curves.
+fn solve(
+    data: &Data,
+    steps: &Steps,
+    options: &SkinOptions,
+    tolerance: f64,
+    watch: &Watch,
+) -> Result<Solved, SkinError> {
+    let (loft, v_error) = lofted(data, steps, options, tolerance, watch)?;
+    let rules = Rules {
+        tolerance: tolerance - v_error,
+        extra_checks: options.extra_checks,
+        batch: options.batch,
+        removal: options.removal,
+        is_periodic: data.is_periodic,
+    };
+    let wants_common = options.method == SkinMethod::CommonKnots;
+    let mut common_count = 0;
+    if wants_common || options.compare {
+        let common = common::skin(&loft, &data.sources, rules.tolerance, data.is_periodic, watch)?;
+        common_count = loft.knots_v.basis_count() * common.curves[0].knots().basis_count();
+        if wants_common {
+            return Ok(Solved { loft, found: common, v_error, common_count });
+        }
+    }
+    let found = control_curves(&loft, data, &rules, options.certify, watch)?;
+    Ok(Solved { loft, found, v_error, common_count })
+}
+
+/// The surface; closed along v it has its first three curves once more at the end.
+fn assemble(solved: &mut Solved) -> Result<TSplineSurface, SkinError> {
+    let mut curves = std::mem::take(&mut solved.found.curves);
+    let repeated = solved.loft.knots_v.basis_count() - curves.len();
+    curves.extend_from_within(..repeated);
+    Ok(TSplineSurface::new(solved.loft.knots_v.clone(), curves)?)
+}
+
+fn skin_report(data: &Data, solved: &Solved, surface: &TSplineSurface) -> Result<SkinReport, SkinError> {
     let counts = surface.curves().iter().map(|curve| curve.knots().basis_count());
-    let skin = SkinReport {
+    Ok(SkinReport {
         curve_count: surface.curves().len(),
         least_count: counts.clone().min().unwrap_or(0),
-        largest_count: counts.clone().max().unwrap_or(0),
+        largest_count: counts.max().unwrap_or(0),
         tensor_count: surface.tensor_coefficient_count()?,
         strip_count: surface.strip_coefficient_count()?,
-        common_count,
-        removed_knot_count: found.removed_knots,
+        common_count: solved.common_count,
+        removed_knot_count: solved.found.removed_knots,
         merged_point_count: data.merged_points,
         aligned_row_count: data.aligned_rows,
         twisted_row: data.twisted_row,
-        overshoot: loft.overshoot(),
-        certified_distance: found.certified_distance,
-        v_error,
-    };
-    let is_missed = !(errors.max <= tolerance);
-    report.remarks.add_if(is_missed, Remarks::TOLERANCE_NOT_MET);
-    report.remarks.add_if(found.is_stalled, Remarks::STAGNATED);
-    report.remarks.add_if(skin.overshoot > CLUSTERED_OVERSHOOT, Remarks::CLUSTERED_ROWS);
-    report.stop = if found.is_stalled { StopReason::Stagnated } else { StopReason::ToleranceMet };
-    report.max_error = errors.max;
-    report.rms_error = errors.rms;
-    report.mean_error = errors.mean;
-    report.worst_index = errors.worst_index;
-    report.grid_u = skin.largest_count.saturating_sub(2);
-    report.grid_v = surface.knots_v().spans().len() + 1;
-    report.coefficient_count = surface.coefficient_count();
-    report.passes = found.passes;
-    report.seconds = start.elapsed().as_secs_f64();
-    Ok(SkinFit { surface, report, skin, parameters, errors: errors.each })
+        overshoot: solved.loft.overshoot(),
+        certified_distance: solved.found.certified_distance,
+        v_error: solved.v_error,
+    })
 }
 
 /// Control curves that are thirty times larger than the rows, where equal steps give three, are worth a remark: they
@@ -281,10 +299,10 @@ fn lofted(
     if options.closed_v {
         return Ok((Loft::closed(parameters, 1.0)?, 0.0));
     }
-    if options.approximate_v {
-        if let Some(found) = approximate::loft(&parameters, &data.sources, tolerance, watch)? {
-            return Ok(found);
-        }
+    if options.approximate_v
+        && let Some(found) = approximate::loft(&parameters, &data.sources, tolerance, watch)?
+    {
+        return Ok(found);
     }
     Ok((Loft::interpolating(parameters, data.has_tangents, steps.length())?, 0.0))
 }

@@ -139,7 +139,8 @@ fn the_certified_distance_bounds_the_true_one() {
                 fit.parameters
                     .windows(2)
                     .step_by(1 + fit.parameters.len() / 4000)
-                    .filter_map(|pair| (pair[0].y == pair[1].y).then(|| pair[0].midpoint(pair[1]))),
+                    .filter(|pair| pair[0].y == pair[1].y)
+                    .map(|pair| pair[0].midpoint(pair[1])),
             );
             let mut found = vec![0.0; 3 * uv.len()];
             fit.surface.eval_rows(&uv, 0, &mut found);

@@ -4,8 +4,7 @@
 //! all of its knot lines a surface of degree 3 at most is reproduced; within a tolerance cells are split from
 //! one on until samples agree, and the error falls with the fourth power of their size.
 
-use super::jet::ROWS;
-use super::mesh::{Cell, MAX_LEVEL, NodeId, TMesh};
+use super::mesh::{Cell, MAX_LEVEL, NodeId, TMesh, Vertex};
 use super::topology::Topology;
 use super::{PhtError, PhtSurface};
 use crate::geometry::Domain;
@@ -13,6 +12,7 @@ use crate::knots::KnotVector;
 use crate::surface::tensor::{Axis, TensorSurface};
 use crate::surface::{Patches, Surface};
 use glam::DVec2;
+use std::collections::BTreeMap;
 
 /// How to convert a tensor surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,12 +32,14 @@ impl Default for ConvertOptions {
     }
 }
 
-/// Samples a span and direction that decide whether a cell agrees.
+/// Intervals of samples a span and direction that decide whether a cell agrees.
 const SAMPLES_PER_SPAN: usize = 4;
 /// Levels by which cells that share an edge may differ. A fine cell has the error of its coarse neighbour at their
 /// T-vertices: with one level it is split with it, with more it might be split for ever in vain.
 const GRADE: u32 = 1;
-/// Samples a direction that show first whether a cell is far off.
+/// Share of the tolerance that samples may use up: between them the distance is a little larger.
+const MARGIN: f64 = 0.95;
+/// Intervals of samples a direction that show first whether a cell is far off.
 const FIRST_SAMPLES: usize = 4;
 
 impl PhtSurface {
@@ -103,44 +105,60 @@ impl<'a> Source<'a> {
         if count > max_cells {
             return Err(PhtError::TooLarge { what: "cells", count, limit: max_cells });
         }
-        let surface = self.over(TMesh::new(&knots[0].breaks(), &knots[1].breaks())?)?;
+        let surface = self.over(TMesh::new(&knots[0].breaks(), &knots[1].breaks())?, &BTreeMap::new())?;
         surface.check_weights()?;
         Ok(surface)
     }
 
-    /// The spline with the source's jets at the vertices of a mesh; its weights are still to be looked at.
-    fn over(&self, mesh: TMesh) -> Result<PhtSurface, PhtError> {
+    /// The spline with the source's jets at the vertices of a mesh; those in `known` need not be computed. Its
+    /// weights are still to be looked at.
+    fn over(&self, mesh: TMesh, known: &BTreeMap<Vertex, Vec<f64>>) -> Result<PhtSurface, PhtError> {
         let topology = Topology::new(&mesh);
-        let vertices = topology.basis.iter().map(|&vertex| topology.vertices[vertex as usize]);
-        let uv: Vec<DVec2> = vertices.map(|vertex| mesh.parameters(vertex)).collect();
+        let vertices: Vec<Vertex> =
+            topology.basis.iter().map(|&vertex| topology.vertices[vertex as usize]).collect();
+        let new = vertices.iter().filter(|vertex| !known.contains_key(vertex));
+        let uv: Vec<DVec2> = new.map(|&vertex| mesh.parameters(vertex)).collect();
         let width = self.homogeneous.dim();
         let mut rows = vec![0.0; uv.len() * 6 * width];
         self.homogeneous.eval_rows(&uv, 2, &mut rows);
         // of S, Su, Sv, Suu, Suv, Svv those of a jet
-        let jets: Vec<f64> = rows
-            .chunks_exact(6 * width)
-            .flat_map(|rows| [0, 1, 2, 4].into_iter().flat_map(move |row| &rows[row * width..][..width]))
-            .copied()
+        let jet = |rows: &[f64]| [0, 1, 2, 4].map(|row| &rows[row * width..][..width]).concat();
+        let mut computed = rows.chunks_exact(6 * width).map(jet);
+        let jets: Vec<f64> = vertices
+            .iter()
+            .filter_map(|vertex| known.get(vertex).cloned().or_else(|| computed.next()))
+            .flatten()
             .collect();
-        debug_assert_eq!(jets.len(), uv.len() * ROWS * width);
         PhtSurface::with_any_weights(self.tensor.dim(), self.tensor.weights().is_some(), mesh, &jets)
     }
 
     fn within(&self, tolerance: f64, max_level: u32, max_cells: usize) -> Result<PhtSurface, PhtError> {
         let Domain { min, max } = self.tensor.domain();
         let mut mesh = TMesh::new(&[min.x, max.x], &[min.y, max.y])?;
+        let mut known = BTreeMap::new();
+        // leaves that agreed, with their ordinates
+        let mut settled: BTreeMap<Cell, Vec<f64>> = BTreeMap::new();
         loop {
-            let surface = self.over(mesh)?;
+            let surface = self.over(mesh, &known)?;
             let leaves = surface.topology().leaves.iter().map(|&node| surface.mesh.cell(node)).enumerate();
             // a coarse patch may follow the surface so badly that its weights are not positive
-            let is_rough = |&(leaf, cell): &(usize, Cell)| {
-                !(surface.least_weight(leaf) > 0.0) || self.deviates(&surface, cell, tolerance)
+            let mut is_rough = |&(leaf, cell): &(usize, Cell)| {
+                let ordinates = surface.view().leaf_ordinates(leaf);
+                if settled.get(&cell).is_some_and(|before| before == ordinates) {
+                    return false;
+                }
+                let is_rough =
+                    !(surface.least_weight(leaf) > 0.0) || self.deviates(&surface, cell, tolerance);
+                if !is_rough {
+                    settled.insert(cell, ordinates.to_vec());
+                }
+                is_rough
             };
-            let rough: Vec<Cell> = leaves.filter(is_rough).map(|(_, cell)| cell).collect();
+            let rough: Vec<Cell> = leaves.filter(&mut is_rough).map(|(_, cell)| cell).collect();
             if rough.is_empty() {
                 return Ok(surface);
             }
-            mesh = surface.mesh;
+            (mesh, known) = (surface.mesh, surface.jets);
             let mut allow = |mesh: &TMesh, leaf: NodeId| {
                 let (level, count) = (mesh.cell(leaf).level, mesh.leaf_count() + 3);
                 if level >= max_level {
@@ -160,33 +178,35 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// Whether samples on a cell differ by more than the tolerance.
+    /// Whether samples on a cell differ by more than the tolerance: first a few, then some in each span.
     fn deviates(&self, surface: &PhtSurface, cell: Cell, tolerance: f64) -> bool {
-        let domain = surface.mesh.cell_domain(cell);
-        let places = |count: usize, from: f64, to: f64| -> Vec<f64> {
-            (0..=count).map(|k| from + (to - from) * k as f64 / count as f64).collect()
-        };
+        let Domain { min, max } = surface.mesh.cell_domain(cell);
         let fine = |axis: Axis, from: f64, to: f64| {
             let knots: &KnotVector = self.tensor.knots(axis);
-            let spans = knots.rank_at(to) - knots.rank_at(from) + 1;
-            places(SAMPLES_PER_SPAN * spans, from, to)
+            SAMPLES_PER_SPAN * (knots.rank_at(to) - knots.rank_at(from) + 1)
         };
-        let Domain { min, max } = domain;
-        let first = [places(FIRST_SAMPLES, min.x, max.x), places(FIRST_SAMPLES, min.y, max.y)];
-        self.differs(surface, first, tolerance)
-            || self.differs(surface, [fine(Axis::U, min.x, max.x), fine(Axis::V, min.y, max.y)], tolerance)
+        let fine = [fine(Axis::U, min.x, max.x), fine(Axis::V, min.y, max.y)];
+        let first = fine.map(|count| count.min(FIRST_SAMPLES));
+        [first, fine].into_iter().enumerate().any(|(round, counts)| {
+            (round == 0 || counts != first) && self.differs(surface, Domain { min, max }, counts, tolerance)
+        })
     }
 
-    fn differs(&self, surface: &PhtSurface, [u, v]: [Vec<f64>; 2], tolerance: f64) -> bool {
+    /// Whether some place of a grid of so many intervals differs.
+    fn differs(&self, surface: &PhtSurface, domain: Domain, counts: [usize; 2], tolerance: f64) -> bool {
         let dim = self.tensor.dim();
-        let mut rows = [vec![0.0; v.len() * dim], vec![0.0; v.len() * dim]];
-        u.iter().any(|&u| {
-            self.tensor.eval_grid(&[u], &v, &mut rows[0]);
-            surface.eval_grid(&[u], &v, &mut rows[1]);
+        let place = |i: usize, j: usize| {
+            domain.min + domain.size() * DVec2::new(i as f64 / counts[0] as f64, j as f64 / counts[1] as f64)
+        };
+        let mut rows = [vec![0.0; (counts[1] + 1) * dim], vec![0.0; (counts[1] + 1) * dim]];
+        (0..=counts[0]).any(|i| {
+            let uv: Vec<DVec2> = (0..=counts[1]).map(|j| place(i, j)).collect();
+            self.tensor.eval_rows(&uv, 0, &mut rows[0]);
+            surface.eval_rows(&uv, 0, &mut rows[1]);
             let points = rows[0].chunks_exact(dim).zip(rows[1].chunks_exact(dim));
             let square =
                 |(a, b): (&[f64], &[f64])| a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
-            points.map(square).any(|square| !(square.sqrt() <= tolerance))
+            points.map(square).any(|square| !(square.sqrt() <= MARGIN * tolerance))
         })
     }
 }

@@ -5,7 +5,9 @@
 
 use super::PhtSurface;
 use super::basis::Widths;
+use super::directory::Directory;
 use super::jet;
+use super::mesh::TMesh;
 use super::topology::{Matrix, Topology};
 use crate::surface::ORDERS;
 use crate::surface::derivative_rows;
@@ -25,6 +27,7 @@ pub struct View {
     pub ordinates: Vec<f64>,
     width: usize,
     frames: Vec<Frame>,
+    directory: Directory,
     /// What the vertices are made of, for basis functions.
     pub expansions: OnceLock<Vec<Vec<(u32, Matrix)>>>,
     /// Of the functions of each vertex, by [`Basis`](super::Basis).
@@ -58,9 +61,16 @@ impl View {
             ordinates,
             width,
             frames,
+            directory: Directory::new(mesh),
             expansions: OnceLock::new(),
             widths: Default::default(),
         }
+    }
+
+    /// The leaf that has `uv`: on a grid line the one to the right or above; beyond the domain the nearest.
+    #[inline(always)]
+    pub fn leaf_at(&self, mesh: &TMesh, uv: DVec2) -> usize {
+        self.topology.leaf_of(self.directory.locate(mesh, uv))
     }
 
     /// The jet of a vertex.
@@ -138,7 +148,7 @@ impl Batch<'_> {
         let mut leaves = [0; BLOCK];
         for (uv, out) in self.uv.chunks(BLOCK).zip(self.out.chunks_mut(BLOCK * width)) {
             for (leaf, &uv) in leaves.iter_mut().zip(uv) {
-                *leaf = view.topology.leaf_of(self.surface.mesh.locate(uv));
+                *leaf = view.leaf_at(&self.surface.mesh, uv);
             }
             for ((&leaf, &uv), out) in leaves.iter().zip(uv).zip(out.chunks_exact_mut(width)) {
                 let Frame { min, inverse_size } = view.frames[leaf];
@@ -181,7 +191,7 @@ impl PhtSurface {
     /// The derivative of these orders along u and v, up to 3 each, of the jets' rows: of (w S, w) where there
     /// are weights. On grid lines it is that of the leaf to the right or above.
     pub fn derivative(&self, uv: DVec2, orders: (usize, usize), out: &mut [f64]) {
-        let leaf = self.view().topology.leaf_of(self.mesh.locate(uv));
+        let leaf = self.view().leaf_at(&self.mesh, uv);
         self.leaf_derivative(leaf, uv, orders, out);
     }
 

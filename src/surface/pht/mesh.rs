@@ -195,11 +195,12 @@ impl TMesh {
 
     /// Grid lines of the initial grid along an axis.
     pub fn breaks(&self, axis: Axis) -> &[f64] {
-        let knots = self.knots(axis).knots();
+        let knots = self.grid_lines(axis).knots();
         &knots[1..knots.len() - 1]
     }
 
-    fn knots(&self, axis: Axis) -> &KnotVector {
+    /// The initial grid along an axis, as knots of degree 1.
+    pub(super) fn grid_lines(&self, axis: Axis) -> &KnotVector {
         match axis {
             Axis::U => &self.grid[0],
             Axis::V => &self.grid[1],
@@ -336,19 +337,33 @@ impl TMesh {
         if cell.level > MAX_LEVEL || cell.i >> cell.level >= count_u || cell.j >> cell.level >= count_v {
             return None;
         }
-        let mut node = NodeId((cell.i >> cell.level) * count_v + (cell.j >> cell.level));
+        Some(self.find_or_holder(cell)).filter(|&node| self.cell(node).level == cell.level)
+    }
+
+    /// The node at an address in the grid, or the leaf that holds the cell.
+    pub(super) fn find_or_holder(&self, cell: Cell) -> NodeId {
+        let mut node = NodeId((cell.i >> cell.level) * self.grid_size()[1] + (cell.j >> cell.level));
         for shift in (0..cell.level).rev() {
             let quadrant = 2 * (cell.i >> shift & 1) + (cell.j >> shift & 1);
-            node = self.children(node)?[quadrant as usize];
+            match self.children(node) {
+                Some(children) => node = children[quadrant as usize],
+                None => break,
+            }
         }
-        Some(node)
+        node
     }
 
     /// The leaf that has `uv`: on a grid line the one to the right or above; beyond the domain the nearest.
     #[inline]
     pub fn locate(&self, uv: DVec2) -> NodeId {
         let [rank_u, rank_v] = [self.grid[0].rank_at(uv.x), self.grid[1].rank_at(uv.y)];
-        let mut at = rank_u * (self.grid[1].spans().len()) + rank_v;
+        self.descend(NodeId((rank_u * self.grid[1].spans().len() + rank_v) as u32), uv)
+    }
+
+    /// The leaf below a node.
+    #[inline(always)]
+    pub(super) fn descend(&self, node: NodeId, uv: DVec2) -> NodeId {
+        let mut at = node.index();
         loop {
             let node = &self.nodes[at];
             if node.first_child == 0 {

@@ -18,6 +18,7 @@
 mod basis;
 mod convert;
 mod detail;
+mod directory;
 mod edit;
 mod error;
 mod evaluate;
@@ -211,6 +212,6 @@ impl Patches for PhtSurface {
     }
 
     fn patch_at(&self, uv: DVec2) -> usize {
-        self.view().topology.leaf_of(self.mesh.locate(uv))
+        self.view().leaf_at(&self.mesh, uv)
     }
 }

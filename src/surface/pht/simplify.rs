@@ -52,7 +52,8 @@ impl PhtSurface {
 
     /// The cells of a level whose quarters are leaves.
     fn mergeable_cells(&self, level: u32) -> Vec<Cell> {
-        let first_quarter = |cell: &Cell| cell.level == level + 1 && cell.i % 2 == 0 && cell.j % 2 == 0;
+        let first_quarter =
+            |cell: &Cell| cell.level == level + 1 && cell.i.is_multiple_of(2) && cell.j.is_multiple_of(2);
         let cells = self.mesh.leaves().map(|leaf| self.mesh.cell(leaf)).filter(first_quarter);
         let parents = cells.filter_map(Cell::parent);
         let is_mergeable =

@@ -51,7 +51,7 @@ impl Patches for TSplineSurface {
         let span_v = self.knots_v.span_of_rank(rank);
         let [v0, v1] = [0, 1].map(|a| self.knots_v.knots()[span_v + a]);
         let dim = self.dim();
-        let mut net = vec![Vec::with_capacity(4 * dim); 4];
+        let mut net: [Vec<f64>; 4] = Default::default();
         for curve in self.active(span_v) {
             // knots joined with a neighbour may lie a rounding inside: the middle knows the polynomial
             let span = curve.knots().span((u0 + u1) / 2.0);

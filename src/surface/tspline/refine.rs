@@ -77,8 +77,8 @@ impl TSplineSurface {
         let knots_v = KnotVector::new(knots, DEGREE)?;
         let blended = |j: usize| -> Result<Curve, TSplineError> {
             match (v - t[j]) / (t[j + DEGREE] - t[j]) {
-                alpha if alpha == 1.0 => Ok(self.curves[j].clone()),
-                alpha if alpha == 0.0 => Ok(self.curves[j - 1].clone()),
+                1.0 => Ok(self.curves[j].clone()),
+                0.0 => Ok(self.curves[j - 1].clone()),
                 alpha => Ok(blend(alpha, &self.curves[j], &self.curves[j - 1])?),
             }
         };

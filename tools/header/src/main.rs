@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 /// The files of `src/ffi` in the order of the header.
-const SOURCES: [&str; 16] = [
+const SOURCES: &[&str] = &[
     "status.rs",
     "progress.rs",
     "mesh.rs",
@@ -17,6 +17,7 @@ const SOURCES: [&str; 16] = [
     "tensor.rs",
     "field.rs",
     "query.rs",
+    "rows.rs",
     "export.rs",
     "step.rs",
     "curve.rs",

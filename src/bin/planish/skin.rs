@@ -1,0 +1,296 @@
+//! `planish skin`.
+
+use crate::output::{self, Table};
+use crate::{Failure, Outcome};
+use clap::{Args, ValueEnum};
+use planish::Control;
+use planish::export::step::{Form, StepOptions, Unit};
+use planish::fit::report::{Remarks, Tolerance, ToleranceScale};
+use planish::fit::skin::{Rows, SectionEnds, SkinFit, SkinMethod, SkinOptions, VRule, skin};
+use serde_json::json;
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, Args)]
+pub struct SkinArguments {
+    /// Text file: `rows N`, then for each row `row I COUNT` (and `closed`) and COUNT lines x y z; lines that begin with
+    /// # are comments.
+    rows: PathBuf,
+    /// Largest error allowed at the points, as a fraction of the bounding box's diagonal.
+    #[arg(long, default_value_t = 1e-3, value_name = "T")]
+    tolerance: f64,
+    /// Take the tolerance in model units.
+    #[arg(long)]
+    absolute: bool,
+    /// Write a file: .step or .stp, .obj (a tessellation), .planish (the surface itself); may be given several times.
+    #[arg(long, value_name = "FILE")]
+    out: Vec<PathBuf>,
+    /// What STEP files hold, which know no T-splines.
+    #[arg(long, value_enum, default_value_t = FormName::Tensor)]
+    step_form: FormName,
+    /// The last row is followed by the first one.
+    #[arg(long)]
+    closed_v: bool,
+    /// Turn rows round, and move the first point of closed ones, where that brings them nearer to the row before.
+    #[arg(long)]
+    align: bool,
+    /// Places between two points at which the surface is checked too.
+    #[arg(long, default_value_t = 3, value_name = "N")]
+    extra_checks: usize,
+    /// Look for fewer knots across the rows than there are rows.
+    #[arg(long)]
+    approximate_v: bool,
+    /// Steps across the rows by mean distances instead of those of the end points.
+    #[arg(long)]
+    mean_steps: bool,
+    /// Leave the ends of open rows straight instead of parabolic.
+    #[arg(long)]
+    natural_ends: bool,
+    /// Insert many knots in each pass: faster, some more control points.
+    #[arg(long)]
+    batch: bool,
+    /// Take knots out again that turn out not to be needed.
+    #[arg(long)]
+    removal: bool,
+    /// Bound the distance from the skin through the section curves.
+    #[arg(long)]
+    certify: bool,
+    /// Count the control points that common knots would need.
+    #[arg(long)]
+    compare: bool,
+    /// Threads; 0 for all cores.
+    #[arg(long, default_value_t = 0, value_name = "N")]
+    threads: usize,
+    /// Print the report as JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum FormName {
+    /// The same surface over the knots of all control curves.
+    Tensor,
+    /// The same surface as one face for each pair of rows.
+    Strips,
+    /// The classical skin over common knots.
+    Common,
+}
+
+pub fn run(arguments: &SkinArguments) -> Result<Outcome, Failure> {
+    output::check_names(&arguments.out)?;
+    let text = std::fs::read_to_string(&arguments.rows)
+        .map_err(|error| Failure::new(format!("cannot read {}: {error}", arguments.rows.display())))?;
+    let read = RowFile::parse(&text)
+        .map_err(|Failure(sentence)| Failure::new(format!("{}: {sentence}", arguments.rows.display())))?;
+    let rows = Rows { points: &read.points, counts: &read.counts, dim: 3 };
+    let options = options(arguments, read.is_closed);
+    let fit = skin(&rows, &options, &mut Control::new(arguments.threads))?;
+    for path in &arguments.out {
+        write(&fit, &rows, &options, arguments, path)?;
+    }
+    if arguments.json {
+        println!("{}", json_report(&rows, &fit));
+    } else {
+        print!("{}", table(arguments, &rows, &fit));
+    }
+    let is_met = !fit.report.remarks.has(Remarks::TOLERANCE_NOT_MET);
+    Ok(if is_met { Outcome::Done } else { Outcome::ToleranceNotMet })
+}
+
+fn options(arguments: &SkinArguments, is_closed: bool) -> SkinOptions<'static> {
+    let scale = if arguments.absolute { ToleranceScale::Absolute } else { ToleranceScale::Relative };
+    SkinOptions {
+        tolerance: Tolerance { value: arguments.tolerance, scale },
+        closed: is_closed,
+        closed_v: arguments.closed_v,
+        ends: if arguments.natural_ends { SectionEnds::Natural } else { SectionEnds::Auto },
+        v_rule: if arguments.mean_steps { VRule::Mean } else { VRule::Endpoints },
+        align: arguments.align,
+        approximate_v: arguments.approximate_v,
+        extra_checks: arguments.extra_checks,
+        batch: arguments.batch,
+        removal: arguments.removal,
+        certify: arguments.certify,
+        compare: arguments.compare,
+        ..SkinOptions::default()
+    }
+}
+
+/// Writes the surface; a STEP file over common knots is a skin of its own.
+fn write(
+    fit: &SkinFit,
+    rows: &Rows,
+    options: &SkinOptions,
+    arguments: &SkinArguments,
+    path: &Path,
+) -> Result<(), Failure> {
+    let stem = arguments.rows.file_stem().unwrap_or_default().to_string_lossy();
+    let form = if arguments.step_form == FormName::Strips { Form::Strips } else { Form::Tensor };
+    let step = StepOptions { unit: Unit::Millimetre, product: &stem, form, ..StepOptions::default() };
+    if output::is_step(path) && arguments.step_form == FormName::Common {
+        let options = SkinOptions { method: SkinMethod::CommonKnots, ..*options };
+        let common = skin(rows, &options, &mut Control::new(arguments.threads))?;
+        return output::write_surface(&common.surface.into(), path, &step);
+    }
+    output::write_surface(&fit.surface.clone().into(), path, &step)
+}
+
+/// What a file of rows holds.
+#[derive(Debug, Default, PartialEq)]
+struct RowFile {
+    points: Vec<f64>,
+    counts: Vec<usize>,
+    is_closed: bool,
+}
+
+impl RowFile {
+    fn parse(text: &str) -> Result<Self, Failure> {
+        let mut file = Self::default();
+        let mut announced = None;
+        // points that the present row still lacks
+        let mut missing = 0;
+        for (number, line) in text.lines().enumerate() {
+            let wrong = |problem: &str| Failure::new(format!("line {}: {problem}", number + 1));
+            let line = line.split('#').next().unwrap_or_default();
+            let words: Vec<&str> = line.split_whitespace().collect();
+            match words.as_slice() {
+                [] => {}
+                ["rows", count] if announced.is_none() => {
+                    announced =
+                        Some(count.parse::<usize>().map_err(|_| wrong("the number of rows is none"))?);
+                }
+                ["row", _, count, flags @ ..] if missing == 0 => {
+                    missing = count.parse().map_err(|_| wrong("the number of points is none"))?;
+                    let is_closed = flags.first().is_some_and(|&flag| flag == "closed" || flag == "1");
+                    if !file.counts.is_empty() && is_closed != file.is_closed {
+                        return Err(wrong("rows are either all closed or all open"));
+                    }
+                    file.is_closed = is_closed;
+                    file.counts.push(missing);
+                }
+                ["row", ..] => return Err(wrong(&format!("the row before lacks {missing} points"))),
+                [x, y, z] if missing > 0 => {
+                    for word in [x, y, z] {
+                        let number = word.parse().map_err(|_| wrong(&format!("'{word}' is no number")))?;
+                        file.points.push(number);
+                    }
+                    missing -= 1;
+                }
+                _ => return Err(wrong("neither a row nor one of its points")),
+            }
+        }
+        match announced {
+            _ if missing > 0 => Err(Failure::new(format!("the last row lacks {missing} points"))),
+            Some(count) if count != file.counts.len() => {
+                Err(Failure::new(format!("{count} rows are announced, {} are there", file.counts.len())))
+            }
+            _ => Ok(file),
+        }
+    }
+}
+
+fn table(arguments: &SkinArguments, rows: &Rows, fit: &SkinFit) -> String {
+    let (report, skin) = (&fit.report, &fit.skin);
+    let mut table = Table::default();
+    let both = |error: f64| format!("{error:.3e}   {:.2e} of the diagonal", error / report.diagonal);
+    table.row("rows", format!("{}", arguments.rows.display()));
+    table.row("points", format!("{} in {} rows", rows.points.len() / 3, rows.counts.len()));
+    let spread =
+        format!("{} to {} in each of {} curves", skin.least_count, skin.largest_count, skin.curve_count);
+    table.row("control points", format!("{}, {spread}", report.coefficient_count));
+    let poles = format!("{} as a tensor surface, {} in strips", skin.tensor_count, skin.strip_count);
+    table.row("for STEP", poles);
+    if skin.common_count > 0 {
+        table.row("common knots", format!("{} control points", skin.common_count));
+    }
+    table.row("tolerance", both(report.tolerance));
+    table.row("max error", both(report.max_error));
+    table.row("rms, mean error", format!("{:.3e}, {:.3e}", report.rms_error, report.mean_error));
+    if skin.certified_distance.is_finite() {
+        table.row(
+            "everywhere",
+            format!("within {} of the skin through the curves", both(skin.certified_distance)),
+        );
+    }
+    table.row("seconds", format!("{:.3}, {} passes", report.seconds, report.passes));
+    let is_missed = report.remarks.has(Remarks::TOLERANCE_NOT_MET);
+    table.row("result", if is_missed { "TOLERANCE NOT MET" } else { "tolerance met" }.to_owned());
+    for remark in remarks(fit) {
+        table.row("remark", remark);
+    }
+    table.to_string()
+}
+
+fn remarks(fit: &SkinFit) -> Vec<String> {
+    let skin = &fit.skin;
+    let twisted = skin.twisted_row.unwrap_or(0);
+    [
+        (Remarks::TOLERANCE_RAISED, "the tolerance was below rounding and has been raised".to_owned()),
+        (Remarks::STAGNATED, "points are so near to one another that no knot fits between".to_owned()),
+        (Remarks::MERGED_POINTS, format!("{} points lay on the one before them", skin.merged_point_count)),
+        (Remarks::TWISTED_ROWS, format!("row {twisted} looks turned round or shifted: see --align")),
+        (
+            Remarks::CLUSTERED_ROWS,
+            format!("clustered rows: control curves overshoot {:.0} times", skin.overshoot),
+        ),
+        (Remarks::MEAN_STEPS, "the end points of rows are too near to one another for steps".to_owned()),
+    ]
+    .into_iter()
+    .filter(|(remark, _)| fit.report.remarks.has(*remark))
+    .map(|(_, sentence)| sentence)
+    .collect()
+}
+
+fn json_report(rows: &Rows, fit: &SkinFit) -> serde_json::Value {
+    let (report, skin) = (&fit.report, &fit.skin);
+    json!({
+        "points": rows.points.len() / 3,
+        "rows": rows.counts.len(),
+        "tolerance_met": !report.remarks.has(Remarks::TOLERANCE_NOT_MET),
+        "tolerance": report.tolerance,
+        "diagonal": report.diagonal,
+        "max_error": report.max_error,
+        "rms_error": report.rms_error,
+        "mean_error": report.mean_error,
+        "worst_point": report.worst_index,
+        "coefficient_count": report.coefficient_count,
+        "curve_count": skin.curve_count,
+        "tensor_count": skin.tensor_count,
+        "strip_count": skin.strip_count,
+        "common_count": skin.common_count,
+        "removed_knot_count": skin.removed_knot_count,
+        "overshoot": skin.overshoot,
+        "certified_distance": skin.certified_distance.is_finite().then_some(skin.certified_distance),
+        "passes": report.passes,
+        "seconds": report.seconds,
+        "remarks": remarks(fit),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_of_rows_is_read() {
+        let text =
+            "# a comment\nrows 2\nrow 0 2 closed\n0 0 0\n1 0 0 # and another\n\nrow 1 1 closed\n0.5 1e0 0\n";
+        let file = RowFile::parse(text).map_err(|Failure(sentence)| sentence).unwrap();
+        assert_eq!((file.counts, file.is_closed), (vec![2, 1], true));
+        assert_eq!(file.points, [0., 0., 0., 1., 0., 0., 0.5, 1., 0.]);
+    }
+
+    #[test]
+    fn wrong_files_are_refused_by_line() {
+        for (text, words) in [
+            ("rows 1\nrow 0 2\n0 0 0\nrow 1 1\n", "line 4: the row before lacks 1"),
+            ("rows 1\nrow 0 2\n0 0 0\n", "lacks 1 points"),
+            ("rows 2\nrow 0 1\n0 0 0\n", "2 rows are announced, 1"),
+            ("row 0 1\n0 0 zero\n", "line 2: 'zero'"),
+            ("row 0 1\n0 0\n", "line 2: neither"),
+            ("row 0 1 closed\n0 0 0\nrow 1 1 open\n0 0 0\n", "line 3: rows are either"),
+        ] {
+            let Failure(sentence) = RowFile::parse(text).unwrap_err();
+            assert!(sentence.contains(words), "{sentence}");
+        }
+    }
+}
