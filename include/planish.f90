@@ -30,8 +30,8 @@
 !>
 !> Handles free themselves, and `=` makes a deep copy; fitters have no copies, and `=` between them stops the program.
 !> gfortran 12 has bugs about that which no module can mend: a type of yours that has a handle as a component must not
-!> be assigned with `=`, nor handles allocated with `source=`, nor overlapping sections of an array of handles assigned
-!> to each other. Function results are safe.
+!> be assigned with `=`, nor handles allocated with `source=` or gathered as [a, b], nor overlapping sections of an
+!> array of handles assigned to each other. Function results are safe, and so are arrays assigned one by one.
 module planish
   use, intrinsic :: iso_c_binding
   implicit none
@@ -233,6 +233,10 @@ module planish
   !> As points at equal fractions of their lengths are on average
   integer(c_int32_t), parameter, public :: PLANISH_V_RULE_MEAN = 1
 
+  !> What the rows of sample_rows() lie between.
+  integer(c_int32_t), parameter, public :: PLANISH_ROW_SOURCE_LOOP = 0 !! A boundary loop
+  integer(c_int32_t), parameter, public :: PLANISH_ROW_SOURCE_NODE = 1 !! A node
+
   !> How the control points of a PHT-spline are estimated.
   !> Least squares over all data with a weak bending energy: fewest coefficients
   integer(c_int32_t), parameter, public :: PLANISH_PHT_ESTIMATOR_GLOBAL = 0
@@ -258,6 +262,11 @@ module planish
   integer(c_int32_t), parameter, public :: PLANISH_STEP_SCHEMA_AP214 = 0
   !> AP242, managed model-based 3D engineering
   integer(c_int32_t), parameter, public :: PLANISH_STEP_SCHEMA_AP242 = 1
+
+  !> What a STEP file holds of a T-spline.
+  integer(c_int32_t), parameter, public :: PLANISH_STEP_FORM_TENSOR = 0 !! The same surface as one tensor surface
+  !> One face for each span of v, over the knots of four control curves: far fewer control points
+  integer(c_int32_t), parameter, public :: PLANISH_STEP_FORM_STRIPS = 1
 
   !> What one model unit is.
   integer(c_int32_t), parameter, public :: PLANISH_UNIT_MILLIMETRE = 0 !! A millimetre
@@ -525,20 +534,22 @@ module planish
 
   !> What was written to a STEP file.
   type, bind(c), public :: planish_step_report
-    integer(c_size_t) :: struct_size = 3 * word + 3 * 8
+    integer(c_size_t) :: struct_size = 5 * word + 3 * 8
     !> Largest distance between an edge's curve in space and the image of its p-curve, measured on the curves
     !> written, in model units
     real(c_double) :: curve_deviation = 0
     !> The uncertainty that the file states, in model units: 1e-7 of the diagonal, or more if the curves need it
     real(c_double) :: uncertainty = 0
     real(c_double) :: diagonal = 0 !! Diagonal of the box around the part of the surface inside the trims
-    integer(c_size_t) :: loop_count = 0 !! Bounds of the face, the outer one included
+    integer(c_size_t) :: loop_count = 0 !! Bounds of all faces, the outer ones included
     integer(c_size_t) :: edge_count = 0 !! Edges of all bounds
+    integer(c_size_t) :: face_count = 0 !! Faces
+    integer(c_size_t) :: pole_count = 0 !! Control points of all faces
   end type
 
   !> What a STEP file says beside the shape.
   type, bind(c), public :: planish_step_options
-    integer(c_size_t) :: struct_size = 6 * word + 2 * 4
+    integer(c_size_t) :: struct_size = 7 * word + 4 * 4
     type(c_ptr) :: product = c_null_ptr !! The argument product
     type(c_ptr) :: author = c_null_ptr !! The argument author
     type(c_ptr) :: organization = c_null_ptr !! The argument organization
@@ -546,6 +557,9 @@ module planish
     type(c_ptr) :: out_report = c_null_ptr !! The argument report
     integer(c_int32_t) :: schema = 0 !! A planish_step_schema
     integer(c_int32_t) :: unit = 0 !! A planish_unit, what one model unit is
+    integer(c_size_t) :: max_coefficients = 4000000 !! Most control points of PLANISH_STEP_FORM_TENSOR
+    integer(c_int32_t) :: form = 0 !! A planish_step_form, what is written of a T-spline
+    integer(c_int32_t) :: reserved = 0
   end type
 
   ! T-spline
@@ -606,6 +620,19 @@ module planish
     !> 1 counts the control points of PLANISH_SKIN_METHOD_COMMON_KNOTS for the report
     integer(c_int32_t) :: compare = 0
     integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 for all cores
+  end type
+
+  !> How rows are taken from a mesh.
+  type, bind(c), public :: planish_sample_rows_options
+    integer(c_size_t) :: struct_size = 5 * word + 1 * 8 + 2 * 4
+    !> About how far apart points are along a row, in model units; 0 takes the mean length of edges
+    real(c_double) :: spacing = 0
+    integer(c_size_t) :: begin_index = 0 !! The argument begin_index
+    integer(c_size_t) :: end_index = 1 !! The argument end_index
+    type(c_funptr) :: progress = c_null_funptr !! The argument progress
+    type(c_ptr) :: user = c_null_ptr !! Set with progress
+    integer(c_int32_t) :: begin = 0 !! A planish_row_source: what begin_index counts
+    integer(c_int32_t) :: end = 0 !! A planish_row_source: what end_index counts
   end type
 
   ! PHT-spline
@@ -681,7 +708,7 @@ module planish
     module procedure mesh_options_init, parameterize_options_init, eval_options_init, tensor_options_init
     module procedure tessellate_options_init, project_options_init, deviation_options_init
     module procedure vtk_options_init, step_options_init, convert_options_init, skin_options_init
-    module procedure pht_options_init, pht_convert_options_init, field_options_init
+    module procedure pht_options_init, pht_convert_options_init, field_options_init, sample_rows_options_init
   end interface
 
   abstract interface
@@ -759,6 +786,7 @@ module planish
     procedure :: cut_along => mesh_cut_along
     procedure :: split_components => mesh_split_components
     procedure :: shortest_path => mesh_shortest_path
+    procedure :: sample_rows => mesh_sample_rows
     procedure :: parameterize => mesh_parameterize
   end type
 
@@ -1809,6 +1837,27 @@ module planish
       real(c_double), intent(inout), optional :: out_error
     end function
 
+    integer(c_int) function c_sample_rows_options_init(options, size) bind(c, name="planish_sample_rows_options_init")
+      import
+      implicit none
+      type(planish_sample_rows_options), intent(inout) :: options
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_mesh_sample_rows( &
+        mesh, options, out_row_counts, row_count, out_points, point_count, &
+        out_point_count) bind(c, name="planish_mesh_sample_rows")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      type(planish_sample_rows_options), intent(in), optional :: options
+      integer(c_size_t), intent(inout) :: out_row_counts(*)
+      integer(c_size_t), value :: row_count
+      real(c_double), intent(inout), optional :: out_points(*)
+      integer(c_size_t), value :: point_count
+      integer(c_size_t), intent(inout) :: out_point_count
+    end function
+
     ! PHT-spline
 
     integer(c_int) function c_pht_options_init(options, struct_size) bind(c, name="planish_pht_options_init")
@@ -2399,6 +2448,11 @@ contains
     call conclude(c_field_options_init(options, c_sizeof(options)))
   end subroutine
 
+  subroutine sample_rows_options_init(options)
+    type(planish_sample_rows_options), intent(inout) :: options
+    call conclude(c_sample_rows_options_init(options, c_sizeof(options)))
+  end subroutine
+
   ! ---------------------------------------------------------------------------------------------------------
   ! Mesh
   ! ---------------------------------------------------------------------------------------------------------
@@ -2721,6 +2775,54 @@ contains
       allocate (nodes(count))
       status = c_mesh_shortest_path(self%get(), first, last, nodes, count, count)
       nodes = nodes + 1
+    end if
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Takes closed rows of points(3,n) from a mesh, as many as point_counts has room for: level curves of a harmonic
+  !> field between two loops or nodes, for planish_tspline_skin() with closed.
+  !>
+  !> begin_index, end_index: the loop or node that the first and the last row are nearest to, as the options say,
+  !>                         counted from 1; 1 and 2 if not given.
+  !> progress:               hears of the field, and may cancel; the points are taken afterwards.
+  subroutine mesh_sample_rows(self, point_counts, points, options, begin_index, end_index, progress, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: self
+    integer, intent(inout), contiguous :: point_counts(:)
+    real(c_double), allocatable, intent(inout) :: points(:, :)
+    type(planish_sample_rows_options), intent(in), optional :: options
+    integer, intent(in), optional :: begin_index, end_index
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_sample_rows_options) :: call_options
+    type(listener), target :: user
+    real(c_double), allocatable :: taken(:, :)
+    integer(c_size_t) :: counts(size(point_counts)), row_count, point_count
+    integer(c_int) :: status
+    integer :: sources(2)
+    sources = [1, 2]
+    if (present(begin_index)) sources(1) = begin_index
+    if (present(end_index)) sources(2) = end_index
+    if (refuse(any(sources < 1), PLANISH_STATUS_INDEX, "loops and nodes count from 1", stat, errmsg)) return
+    if (present(options)) call_options = options
+    call_options%begin_index = sources(1) - 1
+    call_options%end_index = sources(2) - 1
+    if (present(progress)) then
+      user%hear => progress
+      call_options%progress = c_funloc(relay)
+      call_options%user = c_loc(user)
+    end if
+    row_count = size(point_counts, kind=c_size_t)
+    status = c_mesh_sample_rows(self%get(), call_options, counts, row_count, point_count=0_c_size_t, &
+        out_point_count=point_count)
+    if (status >= 0) then
+      allocate (taken(3, point_count))
+      call_options%progress = c_null_funptr
+      status = c_mesh_sample_rows(self%get(), call_options, counts, row_count, taken, point_count, point_count)
+    end if
+    if (status >= 0) then
+      point_counts = int(counts)
+      call move_alloc(taken, points)
     end if
     call conclude(status, stat, errmsg)
   end subroutine
@@ -3600,7 +3702,7 @@ contains
     call conclude(status, stat, errmsg)
   end subroutine
 
-  !> Writes a tensor surface in space as a STEP file with one face.
+  !> Writes a surface in space as a STEP file: one face, or of a T-spline strips, if the options say so.
   !>
   !> product, author, organization, timestamp: what the file says beside the shape.
   !> report: receives what was written.
