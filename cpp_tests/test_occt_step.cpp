@@ -330,4 +330,31 @@ TEST(OcctStep, TubeWithASeam) {
   CHECK_NEAR(area(face), 6 * M_PI, 1e-5);
 }
 
+// Sections of a bent, tapered trough: one face for all, or one for each pair of rows, of one area.
+TEST(OcctStep, TSplineWholeAndInStrips) {
+  std::vector<double> points;
+  const std::vector<std::size_t> counts = {21, 34, 15, 27, 40};
+  for (std::size_t j = 0; j < counts.size(); ++j) {
+    const double x = static_cast<double>(j);
+    for (std::size_t k = 0; k < counts[j]; ++k) {
+      const double angle = M_PI * static_cast<double>(k) / static_cast<double>(counts[j] - 1);
+      const double radius = 2 - 0.2 * x + 0.1 * std::sin(5 * angle);
+      points.insert(points.end(), {x, radius * std::cos(angle), 0.1 * x * x - radius * std::sin(angle)});
+    }
+  }
+  planish_surface *out = nullptr;
+  CHECK_EQUAL(planish_tspline_skin(points.data(), counts.data(), counts.size(), nullptr, &out, nullptr),
+              PLANISH_STATUS_OK);
+  const Surface skin(out);
+  check_file(skin, "tspline", PLANISH_UNIT_MILLIMETRE, 1);
+  planish_step_options options;
+  CHECK_EQUAL(planish_step_options_init(&options, sizeof options), PLANISH_STATUS_OK);
+  options.form = PLANISH_STEP_FORM_STRIPS;
+  CHECK_EQUAL(planish_surface_write_step(skin.get(), "occt_strips.step", &options), PLANISH_STATUS_OK);
+  const TopoDS_Shape strips = read("occt_strips.step");
+  CHECK(!strips.IsNull() && BRepCheck_Analyzer(strips).IsValid());
+  CHECK_EQUAL(count(strips, TopAbs_FACE), 4);
+  CHECK_NEAR(area(strips) / own_area(skin), 1.0, 1e-3);
+}
+
 int main() { return check::run(); }

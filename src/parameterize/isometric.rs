@@ -163,7 +163,7 @@ fn pulls(places: [DVec2; 3], flat: &[DVec2; 3], cotangents: &[f64; 3]) -> [DVec2
 }
 
 /// Turns the smallest bounding rectangle upright, its longer side along u, and scales it into the unit square.
-fn in_unit_square(mesh: &Mesh, uv: &[DVec2]) -> Vec<DVec2> {
+pub(super) fn in_unit_square(mesh: &Mesh, uv: &[DVec2]) -> Vec<DVec2> {
     let border: Vec<DVec2> = mesh.loops()[0].iter().map(|&n| uv[n as usize]).collect();
     let hull = convex_hull(border);
     let box_along = |direction: DVec2| {
@@ -208,7 +208,7 @@ fn convex_hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
 
 /// Whether any two pieces of the boundary meet other than at a common node. Without flips and without such
 /// crossings the map covers no place twice.
-fn boundary_crosses(mesh: &Mesh, uv: &[DVec2]) -> bool {
+pub(super) fn boundary_crosses(mesh: &Mesh, uv: &[DVec2]) -> bool {
     let mut pieces: Vec<[u32; 2]> = mesh
         .loops()
         .iter()

@@ -16,6 +16,7 @@
 
 mod border;
 mod error;
+mod height_field;
 mod isometric;
 mod options;
 mod patch;
@@ -106,6 +107,11 @@ impl Remarks {
 /// L2 stretch above which cutting the shape is suggested: heads end at 1.6, an airliner at 7.7.
 pub const HIGH_STRETCH: f64 = 3.0;
 
+/// Up to this L2 stretch a map keeps lengths well enough; beyond it a height field is better seen from above.
+const NEARLY_ISOMETRIC: f64 = 1.05;
+/// The plane's coordinates are not taken if they stretch this many times more: the shape is then too steep.
+const MOST_FLATTENED: f64 = 2.0;
+
 /// A step must lower the stretch by this share for the next to be as long.
 const LEAST_GAIN: f64 = 0.005;
 /// Shortest step: halving on brings nothing measurable.
@@ -172,6 +178,9 @@ pub fn parameterize_weighted(
         if is_wanted && !has_unrolled {
             return Err(ParameterizeError::CannotUnroll);
         }
+        if !is_wanted && report.stretch.l2 > NEARLY_ISOMETRIC {
+            flatten(mesh, &mut uv, &mut report);
+        }
     }
     report.seconds = start.elapsed().as_secs_f64();
     Ok(Parameterization { uv, report })
@@ -192,13 +201,30 @@ fn unroll(
         return false;
     }
     *uv = unrolled;
-    report.stretch = measure;
-    report.border = Border::Free;
-    report.border_slid = false;
-    (report.flipped_triangles, report.degenerate_triangles) = (0, 0);
-    report.remarks.0 &= !(Remarks::FOLDED.0 | Remarks::HIGH_STRETCH.0);
-    report.remarks.insert_if(Remarks::HIGH_STRETCH, measure.l2 > HIGH_STRETCH);
+    report.set_free(measure);
     true
+}
+
+/// Takes the plane's own coordinates if the mesh is a height field that they do not stretch much more.
+fn flatten(mesh: &Mesh, uv: &mut Vec<DVec2>, report: &mut ParameterizeReport) {
+    let Some(flat) = height_field::flatten(mesh) else { return };
+    let measure = stretch(mesh.points(), mesh.triangles(), &flat);
+    if measure.l2 <= MOST_FLATTENED * report.stretch.l2 {
+        *uv = flat;
+        report.set_free(measure);
+    }
+}
+
+impl ParameterizeReport {
+    /// For a map with a free border and without folds.
+    fn set_free(&mut self, measure: StretchMeasure) {
+        self.stretch = measure;
+        self.border = Border::Free;
+        self.border_slid = false;
+        (self.flipped_triangles, self.degenerate_triangles) = (0, 0);
+        self.remarks.0 &= !(Remarks::FOLDED.0 | Remarks::HIGH_STRETCH.0);
+        self.remarks.insert_if(Remarks::HIGH_STRETCH, measure.l2 > HIGH_STRETCH);
+    }
 }
 
 /// A map with what the next step starts from.

@@ -28,7 +28,8 @@ pub enum Border {
     SquareByArc,
     /// The unit square with these nodes of the loop at (0,0), (1,0), (1,1), (0,1), in loop order.
     Corners([u32; 4]),
-    /// No border at all: unrolled so that lengths are kept best. Refused if that folds or overlaps itself.
+    /// No border at all: unrolled so that lengths are kept best. Refused if that folds or overlaps itself. As the
+    /// answer of [`Border::Auto`] also the border of a height field seen from above.
     Free,
     /// All boundary nodes, those of holes too, keep the parameters given with the mesh.
     Kept,
@@ -56,7 +57,8 @@ pub struct ParameterizeOptions {
     /// circle is then one more candidate beside the three that do not slide.
     pub boundary_slide: f64,
     /// With [`Border::Auto`]: whether the best map is also unrolled with a free border, and that map taken if
-    /// it neither folds nor overlaps itself and stretches less. Default: yes for tensor surfaces.
+    /// it neither folds nor overlaps itself and stretches less; and whether a height field that does not unroll
+    /// gets the coordinates of its plane. Default: yes for tensor surfaces.
     pub unroll: bool,
 }
 

@@ -1,4 +1,5 @@
-//! Questions to a surface that take more than an evaluation: tessellation, closest points, deviation.
+//! Questions that take more than an evaluation: tessellation, closest points and deviation of surfaces, rows of points on
+//! meshes.
 
 pub mod deviation;
 pub mod gradient;

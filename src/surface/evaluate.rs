@@ -178,6 +178,14 @@ pub fn evaluate(
 ) -> Result<usize, EvalError> {
     let width = quantity.width(surface.dim());
     check_quantity(surface, quantity)?;
+    if let Layout::Grid { u, v } = points.layout
+        && quantity == Quantity::Values
+        && output.stride == width
+        && is_grid_inside(&surface.domain(), u, v)
+    {
+        evaluate_grid(surface, u, v, output, pool);
+        return Ok(0);
+    }
     match rule {
         OutsideRule::Fail => check_inside(&surface.domain(), &points)?,
         OutsideRule::Extrapolate => check_finite(&points)?,
@@ -205,6 +213,35 @@ pub fn evaluate(
         }
         rows.map(|(k, r)| piece(k, r, &mut [])).sum()
     }))
+}
+
+/// Lines of a grid in one piece of work, so that what is computed for all of v serves many of them.
+const GRID_LINES: usize = 64;
+
+/// Values on a grid inside the domain, tightly packed.
+fn evaluate_grid(surface: &dyn Surface, u: &[f64], v: &[f64], output: Output, pool: &Pool) {
+    let Output { rows, stride, flags } = output;
+    let count = u.len() * v.len();
+    if count == 0 {
+        return;
+    }
+    let piece = |(u, rows): (&[f64], &mut [f64])| surface.eval_grid(u, v, rows);
+    let rows = &mut rows[..count * stride];
+    if pool.thread_count() == 1 || count <= CHUNK {
+        u.chunks(GRID_LINES).zip(rows.chunks_mut(GRID_LINES * v.len() * stride)).for_each(piece);
+    } else {
+        pool.run(|| {
+            u.par_chunks(GRID_LINES).zip(rows.par_chunks_mut(GRID_LINES * v.len() * stride)).for_each(piece);
+        });
+    }
+    for (k, flag) in flags.iter_mut().enumerate() {
+        *flag = flags_at(surface, DVec2::new(u[k / v.len()], v[k % v.len()]), false);
+    }
+}
+
+fn is_grid_inside(domain: &Domain, u: &[f64], v: &[f64]) -> bool {
+    let within = |all: &[f64], from: f64, to: f64| all.iter().all(|&t| from <= t && t <= to);
+    within(u, domain.min.x, domain.max.x) && within(v, domain.min.y, domain.max.y)
 }
 
 fn check_quantity(surface: &dyn Surface, quantity: Quantity) -> Result<(), EvalError> {
