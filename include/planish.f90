@@ -3144,11 +3144,11 @@ contains
   end function
 
   !> The number of the patch over (u,v), beyond the domain of the one continued there; 0 if there are no patches.
-  pure integer(c_size_t) function surface_patch_at(self, u, v) result(index)
+  pure integer function surface_patch_at(self, u, v) result(index)
     class(planish_surface_t), intent(in) :: self
     real(c_double), intent(in) :: u, v
     index = 0
-    if (self%patch_count() > 0) index = c_surface_patch_at(self%get(), u, v) + 1
+    if (self%patch_count() > 0) index = int(c_surface_patch_at(self%get(), u, v)) + 1
   end function
 
   !> A Bezier patch, counted from 1: where it lies, and its ordinates(ordinate_width, degree_v + 1, degree_u + 1).
@@ -4521,18 +4521,18 @@ contains
   subroutine planish_pht_copy_neighbours(surface, cell, cells, stat, errmsg)
     class(planish_surface_t), intent(in) :: surface
     integer, intent(in) :: cell
-    integer(c_size_t), allocatable, intent(inout) :: cells(:)
+    integer, allocatable, intent(inout) :: cells(:)
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
+    integer(c_size_t), allocatable :: found(:)
     integer(c_size_t) :: count
     integer(c_int) :: status
     if (refuse(cell < 1, PLANISH_STATUS_INDEX, "cells count from 1", stat, errmsg)) return
     status = c_pht_copy_neighbours(surface%get(), cell - 1_c_size_t, count=0_c_size_t, out_count=count)
     if (status >= 0) then
-      if (allocated(cells)) deallocate (cells)
-      allocate (cells(count))
-      status = c_pht_copy_neighbours(surface%get(), cell - 1_c_size_t, cells, count, count)
-      cells = cells + 1
+      allocate (found(count))
+      status = c_pht_copy_neighbours(surface%get(), cell - 1_c_size_t, found, count, count)
+      cells = int(found) + 1
     end if
     call conclude(status, stat, errmsg)
   end subroutine
@@ -4636,11 +4636,11 @@ contains
   end subroutine
 
   !> The number of the cell that has (u,v), beyond the domain of the nearest one; 0 if there are no cells.
-  pure integer(c_size_t) function planish_pht_cell_at(surface, u, v) result(cell)
+  pure integer function planish_pht_cell_at(surface, u, v) result(cell)
     class(planish_surface_t), intent(in) :: surface
     real(c_double), intent(in) :: u, v
     cell = 0
-    if (planish_pht_cell_count(surface) > 0) cell = c_pht_cell_at(surface%get(), u, v) + 1
+    if (planish_pht_cell_count(surface) > 0) cell = int(c_pht_cell_at(surface%get(), u, v)) + 1
   end function
 
   ! ---------------------------------------------------------------------------------------------------------

@@ -1,6 +1,5 @@
 ! Skins and T-splines from Fortran: rows one after another, curves and knots counted from 1.
 program test_tsplines
-  use, intrinsic :: iso_c_binding, only: c_size_t
   use, intrinsic :: iso_fortran_env, only: real64
   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
   use planish
