@@ -11,8 +11,9 @@
 !>     call planish_tensor_fit(mesh, surface, options, report)
 !>     call surface%eval(uv, points)                          ! uv(2,n), points(3,n)
 !>
-!> Names. planish_mesh_x, planish_surface_x and planish_curve_x of C are mesh%x, surface%x and curve%x; calls that
-!> make or use one family keep their names. What planish.h says of a call holds; here stands what is different.
+!> Names. planish_mesh_x, planish_surface_x, planish_curve_x and planish_field_fitter_x of C are mesh%x, surface%x,
+!> curve%x and fitter%x; calls that make or use one family keep their names. What planish.h says of a call holds;
+!> here stands what is different.
 !>
 !> Arrays are Fortran's way round: a row of C is a column, so points are (3,n) and parameters (2,n). Whole arrays go
 !> in without copies; of a section such as points(1:2,:) the compiler makes one. Where C has a stride, it is the first
@@ -27,9 +28,10 @@
 !> and nothing has been changed, positive a success with a remark. errmsg receives the sentence of an error, else it
 !> stays as it is. Without stat an error stops the program with the sentence.
 !>
-!> Handles free themselves, and `=` makes a deep copy. gfortran 12 has bugs about that which no module can mend:
-!> a type of yours that has a handle as a component must not be assigned with `=`, nor handles allocated with
-!> `source=`, nor overlapping sections of an array of handles assigned to each other. Function results are safe.
+!> Handles free themselves, and `=` makes a deep copy; fitters have no copies, and `=` between them stops the program.
+!> gfortran 12 has bugs about that which no module can mend: a type of yours that has a handle as a component must not
+!> be assigned with `=`, nor handles allocated with `source=` or gathered as [a, b], nor overlapping sections of an
+!> array of handles assigned to each other. Function results are safe, and so are arrays assigned one by one.
 module planish
   use, intrinsic :: iso_c_binding
   implicit none
@@ -231,6 +233,10 @@ module planish
   !> As points at equal fractions of their lengths are on average
   integer(c_int32_t), parameter, public :: PLANISH_V_RULE_MEAN = 1
 
+  !> What the rows of sample_rows() lie between.
+  integer(c_int32_t), parameter, public :: PLANISH_ROW_SOURCE_LOOP = 0 !! A boundary loop
+  integer(c_int32_t), parameter, public :: PLANISH_ROW_SOURCE_NODE = 1 !! A node
+
   !> How the control points of a PHT-spline are estimated.
   !> Least squares over all data with a weak bending energy: fewest coefficients
   integer(c_int32_t), parameter, public :: PLANISH_PHT_ESTIMATOR_GLOBAL = 0
@@ -256,6 +262,11 @@ module planish
   integer(c_int32_t), parameter, public :: PLANISH_STEP_SCHEMA_AP214 = 0
   !> AP242, managed model-based 3D engineering
   integer(c_int32_t), parameter, public :: PLANISH_STEP_SCHEMA_AP242 = 1
+
+  !> What a STEP file holds of a T-spline.
+  integer(c_int32_t), parameter, public :: PLANISH_STEP_FORM_TENSOR = 0 !! The same surface as one tensor surface
+  !> One face for each span of v, over the knots of four control curves: far fewer control points
+  integer(c_int32_t), parameter, public :: PLANISH_STEP_FORM_STRIPS = 1
 
   !> What one model unit is.
   integer(c_int32_t), parameter, public :: PLANISH_UNIT_MILLIMETRE = 0 !! A millimetre
@@ -523,20 +534,22 @@ module planish
 
   !> What was written to a STEP file.
   type, bind(c), public :: planish_step_report
-    integer(c_size_t) :: struct_size = 3 * word + 3 * 8
+    integer(c_size_t) :: struct_size = 5 * word + 3 * 8
     !> Largest distance between an edge's curve in space and the image of its p-curve, measured on the curves
     !> written, in model units
     real(c_double) :: curve_deviation = 0
     !> The uncertainty that the file states, in model units: 1e-7 of the diagonal, or more if the curves need it
     real(c_double) :: uncertainty = 0
     real(c_double) :: diagonal = 0 !! Diagonal of the box around the part of the surface inside the trims
-    integer(c_size_t) :: loop_count = 0 !! Bounds of the face, the outer one included
+    integer(c_size_t) :: loop_count = 0 !! Bounds of all faces, the outer ones included
     integer(c_size_t) :: edge_count = 0 !! Edges of all bounds
+    integer(c_size_t) :: face_count = 0 !! Faces
+    integer(c_size_t) :: pole_count = 0 !! Control points of all faces
   end type
 
   !> What a STEP file says beside the shape.
   type, bind(c), public :: planish_step_options
-    integer(c_size_t) :: struct_size = 6 * word + 2 * 4
+    integer(c_size_t) :: struct_size = 7 * word + 4 * 4
     type(c_ptr) :: product = c_null_ptr !! The argument product
     type(c_ptr) :: author = c_null_ptr !! The argument author
     type(c_ptr) :: organization = c_null_ptr !! The argument organization
@@ -544,6 +557,9 @@ module planish
     type(c_ptr) :: out_report = c_null_ptr !! The argument report
     integer(c_int32_t) :: schema = 0 !! A planish_step_schema
     integer(c_int32_t) :: unit = 0 !! A planish_unit, what one model unit is
+    integer(c_size_t) :: max_coefficients = 4000000 !! Most control points of PLANISH_STEP_FORM_TENSOR
+    integer(c_int32_t) :: form = 0 !! A planish_step_form, what is written of a T-spline
+    integer(c_int32_t) :: reserved = 0
   end type
 
   ! T-spline
@@ -606,6 +622,19 @@ module planish
     integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 for all cores
   end type
 
+  !> How rows are taken from a mesh.
+  type, bind(c), public :: planish_sample_rows_options
+    integer(c_size_t) :: struct_size = 5 * word + 1 * 8 + 2 * 4
+    !> About how far apart points are along a row, in model units; 0 takes the mean length of edges
+    real(c_double) :: spacing = 0
+    integer(c_size_t) :: begin_index = 0 !! The argument begin_index
+    integer(c_size_t) :: end_index = 1 !! The argument end_index
+    type(c_funptr) :: progress = c_null_funptr !! The argument progress
+    type(c_ptr) :: user = c_null_ptr !! Set with progress
+    integer(c_int32_t) :: begin = 0 !! A planish_row_source: what begin_index counts
+    integer(c_int32_t) :: end = 0 !! A planish_row_source: what end_index counts
+  end type
+
   ! PHT-spline
 
   !> Options of PHT fits. A datum is a node of the mesh, or a point; a sample is a datum, or the middle of a triangle.
@@ -646,12 +675,40 @@ module planish
     integer(c_int32_t) :: reserved = 0
   end type
 
+  ! Field fitter
+
+  !> Options of field fitters.
+  type, bind(c), public :: planish_field_options
+    integer(c_size_t) :: struct_size = 8 * word + 3 * 8 + 6 * 4
+    !> What reports compare the errors with, positive, measured in tolerance_scale
+    real(c_double) :: tolerance = 1e-3_c_double
+    !> Weight of the bending energy, positive. Where sample_values choose the grid they choose it too
+    real(c_double) :: smoothing = 1e-6_c_double
+    !> How far the knots reach beyond the nodes, as a fraction of their range, 0 to 10
+    real(c_double) :: buffer = 0.1_c_double
+    type(c_ptr) :: parameterize = c_null_ptr !! The argument parameterize
+    type(c_ptr) :: weights = c_null_ptr !! The argument weights
+    type(c_ptr) :: mask = c_null_ptr !! The argument mask
+    type(c_ptr) :: sample_values = c_null_ptr !! The argument sample_values
+    integer(c_size_t) :: sample_dim = 0 !! Set by calls: the first extent of sample_values
+    type(c_funptr) :: progress = c_null_funptr !! The argument progress
+    type(c_ptr) :: user = c_null_ptr !! Set with progress
+    integer(c_int32_t) :: tolerance_scale = 0 !! A planish_tolerance_scale
+    integer(c_int32_t) :: ends = 0 !! A planish_ends
+    integer(c_int32_t) :: energy = 0 !! A planish_energy
+    !> Knots along u, 2 to 8193; 0, then grid_v too, for as many as the nodes bear, at most 129
+    integer(c_int32_t) :: grid_u = 0
+    !> Knots along v, 2 to 8193; 0, then grid_u too, for as many as the nodes bear, at most 129
+    integer(c_int32_t) :: grid_v = 0
+    integer(c_int32_t) :: thread_count = 0 !! Threads to keep, at most 1024; 0 for all cores
+  end type
+
   !> Puts a record back to the defaults that the library has: `call planish_options_init(options)`.
   interface planish_options_init
     module procedure mesh_options_init, parameterize_options_init, eval_options_init, tensor_options_init
     module procedure tessellate_options_init, project_options_init, deviation_options_init
     module procedure vtk_options_init, step_options_init, convert_options_init, skin_options_init
-    module procedure pht_options_init, pht_convert_options_init
+    module procedure pht_options_init, pht_convert_options_init, field_options_init, sample_rows_options_init
   end interface
 
   abstract interface
@@ -689,6 +746,11 @@ module planish
   contains
     final :: finalize_curve
   end type
+  type :: field_fitter_owner
+    type(c_ptr) :: handle = c_null_ptr
+  contains
+    final :: finalize_field_fitter
+  end type
 
   !> A triangle mesh. One that nothing was done to yet is no mesh: its counts are 0 and calls refuse it.
   type, public :: planish_mesh_t
@@ -724,6 +786,7 @@ module planish
     procedure :: cut_along => mesh_cut_along
     procedure :: split_components => mesh_split_components
     procedure :: shortest_path => mesh_shortest_path
+    procedure :: sample_rows => mesh_sample_rows
     procedure :: parameterize => mesh_parameterize
   end type
 
@@ -749,6 +812,7 @@ module planish
     procedure :: eval_grid => surface_eval_grid
     procedure :: normals => surface_normals
     procedure :: curvatures => surface_curvatures
+    procedure :: field_gradient => surface_field_gradient
     procedure :: trim_count => surface_trim_count
     procedure :: trim_point_count => surface_trim_point_count
     procedure :: copy_trim => surface_copy_trim
@@ -796,6 +860,31 @@ module planish
     procedure :: eval_derivatives => curve_eval_derivatives
   end type
 
+  !> Fits fields on the nodes of one mesh, or at the same parameters, again and again. It has no copies, and one
+  !> serves all threads: `=` stops the program.
+  type, public :: planish_field_fitter_t
+    private
+    class(field_fitter_owner), allocatable :: owner
+  contains
+    procedure, private :: new_mesh => field_fitter_new_mesh
+    procedure, private :: new_points => field_fitter_new_points
+    generic :: new => new_mesh, new_points
+    procedure, private :: assign => field_fitter_assign
+    generic :: assignment(=) => assign
+    procedure :: free => field_fitter_free
+    procedure :: get => field_fitter_get
+    procedure :: take => field_fitter_take
+    procedure :: point_count => field_fitter_point_count
+    procedure :: grid => field_fitter_grid
+    procedure :: copy_parameters => field_fitter_copy_parameters
+    procedure, private :: fit_rows => field_fitter_fit_rows
+    procedure, private :: fit_scalars => field_fitter_fit_scalars
+    generic :: fit => fit_rows, fit_scalars
+    procedure, private :: update_rows => field_fitter_update_rows
+    procedure, private :: update_scalars => field_fitter_update_scalars
+    generic :: update => update_rows, update_scalars
+  end type
+
   !> Fits a surface to values(dim,n), or with dim = 1 values(n), at parameters uv(2,n).
   interface planish_tensor_fit_points
     module procedure tensor_fit_points_rows, tensor_fit_points_scalars
@@ -816,6 +905,10 @@ module planish
     module procedure pht_fit_field_rows, pht_fit_field_scalars
   end interface
 
+  interface handles_of
+    module procedure curve_handles, surface_handles
+  end interface
+
   public :: planish_version, planish_status_name, planish_error_message, planish_error_index
   public :: planish_options_init, planish_progress
   public :: planish_tensor_fit, planish_tensor_fit_points, planish_tensor_fit_field, planish_tensor_new
@@ -823,6 +916,7 @@ module planish
   public :: planish_tensor_copy_knots, planish_tensor_copy_control_points
   public :: planish_tensor_has_weights, planish_tensor_copy_weights
   public :: planish_tensor_insert_knots, planish_tensor_elevate_degree, planish_tensor_reverse, planish_tensor_split
+  public :: planish_tensor_combine
   public :: planish_tspline_skin, planish_tspline_skin_curves, planish_tspline_new
   public :: planish_tspline_curve_count, planish_tspline_clone_curve
   public :: planish_tspline_knot_count, planish_tspline_copy_knots
@@ -1743,6 +1837,27 @@ module planish
       real(c_double), intent(inout), optional :: out_error
     end function
 
+    integer(c_int) function c_sample_rows_options_init(options, size) bind(c, name="planish_sample_rows_options_init")
+      import
+      implicit none
+      type(planish_sample_rows_options), intent(inout) :: options
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_mesh_sample_rows( &
+        mesh, options, out_row_counts, row_count, out_points, point_count, &
+        out_point_count) bind(c, name="planish_mesh_sample_rows")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      type(planish_sample_rows_options), intent(in), optional :: options
+      integer(c_size_t), intent(inout) :: out_row_counts(*)
+      integer(c_size_t), value :: row_count
+      real(c_double), intent(inout), optional :: out_points(*)
+      integer(c_size_t), value :: point_count
+      integer(c_size_t), intent(inout) :: out_point_count
+    end function
+
     ! PHT-spline
 
     integer(c_int) function c_pht_options_init(options, struct_size) bind(c, name="planish_pht_options_init")
@@ -1991,6 +2106,102 @@ module planish
       type(c_ptr), value :: surface
       real(c_double), value :: u, v
     end function
+
+    ! Field fitter
+
+    integer(c_int) function c_field_options_init(options, size) bind(c, name="planish_field_options_init")
+      import
+      implicit none
+      type(planish_field_options), intent(inout) :: options
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_field_fitter_new(mesh, options, out_fitter) bind(c, name="planish_field_fitter_new")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      type(planish_field_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_fitter
+    end function
+
+    integer(c_int) function c_field_fitter_new_points( &
+        uv, count, options, out_fitter) bind(c, name="planish_field_fitter_new_points")
+      import
+      implicit none
+      real(c_double), intent(in) :: uv(*)
+      integer(c_size_t), value :: count
+      type(planish_field_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_fitter
+    end function
+
+    subroutine c_field_fitter_free(fitter) bind(c, name="planish_field_fitter_free")
+      import
+      implicit none
+      type(c_ptr), value :: fitter
+    end subroutine
+
+    pure integer(c_size_t) function c_field_fitter_point_count(fitter) bind(c, name="planish_field_fitter_point_count")
+      import
+      implicit none
+      type(c_ptr), value :: fitter
+    end function
+
+    integer(c_int) function c_field_fitter_grid(fitter, out_grid) bind(c, name="planish_field_fitter_grid")
+      import
+      implicit none
+      type(c_ptr), value :: fitter
+      integer(c_size_t), intent(inout) :: out_grid(*)
+    end function
+
+    integer(c_int) function c_field_fitter_copy_parameters( &
+        fitter, out_uv, count) bind(c, name="planish_field_fitter_copy_parameters")
+      import
+      implicit none
+      type(c_ptr), value :: fitter
+      real(c_double), intent(inout) :: out_uv(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_field_fitter_fit( &
+        fitter, values, count, dim, out_surface, out_report) bind(c, name="planish_field_fitter_fit")
+      import
+      implicit none
+      type(c_ptr), value :: fitter
+      real(c_double), intent(in) :: values(*)
+      integer(c_size_t), value :: count, dim
+      type(c_ptr), intent(inout) :: out_surface
+      type(planish_fit_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_field_fitter_update( &
+        fitter, surface, values, count, dim) bind(c, name="planish_field_fitter_update")
+      import
+      implicit none
+      type(c_ptr), value :: fitter, surface
+      real(c_double), intent(in) :: values(*)
+      integer(c_size_t), value :: count, dim
+    end function
+
+    integer(c_int) function c_tensor_combine( &
+        surfaces, factors, count, out_surface) bind(c, name="planish_tensor_combine")
+      import
+      implicit none
+      type(c_ptr), intent(in) :: surfaces(*)
+      real(c_double), intent(in), optional :: factors(*)
+      integer(c_size_t), value :: count
+      type(c_ptr), intent(inout) :: out_surface
+    end function
+
+    integer(c_int) function c_surface_field_gradient( &
+        shape, field, uv, count, thread_count, out_gradients) bind(c, name="planish_surface_field_gradient")
+      import
+      implicit none
+      type(c_ptr), value :: shape, field
+      real(c_double), intent(in) :: uv(*)
+      integer(c_size_t), value :: count
+      integer(c_int32_t), value :: thread_count
+      real(c_double), intent(inout) :: out_gradients(*)
+    end function
   end interface
 
 contains
@@ -2230,6 +2441,16 @@ contains
   subroutine pht_convert_options_init(options)
     type(planish_pht_convert_options), intent(inout) :: options
     call conclude(c_pht_convert_options_init(options, c_sizeof(options)))
+  end subroutine
+
+  subroutine field_options_init(options)
+    type(planish_field_options), intent(inout) :: options
+    call conclude(c_field_options_init(options, c_sizeof(options)))
+  end subroutine
+
+  subroutine sample_rows_options_init(options)
+    type(planish_sample_rows_options), intent(inout) :: options
+    call conclude(c_sample_rows_options_init(options, c_sizeof(options)))
   end subroutine
 
   ! ---------------------------------------------------------------------------------------------------------
@@ -2558,6 +2779,54 @@ contains
     call conclude(status, stat, errmsg)
   end subroutine
 
+  !> Takes closed rows of points(3,n) from a mesh, as many as point_counts has room for: level curves of a harmonic
+  !> field between two loops or nodes, for planish_tspline_skin() with closed.
+  !>
+  !> begin_index, end_index: the loop or node that the first and the last row are nearest to, as the options say,
+  !>                         counted from 1; 1 and 2 if not given.
+  !> progress:               hears of the field, and may cancel; the points are taken afterwards.
+  subroutine mesh_sample_rows(self, point_counts, points, options, begin_index, end_index, progress, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: self
+    integer, intent(inout), contiguous :: point_counts(:)
+    real(c_double), allocatable, intent(inout) :: points(:, :)
+    type(planish_sample_rows_options), intent(in), optional :: options
+    integer, intent(in), optional :: begin_index, end_index
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_sample_rows_options) :: call_options
+    type(listener), target :: user
+    real(c_double), allocatable :: taken(:, :)
+    integer(c_size_t) :: counts(size(point_counts)), row_count, point_count
+    integer(c_int) :: status
+    integer :: sources(2)
+    sources = [1, 2]
+    if (present(begin_index)) sources(1) = begin_index
+    if (present(end_index)) sources(2) = end_index
+    if (refuse(any(sources < 1), PLANISH_STATUS_INDEX, "loops and nodes count from 1", stat, errmsg)) return
+    if (present(options)) call_options = options
+    call_options%begin_index = sources(1) - 1
+    call_options%end_index = sources(2) - 1
+    if (present(progress)) then
+      user%hear => progress
+      call_options%progress = c_funloc(relay)
+      call_options%user = c_loc(user)
+    end if
+    row_count = size(point_counts, kind=c_size_t)
+    status = c_mesh_sample_rows(self%get(), call_options, counts, row_count, point_count=0_c_size_t, &
+        out_point_count=point_count)
+    if (status >= 0) then
+      allocate (taken(3, point_count))
+      call_options%progress = c_null_funptr
+      status = c_mesh_sample_rows(self%get(), call_options, counts, row_count, taken, point_count, point_count)
+    end if
+    if (status >= 0) then
+      point_counts = int(counts)
+      call move_alloc(taken, points)
+    end if
+    call conclude(status, stat, errmsg)
+  end subroutine
+
   ! ---------------------------------------------------------------------------------------------------------
   ! Parameterization
   ! ---------------------------------------------------------------------------------------------------------
@@ -2779,6 +3048,32 @@ contains
     call conclude(c_surface_curvatures(self%get(), uv, size(uv, 2, c_size_t), call_options, out), stat, errmsg)
   end subroutine
 
+  !> gradients(:,k,i): the gradient in space of component k of a field over the parameters of this shape, at uv(:,i).
+  !>
+  !> thread_count: threads to use; 0, or none given, for all cores.
+  subroutine surface_field_gradient(self, field, uv, gradients, thread_count, stat, errmsg)
+    class(planish_surface_t), intent(in) :: self
+    class(planish_surface_t), intent(in) :: field
+    real(c_double), intent(in), contiguous :: uv(:, :)
+    real(c_double), intent(inout), contiguous :: gradients(:, :, :)
+    integer, intent(in), optional :: thread_count
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: threads
+    integer(c_size_t) :: count
+    count = size(uv, 2, c_size_t)
+    threads = 0
+    if (present(thread_count)) threads = int(thread_count, c_int32_t)
+    if (refuse_extent(size(uv, 1, c_size_t), 2_c_size_t, "the first extent of uv", stat, errmsg)) return
+    if (refuse_extent(size(gradients, 1, c_size_t), 3_c_size_t, "the first extent of gradients", stat, errmsg)) return
+    if (field%dim() > 0) then ! of no field the library says so
+      if (refuse_extent(size(gradients, 2, c_size_t), field%dim(), "the second extent of gradients", &
+          stat, errmsg)) return
+    end if
+    if (refuse_short(size(gradients, 3, c_size_t), count, "gradients", stat, errmsg)) return
+    call conclude(c_surface_field_gradient(self%get(), field%get(), uv, count, threads, gradients), stat, errmsg)
+  end subroutine
+
   !> Sets strides and flags of an evaluation, and refuses arrays that do not go together.
   logical function refuse_points(options, points, values, flags, stat, errmsg) result(refused)
     type(planish_eval_options), intent(inout) :: options
@@ -2849,11 +3144,11 @@ contains
   end function
 
   !> The number of the patch over (u,v), beyond the domain of the one continued there; 0 if there are no patches.
-  pure integer(c_size_t) function surface_patch_at(self, u, v) result(index)
+  pure integer function surface_patch_at(self, u, v) result(index)
     class(planish_surface_t), intent(in) :: self
     real(c_double), intent(in) :: u, v
     index = 0
-    if (self%patch_count() > 0) index = c_surface_patch_at(self%get(), u, v) + 1
+    if (self%patch_count() > 0) index = int(c_surface_patch_at(self%get(), u, v)) + 1
   end function
 
   !> A Bezier patch, counted from 1: where it lies, and its ordinates(ordinate_width, degree_v + 1, degree_u + 1).
@@ -3225,6 +3520,37 @@ contains
     call conclude(status, stat, errmsg)
   end subroutine
 
+  !> Makes the sum of tensor surfaces, each times its factor: a shape and its displacements, modes and their factors.
+  !>
+  !> factors: one for each surface, in place of 1.
+  subroutine planish_tensor_combine(surfaces, combined, factors, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surfaces(:)
+    class(planish_surface_t), intent(inout) :: combined
+    real(c_double), intent(in), optional, contiguous :: factors(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handle
+    integer(c_size_t) :: count
+    integer(c_int) :: status
+    count = size(surfaces, kind=c_size_t)
+    if (present(factors)) then
+      if (refuse_extent(size(factors, kind=c_size_t), count, "the number of factors", stat, errmsg)) return
+    end if
+    status = c_tensor_combine(handles_of(surfaces), factors, count, handle)
+    if (status >= 0) call combined%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Surfaces for C.
+  pure function surface_handles(surfaces) result(handles)
+    class(planish_surface_t), intent(in) :: surfaces(:)
+    type(c_ptr) :: handles(size(surfaces))
+    integer :: i
+    do i = 1, size(surfaces)
+      handles(i) = surfaces(i)%get()
+    end do
+  end function
+
   ! ---------------------------------------------------------------------------------------------------------
   ! Queries
   ! ---------------------------------------------------------------------------------------------------------
@@ -3376,7 +3702,7 @@ contains
     call conclude(status, stat, errmsg)
   end subroutine
 
-  !> Writes a tensor surface in space as a STEP file with one face.
+  !> Writes a surface in space as a STEP file: one face, or of a T-spline strips, if the options say so.
   !>
   !> product, author, organization, timestamp: what the file says beside the shape.
   !> report: receives what was written.
@@ -3742,7 +4068,7 @@ contains
   end subroutine
 
   !> Curves for C.
-  pure function handles_of(curves) result(handles)
+  pure function curve_handles(curves) result(handles)
     class(planish_curve_t), intent(in) :: curves(:)
     type(c_ptr) :: handles(size(curves))
     integer :: i
@@ -4195,18 +4521,18 @@ contains
   subroutine planish_pht_copy_neighbours(surface, cell, cells, stat, errmsg)
     class(planish_surface_t), intent(in) :: surface
     integer, intent(in) :: cell
-    integer(c_size_t), allocatable, intent(inout) :: cells(:)
+    integer, allocatable, intent(inout) :: cells(:)
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
+    integer(c_size_t), allocatable :: found(:)
     integer(c_size_t) :: count
     integer(c_int) :: status
     if (refuse(cell < 1, PLANISH_STATUS_INDEX, "cells count from 1", stat, errmsg)) return
     status = c_pht_copy_neighbours(surface%get(), cell - 1_c_size_t, count=0_c_size_t, out_count=count)
     if (status >= 0) then
-      if (allocated(cells)) deallocate (cells)
-      allocate (cells(count))
-      status = c_pht_copy_neighbours(surface%get(), cell - 1_c_size_t, cells, count, count)
-      cells = cells + 1
+      allocate (found(count))
+      status = c_pht_copy_neighbours(surface%get(), cell - 1_c_size_t, found, count, count)
+      cells = int(found) + 1
     end if
     call conclude(status, stat, errmsg)
   end subroutine
@@ -4310,11 +4636,221 @@ contains
   end subroutine
 
   !> The number of the cell that has (u,v), beyond the domain of the nearest one; 0 if there are no cells.
-  pure integer(c_size_t) function planish_pht_cell_at(surface, u, v) result(cell)
+  pure integer function planish_pht_cell_at(surface, u, v) result(cell)
     class(planish_surface_t), intent(in) :: surface
     real(c_double), intent(in) :: u, v
     cell = 0
-    if (planish_pht_cell_count(surface) > 0) cell = c_pht_cell_at(surface%get(), u, v) + 1
+    if (planish_pht_cell_count(surface) > 0) cell = int(c_pht_cell_at(surface%get(), u, v)) + 1
   end function
+
+  ! ---------------------------------------------------------------------------------------------------------
+  ! Field fitter
+  ! ---------------------------------------------------------------------------------------------------------
+
+  !> Makes a fitter for fields on the nodes of a mesh, which may go afterwards.
+  !>
+  !> parameterize:  how a mesh without parameters gets them.
+  !> weights:       a positive number for each node, in place of 1.
+  !> mask:          whether fields have values at a node; those of others are never looked at.
+  !> sample_values: (dim,n), a field for which grid and smoothing are found that meet the tolerance.
+  !> progress:      hears how far the making is, and may cancel it.
+  subroutine field_fitter_new_mesh( &
+      self, mesh, options, parameterize, weights, mask, sample_values, progress, stat, errmsg)
+    class(planish_field_fitter_t), intent(inout) :: self
+    class(planish_mesh_t), intent(in) :: mesh
+    type(planish_field_options), intent(in), optional :: options
+    type(planish_parameterize_options), intent(in), optional :: parameterize
+    real(c_double), intent(in), optional, target, contiguous :: weights(:), sample_values(:, :)
+    logical, intent(in), optional :: mask(:)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_field_options) :: call_options
+    type(planish_parameterize_options), target :: map
+    type(listener), target :: user
+    integer(c_int8_t), allocatable, target :: has_values(:)
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    if (present(options)) call_options = options
+    if (refuse_nodes(call_options, map, user, has_values, mesh%point_count(), parameterize, weights, mask, &
+        sample_values, progress, stat, errmsg)) return
+    status = c_field_fitter_new(mesh%get(), call_options, handle)
+    if (status >= 0) call self%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> The same for fields at parameters uv(2,n).
+  subroutine field_fitter_new_points(self, uv, options, weights, mask, sample_values, progress, stat, errmsg)
+    class(planish_field_fitter_t), intent(inout) :: self
+    real(c_double), intent(in), contiguous :: uv(:, :)
+    type(planish_field_options), intent(in), optional :: options
+    real(c_double), intent(in), optional, target, contiguous :: weights(:), sample_values(:, :)
+    logical, intent(in), optional :: mask(:)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_field_options) :: call_options
+    type(planish_parameterize_options), target :: map
+    type(listener), target :: user
+    integer(c_int8_t), allocatable, target :: has_values(:)
+    type(c_ptr) :: handle
+    integer(c_size_t) :: count
+    integer(c_int) :: status
+    count = size(uv, 2, c_size_t)
+    if (present(options)) call_options = options
+    if (refuse_extent(size(uv, 1, c_size_t), 2_c_size_t, "the first extent of uv", stat, errmsg)) return
+    if (refuse_nodes(call_options, map, user, has_values, count, weights=weights, mask=mask, &
+        sample_values=sample_values, progress=progress, stat=stat, errmsg=errmsg)) return
+    status = c_field_fitter_new_points(uv, count, call_options, handle)
+    if (status >= 0) call self%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Leads the options of a fitter to its optional arguments, and refuses those that are not for `count` nodes.
+  logical function refuse_nodes(options, map, user, has_values, count, parameterize, weights, mask, sample_values, &
+      progress, stat, errmsg) result(refused)
+    type(planish_field_options), intent(inout) :: options
+    type(planish_parameterize_options), intent(inout), target :: map
+    type(listener), intent(inout), target :: user
+    integer(c_int8_t), allocatable, intent(out), target :: has_values(:)
+    integer(c_size_t), intent(in) :: count
+    type(planish_parameterize_options), intent(in), optional :: parameterize
+    real(c_double), intent(in), optional, target, contiguous :: weights(:), sample_values(:, :)
+    logical, intent(in), optional :: mask(:)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_tensor_options) :: data
+    refused = .true.
+    if (refuse_data(data, map, user, count, parameterize, weights, progress=progress, stat=stat, errmsg=errmsg)) return
+    options%parameterize = data%parameterize
+    options%weights = data%weights
+    options%progress = data%progress
+    options%user = data%user
+    if (present(mask)) then
+      if (refuse_extent(size(mask, kind=c_size_t), count, "the number of elements of mask", stat, errmsg)) return
+      has_values = merge(1_c_int8_t, 0_c_int8_t, mask)
+      options%mask = c_loc(has_values)
+    end if
+    if (present(sample_values)) then
+      if (refuse_extent(size(sample_values, 2, c_size_t), count, "the number of sample_values", stat, errmsg)) return
+      options%sample_values = c_loc(sample_values)
+      options%sample_dim = size(sample_values, 1, c_size_t)
+    end if
+    refused = .false.
+  end function
+
+  impure elemental subroutine field_fitter_assign(self, other)
+    class(planish_field_fitter_t), intent(inout) :: self
+    class(planish_field_fitter_t), intent(in) :: other
+    if (allocated(other%owner)) call fail(PLANISH_STATUS_INVALID_ARGUMENT, "a field fitter has no copies")
+    call self%free()
+  end subroutine
+
+  subroutine finalize_field_fitter(self)
+    type(field_fitter_owner), intent(inout) :: self
+    call c_field_fitter_free(self%handle)
+    self%handle = c_null_ptr
+  end subroutine
+
+  !> Frees the fitter before the variable ends.
+  subroutine field_fitter_free(self)
+    class(planish_field_fitter_t), intent(inout) :: self
+    if (allocated(self%owner)) deallocate (self%owner)
+  end subroutine
+
+  !> The handle, for C; it stays this fitter's.
+  pure type(c_ptr) function field_fitter_get(self) result(handle)
+    class(planish_field_fitter_t), intent(in) :: self
+    handle = c_null_ptr
+    if (allocated(self%owner)) handle = self%owner%handle
+  end function
+
+  !> Takes over a handle of C, which is freed by this fitter from now on.
+  subroutine field_fitter_take(self, handle)
+    class(planish_field_fitter_t), intent(inout) :: self
+    type(c_ptr), intent(in) :: handle
+    call self%free()
+    if (.not. c_associated(handle)) return
+    allocate (self%owner)
+    self%owner%handle = handle
+  end subroutine
+
+  !> Number of nodes, those without values included.
+  pure integer(c_size_t) function field_fitter_point_count(self) result(count)
+    class(planish_field_fitter_t), intent(in) :: self
+    count = c_field_fitter_point_count(self%get())
+  end function
+
+  !> Knots of the grid along u and v.
+  subroutine field_fitter_grid(self, grid, stat, errmsg)
+    class(planish_field_fitter_t), intent(in) :: self
+    integer(c_size_t), intent(inout) :: grid(2)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call conclude(c_field_fitter_grid(self%get(), grid), stat, errmsg)
+  end subroutine
+
+  !> uv(2,n) of the nodes: n at least point_count().
+  subroutine field_fitter_copy_parameters(self, uv, stat, errmsg)
+    class(planish_field_fitter_t), intent(in) :: self
+    real(c_double), intent(inout), contiguous :: uv(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_extent(size(uv, 1, c_size_t), 2_c_size_t, "the first extent of uv", stat, errmsg)) return
+    call conclude(c_field_fitter_copy_parameters(self%get(), uv, size(uv, 2, c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> Fits a surface to values(dim,n), one a node. report: receives how good it is; without it nothing is measured.
+  subroutine field_fitter_fit_rows(self, values, surface, report, stat, errmsg)
+    class(planish_field_fitter_t), intent(in) :: self
+    real(c_double), intent(in), contiguous :: values(:, :)
+    class(planish_surface_t), intent(inout) :: surface
+    type(planish_fit_report), intent(inout), optional :: report
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    status = c_field_fitter_fit( &
+        self%get(), values, size(values, 2, c_size_t), size(values, 1, c_size_t), handle, report)
+    if (status >= 0) call surface%take(handle)
+    call conclude_fit(status, report, stat, errmsg)
+  end subroutine
+
+  !> The same for numbers, values(n).
+  subroutine field_fitter_fit_scalars(self, values, surface, report, stat, errmsg)
+    class(planish_field_fitter_t), intent(in) :: self
+    real(c_double), intent(in), contiguous, target :: values(:)
+    class(planish_surface_t), intent(inout) :: surface
+    type(planish_fit_report), intent(inout), optional :: report
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    real(c_double), pointer, contiguous :: rows(:, :)
+    rows(1:1, 1:size(values)) => values
+    call self%fit(rows, surface, report, stat, errmsg)
+  end subroutine
+
+  !> Turns a surface of fit() into the one of other values(dim,n), in its place.
+  subroutine field_fitter_update_rows(self, surface, values, stat, errmsg)
+    class(planish_field_fitter_t), intent(in) :: self
+    class(planish_surface_t), intent(inout) :: surface
+    real(c_double), intent(in), contiguous :: values(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call conclude(c_field_fitter_update( &
+        self%get(), surface%get(), values, size(values, 2, c_size_t), size(values, 1, c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> The same for numbers, values(n).
+  subroutine field_fitter_update_scalars(self, surface, values, stat, errmsg)
+    class(planish_field_fitter_t), intent(in) :: self
+    class(planish_surface_t), intent(inout) :: surface
+    real(c_double), intent(in), contiguous, target :: values(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    real(c_double), pointer, contiguous :: rows(:, :)
+    rows(1:1, 1:size(values)) => values
+    call self%update(surface, rows, stat, errmsg)
+  end subroutine
 
 end module

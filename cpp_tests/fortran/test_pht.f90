@@ -1,6 +1,5 @@
 ! PHT-splines from Fortran: cells and vertices count from 1, addresses of cells as in C.
 program test_pht
-  use, intrinsic :: iso_c_binding, only: c_size_t
   use, intrinsic :: iso_fortran_env, only: real64, int32
   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
   use planish
@@ -92,7 +91,7 @@ contains
   subroutine cells_and_vertices_count_from_1()
     type(planish_surface_t) :: surface
     integer(int32) :: cells(3, 7), hosts(2)
-    integer(c_size_t), allocatable :: neighbours(:)
+    integer, allocatable :: neighbours(:)
     real(real64) :: uv(2, 12), hanging(2, 2)
     integer :: i
     surface = hat()
@@ -113,7 +112,7 @@ contains
     end do
     call check(planish_pht_cell_at(surface, 0.9_real64, 0.9_real64) > 0, "cell_at")
     call check(all(cells(:, planish_pht_cell_at(surface, 0.9_real64, 0.9_real64)) == [1, 1, 1]), "cells count from 1")
-    call planish_pht_copy_neighbours(surface, int(planish_pht_cell_at(surface, 0.9_real64, 0.9_real64)), neighbours)
+    call planish_pht_copy_neighbours(surface, planish_pht_cell_at(surface, 0.9_real64, 0.9_real64), neighbours)
     call check(size(neighbours) == 2, "a corner has two neighbours")
     call check(all(cells(:, neighbours(1)) == [1, 0, 1]) .and. all(cells(:, neighbours(2)) == [1, 1, 0]), &
         "at least u, then at least v")
@@ -209,7 +208,8 @@ contains
     do corner = 1, 4
       data(:, 1, corner) = [2, 4] ! a value of 1/2 with weight 4
     end do
-    call planish_pht_new(1, unit_line, unit_line, reshape([integer(int32) ::], [3, 0]), surface, data, is_rational=.true.)
+    call planish_pht_new(1, unit_line, unit_line, reshape([integer(int32) ::], [3, 0]), surface, data, &
+        is_rational=.true.)
     call check(planish_pht_width(surface) == 2 .and. surface%dim() == 1, "the width has the weight")
     call check(abs(value(surface, 0.3_real64, 0.6_real64) - 0.5_real64) <= roundoff, "values are divided by it")
   end subroutine
@@ -319,7 +319,7 @@ contains
     type(planish_surface_t) :: surface, nothing
     real(real64) :: data(1, 4, 2), wide(2, 4, 12), uv(2, 1)
     integer(int32) :: cells(3, 1), hosts(1)
-    integer(c_size_t), allocatable :: neighbours(:)
+    integer, allocatable :: neighbours(:)
     integer :: stat
     character(100) :: errmsg
     surface = hat()

@@ -1,6 +1,5 @@
 ! Skins and T-splines from Fortran: rows one after another, curves and knots counted from 1.
 program test_tsplines
-  use, intrinsic :: iso_c_binding, only: c_size_t
   use, intrinsic :: iso_fortran_env, only: real64
   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
   use planish
@@ -20,6 +19,8 @@ program test_tsplines
   call curves_are_skinned()
   call tsplines_have_parts()
   call knots_go_in_and_out()
+  call rows_are_taken_from_meshes()
+  call strips_are_written()
   call refusals_are_told()
   call finish()
 
@@ -241,6 +242,74 @@ contains
     call planish_tspline_remove_knot_u(same, 1, 5, 1e-3_real64, error, stat)
     call check(stat == PLANISH_STATUS_TOLERANCE_NOT_MET .and. error > 1e-3_real64, "a knot that is needed stays")
     call check(all(sampled(same) == sampled(surface)), "and nothing is changed")
+  end subroutine
+
+  !> A tube of radius 1 and height 2 between its two loops, with rings of `around` nodes.
+  function tube(around, rings) result(mesh)
+    integer, intent(in) :: around, rings
+    type(planish_mesh_t) :: mesh
+    real(real64) :: points(3, around * rings), angle
+    integer :: triangles(3, 2 * around * (rings - 1)), ring, k, a, b, t
+    t = 0
+    do ring = 1, rings
+      do k = 1, around
+        a = (ring - 1) * around + k
+        b = (ring - 1) * around + mod(k, around) + 1
+        angle = 2 * acos(-1.0_real64) * k / around
+        points(:, a) = [cos(angle), sin(angle), 2.0_real64 * (ring - 1) / (rings - 1)]
+        if (ring == rings) cycle
+        triangles(:, t + 1) = [a, b, b + around]
+        triangles(:, t + 2) = [a, b + around, a + around]
+        t = t + 2
+      end do
+    end do
+    call mesh%new(points, triangles)
+  end function
+
+  subroutine rows_are_taken_from_meshes()
+    type(planish_mesh_t) :: mesh
+    type(planish_surface_t) :: surface
+    type(planish_sample_rows_options) :: options
+    type(planish_skin_options) :: skin
+    type(planish_fit_report) :: report
+    real(real64), allocatable :: points(:, :), upside_down(:, :)
+    integer :: point_counts(6), turned_counts(6), stat
+    character(100) :: errmsg
+    mesh = tube(24, 9)
+    times = 0
+    call mesh%sample_rows(point_counts, points, progress=count_on)
+    call check(times > 0, "progress is heard")
+    call check(all(point_counts > 3) .and. size(points, 2) == sum(point_counts), "six rows of points")
+    call mesh%sample_rows(turned_counts, upside_down, begin_index=2, end_index=1)
+    ! the field is linear along a tube, but only up to the residual of its system and an edge's interpolation
+    call check(abs(points(3, 1) + upside_down(3, 1) - 2) <= 1e-9_real64, "loops count from 1")
+    skin%closed = 1
+    skin%tolerance = 1e-2_real64
+    call planish_tspline_skin(points, point_counts, surface, skin, report)
+    call check(report%max_error <= report%tolerance, "rows for a skin")
+    options%spacing = 0.1_real64
+    call mesh%sample_rows(turned_counts, upside_down, options)
+    call check(all(turned_counts > point_counts), "denser where asked")
+    options%begin = PLANISH_ROW_SOURCE_NODE
+    call mesh%sample_rows(turned_counts, upside_down, options, 217, 2, stat=stat, errmsg=errmsg)
+    call check_fails(stat, errmsg, PLANISH_STATUS_INDEX, "")
+    call mesh%sample_rows(turned_counts, upside_down, begin_index=0, stat=stat, errmsg=errmsg)
+    call check_fails(stat, errmsg, PLANISH_STATUS_INDEX, "count from 1")
+    call planish_options_init(options)
+    call check(options%spacing == 0, "defaults")
+  end subroutine
+
+  subroutine strips_are_written()
+    type(planish_surface_t) :: surface
+    type(planish_skin_report) :: skin
+    type(planish_step_options) :: options
+    type(planish_step_report) :: whole, strips
+    call planish_tspline_skin(vault(), counts, surface, skin_report=skin)
+    call surface%write_step("vault.step", report=whole)
+    call check(whole%face_count == 1 .and. whole%pole_count == skin%tensor_count, "one face")
+    options%form = PLANISH_STEP_FORM_STRIPS
+    call surface%write_step("vault.step", options, report=strips)
+    call check(strips%face_count == 3 .and. strips%pole_count == skin%strip_count, "three strips between four rows")
   end subroutine
 
   subroutine refusals_are_told()
