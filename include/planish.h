@@ -626,60 +626,6 @@ typedef enum planish_unit {
 } planish_unit;
 
 /**
- * What determines a PHT-spline at its vertices.
- */
-typedef enum planish_pht_estimator {
-    /**
-     * Least squares over all data with a weak bending energy: fewest coefficients.
-     */
-    PLANISH_PHT_ESTIMATOR_GLOBAL = 0,
-    /**
-     * A quadratic fit around each datum, interpolated linearly (Deng et al., 2008): for comparison.
-     */
-    PLANISH_PHT_ESTIMATOR_LOCAL_QUADRATIC = 1,
-    /**
-     * A weighted cubic fit around each vertex: no system to solve, for very large data.
-     */
-    PLANISH_PHT_ESTIMATOR_LOCAL_CUBIC = 2,
-} planish_pht_estimator;
-
-/**
- * Which control points a PHT-spline has.
- */
-typedef enum planish_pht_basis {
-    /**
-     * Of the cells at the birth of a vertex (Deng et al., 2008): independent of later splits.
-     */
-    PLANISH_PHT_BASIS_CANONICAL = 0,
-    /**
-     * Of the widest cell of a vertex's support on each side: well conditioned whatever the levels.
-     */
-    PLANISH_PHT_BASIS_SUPPORT_SIZED = 1,
-} planish_pht_basis;
-
-/**
- * An edge of a surface's domain.
- */
-typedef enum planish_border_side {
-    /**
-     * Least u.
-     */
-    PLANISH_BORDER_SIDE_LOW_U = 0,
-    /**
-     * Largest u.
-     */
-    PLANISH_BORDER_SIDE_HIGH_U = 1,
-    /**
-     * Least v.
-     */
-    PLANISH_BORDER_SIDE_LOW_V = 2,
-    /**
-     * Largest v.
-     */
-    PLANISH_BORDER_SIDE_HIGH_V = 3,
-} planish_border_side;
-
-/**
  * A B-spline curve: a map from an interval of parameters u to R^dim. Made by planish_curve_fit(), destroyed by
  * planish_curve_free().
  *
