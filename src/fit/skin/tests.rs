@@ -36,10 +36,6 @@ fn the_four_sets_need_as_few_control_points_as_the_theory_says() {
         let options = SkinOptions { compare: true, ..paper(tolerance) };
         let fit = fit(&set, &options);
         let (found, common) = (fit.report.coefficient_count, fit.skin.common_count);
-        println!(
-            "{name}: {found} of {total}, common {common} of {baseline}, {:?} {:?}",
-            fit.report, fit.skin
-        );
         assert!(fit.report.max_error < fit.report.tolerance, "{name}: {:?}", fit.report);
         assert!(100 * found <= 101 * total, "{name}: {found} control points");
         assert!(100 * common <= 102 * baseline, "{name}: {common} with common knots");
@@ -146,11 +142,6 @@ fn the_certified_distance_bounds_the_true_one() {
             fit.surface.eval_rows(&uv, 0, &mut found);
             let measured = distances(&found, &exact_skin(&set, &options, &uv));
             let bound = fit.skin.certified_distance;
-            println!(
-                "{name} {extra_checks}: measured {:.2} bound {:.2} of the tolerance",
-                measured / fit.report.tolerance,
-                bound / fit.report.tolerance
-            );
             assert!(measured <= bound * (1.0 + 1e-9), "{name}: {measured:e} above {bound:e}");
             assert!(bound < 10.0 * measured, "{name}: bound {bound:e}, measured {measured:e}");
         }
@@ -291,13 +282,6 @@ fn an_open_row_turned_round_is_noticed_and_put_right() {
 fn fewer_knots_along_v_keep_the_tolerance() {
     let options = SkinOptions { approximate_v: true, ..paper(2e-3) };
     let (few, all) = (fit(&head(), &options), fit(&head(), &paper(2e-3)));
-    println!(
-        "{} of {} curves, {} of {} points",
-        few.skin.curve_count,
-        all.skin.curve_count,
-        few.report.coefficient_count,
-        all.report.coefficient_count
-    );
     assert!(few.report.max_error < few.report.tolerance, "{:?}", few.report);
     assert!(few.skin.v_error > 0.0 && few.skin.v_error < 0.5 * few.report.tolerance);
     assert!(few.skin.curve_count < all.skin.curve_count, "{:?}", few.skin);
