@@ -351,3 +351,20 @@ fn a_field_that_meets_its_tolerance_says_so() {
         assert!(!report.remarks.has(Remarks::STAGNATED), "{report:?}");
     }
 }
+
+#[test]
+fn a_height_field_without_parameters_takes_few_coefficients() {
+    // Franke's function, the hills and dales of scattered data interpolation
+    let franke = |p: DVec2| {
+        let (x, y) = (9.0 * p.x, 9.0 * p.y);
+        0.75 * (-((x - 2.0).powi(2) + (y - 2.0).powi(2)) / 4.0).exp()
+            + 0.75 * (-(x + 1.0).powi(2) / 49.0 - (y + 1.0) / 10.0).exp()
+            + 0.5 * (-((x - 7.0).powi(2) + (y - 3.0).powi(2)) / 4.0).exp()
+            - 0.2 * (-(x - 4.0).powi(2) - (y - 7.0).powi(2)).exp()
+    };
+    let (places, triangles) = samples::grid([100, 100], 0.2, 1, |_| true);
+    let mesh = Mesh::new(places.iter().map(|&p| p.extend(franke(p))).collect(), triangles).unwrap();
+    let report = fit(&mesh, &TensorOptions::default()).report;
+    assert!(report.max_error <= report.tolerance, "{report:?}");
+    assert!(report.coefficient_count < 1000, "{report:?}");
+}

@@ -8,29 +8,40 @@ use crate::geometry::Orientation;
 use crate::mesh::Mesh;
 use glam::{DVec2, DVec3};
 
-/// A triangle that is steeper over the plane keeps too little of its area there: 78 degrees.
-const LEAST_COSINE: f64 = 0.2;
+/// A triangle that is steeper over the plane keeps too little of its area there: 84 degrees.
+const LEAST_COSINE: f64 = 0.1;
+/// The middle of the cap is found to a few hundredths of its radius, near enough for a choice of a plane.
+const STEPS: usize = 64;
 
-/// The nodes in the plane across the mean normal, turned and scaled as an unrolled map is; None if the mesh is no
+/// The nodes in the plane across the best direction, turned and scaled as an unrolled map is; None if the mesh is no
 /// height field over it: a triangle is too steep or turned over, or the border covers itself.
 pub fn flatten(mesh: &Mesh) -> Option<Vec<DVec2>> {
-    let normal = mean_normal(mesh)?;
+    let direction = best_direction(mesh)?;
     let is_steep = |t: &[u32; 3]| {
         let area = area_vector(mesh, t);
-        !(area.dot(normal) >= LEAST_COSINE * area.length())
+        !(area.dot(direction) >= LEAST_COSINE * area.length())
     };
     if mesh.triangles().iter().any(is_steep) {
         return None;
     }
-    let (e1, e2) = normal.any_orthonormal_pair();
+    let (e1, e2) = direction.any_orthonormal_pair();
     let flat: Vec<DVec2> = mesh.points().iter().map(|p| DVec2::new(p.dot(e1), p.dot(e2))).collect();
     let uv = in_unit_square(mesh, &flat);
     let is_positive = |t: &[u32; 3]| super::triangle_orientation(&uv, t) == Orientation::Positive;
     (mesh.triangles().iter().all(is_positive) && !boundary_crosses(mesh, &uv)).then_some(uv)
 }
 
-fn mean_normal(mesh: &Mesh) -> Option<DVec3> {
-    mesh.triangles().iter().map(|t| area_vector(mesh, t)).sum::<DVec3>().try_normalize()
+/// The direction from which the steepest triangle looks least steep: the middle of the smallest cap around all
+/// normals (M. Badoiu and K. Clarkson, "Smaller core-sets for balls", 2003), from the mean normal on.
+fn best_direction(mesh: &Mesh) -> Option<DVec3> {
+    let normals: Vec<DVec3> =
+        mesh.triangles().iter().filter_map(|t| area_vector(mesh, t).try_normalize()).collect();
+    let mut middle = mesh.triangles().iter().map(|t| area_vector(mesh, t)).sum::<DVec3>().try_normalize()?;
+    for step in 1..=STEPS {
+        let steepest = normals.iter().min_by(|a, b| a.dot(middle).total_cmp(&b.dot(middle)))?;
+        middle = (middle + (*steepest - middle) / (step + 1) as f64).try_normalize()?;
+    }
+    Some(middle)
 }
 
 /// Across the triangle, of twice its area.
@@ -48,10 +59,10 @@ mod tests {
     fn a_terrain_is_flattened_and_a_deep_shape_is_not() {
         let (terrain, _) = samples::bumps([30, 30], 12, 4).unwrap();
         let uv = flatten(&terrain).unwrap();
-        // seen along the mean normal instead of from above, lengths change by the cosine of its tilt at most, and
+        // seen from the best direction instead of from above, lengths change by the cosine of its tilt at most, and
         // heights of up to a fifth add the sine
-        let normal = mean_normal(&terrain).unwrap();
-        let (cosine, sine) = (normal.z, (1.0 - normal.z * normal.z).sqrt());
+        let z = best_direction(&terrain).unwrap().z;
+        let (cosine, sine) = (z, (1.0 - z * z).sqrt());
         let (least, most) = (cosine - 0.4 * sine, 1.0 + 0.4 * sine);
         let seen: Vec<DVec2> = terrain.points().iter().map(|p| p.truncate()).collect();
         let scale = (uv[899] - uv[0]).length() / (seen[899] - seen[0]).length();

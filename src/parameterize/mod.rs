@@ -110,7 +110,7 @@ pub const HIGH_STRETCH: f64 = 3.0;
 /// Up to this L2 stretch a map keeps lengths well enough; beyond it a height field is better seen from above.
 const NEARLY_ISOMETRIC: f64 = 1.05;
 /// The plane's coordinates are not taken if they stretch this many times more: the shape is then too steep.
-const MOST_FLATTENED: f64 = 2.0;
+const MOST_FLATTENED: f64 = 3.0;
 
 /// A step must lower the stretch by this share for the next to be as long.
 const LEAST_GAIN: f64 = 0.005;
