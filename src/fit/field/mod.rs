@@ -15,8 +15,8 @@ use super::tessellation::grid::{Ends, UniformBasis, UniformGrid};
 use super::tessellation::normal_equations::{NormalEquations, Samples, TensorBasis};
 use super::tessellation::samples::interior_places;
 use super::tessellation::{
-    Energy, FitError, NodeParameters, Regularize, TensorOptions, check_parameters, check_values, fit_field,
-    fit_points, node_parameters,
+    Energy, FitError, LARGEST_GRID, NodeParameters, Regularize, TensorOptions, check_parameters,
+    check_values, fit_field, fit_points, node_parameters,
 };
 use crate::control::{Control, Pool};
 use crate::fit::errors::{DataErrors, data_errors};
@@ -363,9 +363,6 @@ fn check(uv: &[DVec2], options: &FieldOptions) -> Result<(), FitError> {
     // weights are checked as those of any fit
     check_values(uv.len(), &vec![0.0; uv.len()], 1, options.weights)
 }
-
-/// Most knots along one direction that may be asked for.
-const LARGEST_GRID: usize = 8193;
 
 fn known_nodes(uv: &[DVec2], options: &FieldOptions) -> Result<Option<Vec<u32>>, FitError> {
     let Some(is_known) = options.is_known else { return Ok(None) };

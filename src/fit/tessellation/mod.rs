@@ -355,7 +355,7 @@ fn check_options(options: &TensorOptions) -> Result<(), FitError> {
 }
 
 /// Most knots along one direction that may be asked for.
-const LARGEST_GRID: usize = 8193;
+pub(in crate::fit) const LARGEST_GRID: usize = 8193;
 
 /// Values, and weights if there are any, that `count` data can have.
 pub(in crate::fit) fn check_values(
