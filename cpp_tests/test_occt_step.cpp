@@ -14,10 +14,14 @@
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <STEPControl_Reader.hxx>
+#include <ShapeAnalysis_FreeBounds.hxx>
+#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopoDS_Compound.hxx>
 #include <TopoDS_Shape.hxx>
 #include <gp_Lin.hxx>
 
@@ -164,14 +168,58 @@ TopoDS_Face check_file(const Surface &surface, const char *name, std::uint32_t u
   return face;
 }
 
-Surface fitted(const shapes::arrays &arrays) {
+// A shell of faces that share their inner edges: what is free are the trims, closed.
+void check_shell(const Surface &surface, const char *name, std::uint32_t form, int trims) {
+  const std::string path = std::string("occt_") + name + ".step";
+  planish_step_report report = fresh<planish_step_report>();
+  planish_step_options options;
+  CHECK_EQUAL(planish_step_options_init(&options, sizeof options), PLANISH_STATUS_OK);
+  options.form = form;
+  options.out_report = &report;
+  CHECK_EQUAL(planish_surface_write_step(surface.get(), path.c_str(), &options), PLANISH_STATUS_OK);
+  const TopoDS_Shape shape = read(path);
+  CHECK(!shape.IsNull());
+  if (shape.IsNull()) return;
+  CHECK(BRepCheck_Analyzer(shape).IsValid());
+  CHECK_EQUAL(static_cast<std::size_t>(count(shape, TopAbs_FACE)), report.face_count);
+  CHECK(report.face_count > 1);
+
+  TopTools_IndexedDataMapOfShapeListOfShape faces_of_edges;
+  TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of_edges);
+  CHECK_EQUAL(static_cast<std::size_t>(faces_of_edges.Extent()), report.edge_count);
+  int free_edges = 0;
+  for (int k = 1; k <= faces_of_edges.Extent(); ++k) free_edges += faces_of_edges(k).Extent() == 1;
+  const ShapeAnalysis_FreeBounds bounds(shape);
+  CHECK_EQUAL(count(bounds.GetClosedWires(), TopAbs_WIRE), trims);
+  CHECK_EQUAL(count(bounds.GetOpenWires(), TopAbs_WIRE), 0);
+  CHECK_EQUAL(count(bounds.GetClosedWires(), TopAbs_EDGE), free_edges);
+
+  const double own = own_area(surface), found = area(shape);
+  CHECK_NEAR(found / own, 1.0, 1e-3);
+  double deviation = 0;
+  for (TopExp_Explorer it(shape, TopAbs_FACE); it.More(); it.Next()) {
+    deviation = std::fmax(deviation, curve_deviation(TopoDS::Face(it.Current())));
+  }
+  CHECK(deviation <= report.uncertainty);
+  std::printf("%-10s %zu faces, %d of %zu edges free, area %.6g (own %.6g), deviation %.2e, measured by us %.2e, "
+              "uncertainty %.2e\n",
+              name, report.face_count, free_edges, report.edge_count, found, own, deviation, report.curve_deviation,
+              report.uncertainty);
+}
+
+Mesh made(const shapes::arrays &arrays) {
   planish_mesh *out_mesh = nullptr;
   const planish_mesh_options options = mesh_options();
   CHECK_EQUAL(planish_mesh_new(arrays.points.data(), arrays.point_count(), arrays.triangles.data(),
                                arrays.triangle_count(), &options, &out_mesh),
               PLANISH_STATUS_OK);
-  const Mesh mesh(out_mesh);
+  Mesh mesh(out_mesh);
   CHECK_EQUAL(planish_mesh_set_parameters(mesh.get(), arrays.uv.data(), arrays.point_count()), PLANISH_STATUS_OK);
+  return mesh;
+}
+
+Surface fitted(const shapes::arrays &arrays) {
+  const Mesh mesh = made(arrays);
   planish_surface *out = nullptr;
   CHECK(planish_tensor_fit(mesh.get(), nullptr, &out, nullptr) >= 0);
   return Surface(out);
@@ -347,14 +395,35 @@ TEST(OcctStep, TSplineWholeAndInStrips) {
               PLANISH_STATUS_OK);
   const Surface skin(out);
   check_file(skin, "tspline", PLANISH_UNIT_MILLIMETRE, 1);
-  planish_step_options options;
-  CHECK_EQUAL(planish_step_options_init(&options, sizeof options), PLANISH_STATUS_OK);
-  options.form = PLANISH_STEP_FORM_STRIPS;
-  CHECK_EQUAL(planish_surface_write_step(skin.get(), "occt_strips.step", &options), PLANISH_STATUS_OK);
-  const TopoDS_Shape strips = read("occt_strips.step");
-  CHECK(!strips.IsNull() && BRepCheck_Analyzer(strips).IsValid());
-  CHECK_EQUAL(count(strips, TopAbs_FACE), 4);
-  CHECK_NEAR(area(strips) / own_area(skin), 1.0, 1e-3);
+  check_shell(skin, "strips", PLANISH_STEP_FORM_STRIPS, 1);
+  double domain[4];
+  CHECK_EQUAL(planish_surface_domain(skin.get(), domain), PLANISH_STATUS_OK);
+  const double u = (domain[0] + domain[1]) / 2, v = (domain[2] + domain[3]) / 2;
+  const double width = domain[1] - domain[0], height = domain[3] - domain[2];
+  const auto box = [&](double share) {
+    const double a = share * width, b = share * height;
+    return polygon({u - a, v - b, u + a, v - b, u + a, v + b, u - a, v + b});
+  };
+  set_trims(skin, {box(0.45), circle(u, v, 0.2 * std::fmin(width, height), 60)});
+  check_shell(skin, "strips", PLANISH_STEP_FORM_STRIPS, 2);
+}
+
+double ridge(double u, double v) { return shapes::wave(u, v) + 0.05 * std::tanh(30 * (u + 0.4 * v - 0.6)); }
+
+// Faces of unlike size side by side, with the trims of the mesh and with others.
+TEST(OcctStep, PhtSplineAsAShell) {
+  const Mesh mesh = made(shapes::graph(60, 60, 0.2, 7, true, ridge));
+  planish_pht_options options;
+  CHECK_EQUAL(planish_pht_options_init(&options, sizeof options), PLANISH_STATUS_OK);
+  options.tolerance = 2e-4;
+  planish_surface *out = nullptr;
+  CHECK(planish_pht_fit(mesh.get(), &options, &out, nullptr) >= 0);
+  const Surface pht(out);
+  check_shell(pht, "pht", PLANISH_STEP_FORM_PATCHES, 2);
+  set_trims(pht, {circle(0.5, 0.5, 0.499, 200), circle(0.375, 0.6, 0.1, 30), circle(0.625, 0.5, 1e-3, 12)});
+  check_shell(pht, "pht_trims", PLANISH_STEP_FORM_PATCHES, 3);
+  set_trims(pht, {});
+  check_shell(pht, "pht_whole", PLANISH_STEP_FORM_PATCHES, 1);
 }
 
 int main() { return check::run(); }

@@ -267,6 +267,8 @@ module planish
   integer(c_int32_t), parameter, public :: PLANISH_STEP_FORM_TENSOR = 0 !! The same surface as one tensor surface
   !> One face for each span of v, over the knots of four control curves: far fewer control points
   integer(c_int32_t), parameter, public :: PLANISH_STEP_FORM_STRIPS = 1
+  !> A PHT-spline as a shell of faces that share edges, each over a rectangle of cells of nearly equal size
+  integer(c_int32_t), parameter, public :: PLANISH_STEP_FORM_PATCHES = 2
 
   !> What one model unit is.
   integer(c_int32_t), parameter, public :: PLANISH_UNIT_MILLIMETRE = 0 !! A millimetre
@@ -558,8 +560,8 @@ module planish
     integer(c_int32_t) :: schema = 0 !! A planish_step_schema
     integer(c_int32_t) :: unit = 0 !! A planish_unit, what one model unit is
     integer(c_size_t) :: max_coefficients = 4000000 !! Most control points of PLANISH_STEP_FORM_TENSOR
-    integer(c_int32_t) :: form = 0 !! A planish_step_form, what is written of a T-spline
-    integer(c_int32_t) :: reserved = 0
+    integer(c_int32_t) :: form = 0 !! A planish_step_form, what is written of a T-spline or PHT-spline
+    integer(c_int32_t) :: level_spread = 1 !! By how much the levels of cells in one face of patches may differ
   end type
 
   ! T-spline

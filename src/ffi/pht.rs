@@ -542,7 +542,8 @@ pub unsafe extern "C" fn planish_pht_from_surface(
 }
 
 /// Makes tensor surfaces that together are a PHT-spline exactly. They meet with equal parameters, each over cells
-/// whose levels differ by at most sigma: many small ones for 0, one for 20. They have no trims.
+/// whose levels differ by at most sigma: many small ones for 0, one for 20. Each
+/// has its part of the trims; one outside of them has a trim without area.
 ///
 /// surface:      not NULL.
 /// sigma:        levels.

@@ -1,6 +1,6 @@
 //! STEP files.
 
-use super::arguments::{ArgumentError, Record, ReportOut, choice, deref, init_options, options, text};
+use super::arguments::{ArgumentError, ReportOut, choice, deref, init_options, options, text};
 use super::guard::guard;
 use super::planish_status;
 use super::surface::planish_surface;
@@ -30,7 +30,7 @@ pub enum planish_unit {
     Inch = 2,
 }
 
-/// What a STEP file holds of a T-spline.
+/// What a STEP file holds of a T-spline or PHT-spline.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum planish_step_form {
@@ -38,6 +38,9 @@ pub enum planish_step_form {
     Tensor = 0,
     /// One face for each span of v, over the knots of four control curves: far fewer control points.
     Strips = 1,
+    /// A PHT-spline as a shell of faces that share edges, each over a rectangle of cells whose levels differ by at
+    /// most level_spread.
+    Patches = 2,
 }
 
 /// What was written to a STEP file.
@@ -55,11 +58,11 @@ pub struct planish_step_report {
     pub diagonal: f64,
     /// Bounds of all faces, the outer ones included.
     pub loop_count: usize,
-    /// Edges of all bounds.
+    /// Edges; one between two faces counts once.
     pub edge_count: usize,
     /// Faces.
     pub face_count: usize,
-    /// Control points of all faces.
+    /// Control points of the surfaces of all faces.
     pub pole_count: usize,
 }
 
@@ -122,15 +125,17 @@ pub struct planish_step_options {
     pub unit: u32,
     /// Most control points of PLANISH_STEP_FORM_TENSOR. Default 4000000.
     pub max_coefficients: usize,
-    /// A planish_step_form, what is written of a T-spline; PLANISH_STEP_FORM_TENSOR (default).
+    /// A planish_step_form, what is written of a T-spline or PHT-spline; PLANISH_STEP_FORM_TENSOR (default), which
+    /// is also taken where the form is of another family.
     pub form: u32,
-    /// 0.
-    pub reserved: u32,
+    /// By how much the levels of cells in one face of PLANISH_STEP_FORM_PATCHES may differ. Default 1; more gives
+    /// fewer faces with more control points.
+    pub level_spread: u32,
 }
 
 record!(planish_step_options, 72, {
     struct_size: 0, product: 8, author: 16, organization: 24, timestamp: 32, out_report: 40, schema: 48, unit: 52,
-    max_coefficients: 56, form: 64, reserved: 68,
+    max_coefficients: 56, form: 64, level_spread: 68,
 });
 
 impl Default for planish_step_options {
@@ -146,7 +151,7 @@ impl Default for planish_step_options {
             unit: planish_unit::Millimetre as u32,
             max_coefficients: StepOptions::default().max_coefficients,
             form: planish_step_form::Tensor as u32,
-            reserved: 0,
+            level_spread: StepOptions::default().level_spread,
         }
     }
 }
@@ -155,9 +160,6 @@ impl planish_step_options {
     /// # Safety
     /// The texts are NULL or end with a NUL, and nobody changes them for `'a`.
     unsafe fn core<'a>(&self) -> Result<StepOptions<'a>, ArgumentError> {
-        if self.reserved != 0 {
-            return Err(ArgumentError::Reserved { record: Self::NAME, given: self.reserved });
-        }
         let defaults = StepOptions::default();
         let or = |at: *const c_char, name, default| match at.is_null() {
             true => Ok(default),
@@ -171,7 +173,8 @@ impl planish_step_options {
             author: or(self.author, "author", defaults.author)?,
             organization: or(self.organization, "organization", defaults.organization)?,
             timestamp: or(self.timestamp, "timestamp", defaults.timestamp)?,
-            form: choice(self.form, &[Form::Tensor, Form::Strips], "form")?,
+            form: choice(self.form, &[Form::Tensor, Form::Strips, Form::Patches], "form")?,
+            level_spread: self.level_spread,
             max_coefficients: self.max_coefficients,
         })
     }
@@ -192,9 +195,11 @@ pub unsafe extern "C" fn planish_step_options_init(
 }
 
 /// Writes a surface in space as a STEP file with one face, bounded by the surface's trims or, if it has none, by its
-/// domain. A T-spline is written as the same tensor surface, or in strips. P-curves are the trims themselves, of degree 1; curves in space are cubic and follow
-/// them over the same parameters within the uncertainty that the file states. The file appears whole or not at
-/// all; equal input gives equal bytes.
+/// domain. A T-spline or PHT-spline is written as the same tensor surface, or as a shell of faces that share their
+/// edges: trims are cut where they cross the faces' common sides, and where they run within 1e-7 of the domain's
+/// size beside one they are moved on to it. P-curves are the trims themselves, of degree 1; curves in space are cubic
+/// and follow them over the same parameters within the uncertainty that the file states. The file appears whole or
+/// not at all; equal input gives equal bytes.
 ///
 /// surface: not NULL, of dimension 3.
 /// path:    UTF-8, ends with a NUL; an existing file is replaced.

@@ -20,8 +20,14 @@ pub(super) struct Image {
     pub pcurve: Curve,
     /// Degree 3 in space.
     pub curve: Curve,
-    /// Largest distance between both, measured on the finished curves.
-    pub deviation: f64,
+}
+
+impl Image {
+    /// The first and the last point in space.
+    pub fn ends(&self) -> [DVec3; 2] {
+        let points = self.curve.control_points();
+        [&points[..3], &points[points.len() - 3..]].map(DVec3::from_slice)
+    }
 }
 
 /// Share of the tolerance that one piece may take. Double knots in place of nearly equal derivatives take a
@@ -85,8 +91,7 @@ pub(super) fn image(surface: &TensorSurface, polyline: &[DVec2], tolerance: f64)
         KnotVector::clamped(&parameters, 1)?,
         polyline.iter().flat_map(|uv| uv.to_array()).collect(),
     )?;
-    let deviation = deviation(surface, &pcurve, &curve);
-    Ok(Image { pcurve, curve, deviation })
+    Ok(Image { pcurve, curve })
 }
 
 /// The shares of a line at which it begins, crosses knot lines, and ends.
@@ -197,8 +202,8 @@ fn join(pieces: &[Piece], tolerance: f64) -> Result<Curve, StepError> {
     Ok(Curve::new(3, KnotVector::new(knots, 3)?, numbers)?)
 }
 
-/// Largest distance of a curve from the image of its preimage, at samples of every span of either.
-fn deviation(surface: &TensorSurface, pcurve: &Curve, curve: &Curve) -> f64 {
+/// Largest distance of a curve from the image of its preimage on a surface, at samples of every span of either.
+pub(super) fn deviation(surface: &TensorSurface, Image { pcurve, curve }: &Image) -> f64 {
     let mut breaks = curve.knots().breaks();
     breaks.extend(pcurve.knots().breaks());
     breaks.sort_by(f64::total_cmp);

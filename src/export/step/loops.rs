@@ -85,7 +85,7 @@ fn depths(loops: &[Loop]) -> Vec<usize> {
 }
 
 /// Whether a ray from `p` towards larger u crosses a loop an odd number of times. Exact.
-fn contains(polyline: &[DVec2], p: DVec2) -> bool {
+pub(super) fn contains(polyline: &[DVec2], p: DVec2) -> bool {
     let crosses = |(a, b): (&DVec2, &DVec2)| match (a.y <= p.y, b.y <= p.y) {
         (true, false) => orientation(*a, *b, p) == Orientation::Positive,
         (false, true) => orientation(*a, *b, p) == Orientation::Negative,

@@ -1,19 +1,22 @@
-//! STEP files: a tensor surface in space as one trimmed face, a T-spline as one, or as a face for each strip.
+//! STEP files: a surface in space as one trimmed face, or as a shell of faces that share edges: a T-spline in
+//! strips, a PHT-spline in patches.
 //!
 //! ISO 10303-21 (clear text), 10303-42 (geometry and topology), application protocols 214 and 242. The face lies
 //! on a `B_SPLINE_SURFACE_WITH_KNOTS` (rational where the surface has weights) and is bounded by the surface's
-//! trims, or by the border of its domain. Trims are polylines in (u,v) and are written exactly: each edge has a
+//! trims, or by the border of its domain, and in a shell by the sides of the parts. Trims are polylines in (u,v) and are written exactly: each edge has a
 //! p-curve of degree 1 through their points and a cubic in space over the same parameters, the p-curve's image
 //! within the file's uncertainty, with a kink wherever the polyline has one. Smoothing the polylines would make
 //! curves that are easier to edit, but no longer the bounds that every other call of the library keeps to.
 //!
 //! Equal input gives equal bytes.
 
-mod edges;
 mod image;
+mod layout;
 mod loops;
 mod net;
 mod part21;
+mod shell;
+mod tiling;
 mod write;
 
 use super::error::{ExportError, write_file};
@@ -22,9 +25,9 @@ use crate::geometry::{Bounds, Domain};
 use crate::knots::KnotError;
 use crate::surface::tensor::{Axis, TensorError, TensorSurface};
 use crate::surface::{AnySurface, ConvertError, Surface};
-use edges::Boundary;
 use glam::DVec2;
 use net::Net;
+use shell::Shell;
 use std::path::Path;
 
 /// The application protocol of a file.
@@ -57,6 +60,8 @@ pub enum Form {
     Tensor,
     /// A T-spline as one face for each span of v, over the knots of four control curves: far fewer control points.
     Strips,
+    /// A PHT-spline as one face for each rectangle of cells of nearly equal size.
+    Patches,
 }
 
 /// What a file says beside the shape.
@@ -74,8 +79,10 @@ pub struct StepOptions<'a> {
     pub organization: &'a str,
     /// When, as `2026-01-31T12:00:00`; always the same by default, so that equal input gives equal bytes.
     pub timestamp: &'a str,
-    /// What is written of a T-spline.
+    /// What is written of a T-spline or PHT-spline.
     pub form: Form,
+    /// By how much the levels of cells in one face of [`Form::Patches`] may differ.
+    pub level_spread: u32,
     /// Most control points that [`Form::Tensor`] may take.
     pub max_coefficients: usize,
 }
@@ -90,6 +97,7 @@ impl Default for StepOptions<'_> {
             organization: "",
             timestamp: "1970-01-01T00:00:00",
             form: Form::default(),
+            level_spread: 1,
             max_coefficients: 4_000_000,
         }
     }
@@ -100,11 +108,11 @@ impl Default for StepOptions<'_> {
 pub struct StepReport {
     /// Faces.
     pub face_count: usize,
-    /// Control points of all faces.
+    /// Control points of the surfaces of all faces.
     pub pole_count: usize,
     /// Bounds of all faces, the outer ones included.
     pub loop_count: usize,
-    /// Edges of all bounds.
+    /// Edges; one between two faces counts once.
     pub edge_count: usize,
     /// Largest distance between a curve in space and the image of its p-curve, measured on the curves written.
     pub curve_deviation: f64,
@@ -173,9 +181,6 @@ pub enum StepError {
     /// The surface is no tensor surface of a size that is allowed.
     #[error(transparent)]
     Convert(#[from] ConvertError),
-    /// Trims would have to be cut along the strips.
-    #[error("a surface with trims is not written in strips")]
-    TrimmedStrips,
     /// A curve on the surface is none: numbers overflow.
     #[error("a curve on the surface cannot be computed: {0}")]
     Curve(#[from] CurveError),
@@ -188,7 +193,6 @@ impl StepError {
         match self {
             Self::Export(error) => error.kind(),
             Self::Convert(error) => error.kind(),
-            Self::TrimmedStrips => ErrorKind::InvalidArgument,
             Self::Crossing { .. } | Self::Pieces { .. } | Self::Torn { .. } => ErrorKind::Topology,
             _ => ErrorKind::Degenerate,
         }
@@ -217,60 +221,46 @@ pub fn write(surface: &AnySurface, options: &StepOptions, path: &Path) -> Result
 
 /// The content of a file.
 pub fn to_text(surface: &AnySurface, options: &StepOptions) -> Result<(String, StepReport), StepError> {
-    match (surface, options.form) {
-        (AnySurface::Tensor(tensor), _) => faces_to_text(&[tensor], options),
-        (AnySurface::TSpline(tspline), Form::Strips) => {
-            if !tspline.region().trims.is_empty() {
-                return Err(StepError::TrimmedStrips);
-            }
-            let strips = tspline.to_strips().map_err(ConvertError::from)?;
-            faces_to_text(&strips.iter().collect::<Vec<_>>(), options)
-        }
-        _ => faces_to_text(&[&surface.to_tensor(options.max_coefficients)?], options),
-    }
+    let parts = match (surface, options.form) {
+        (AnySurface::Tensor(tensor), _) => return shell_to_text(surface.as_surface(), &[tensor], options),
+        (AnySurface::TSpline(tspline), Form::Strips) => tspline.to_strips().map_err(ConvertError::from)?,
+        (AnySurface::Pht(pht), Form::Patches) => pht.to_tensor_patches(options.level_spread)?,
+        _ => vec![surface.to_tensor(options.max_coefficients)?],
+    };
+    shell_to_text(surface.as_surface(), &parts.iter().collect::<Vec<_>>(), options)
 }
 
-/// One face for each surface.
-fn faces_to_text(
-    surfaces: &[&TensorSurface],
+/// The faces that `parts`, which meet with equal parameters, have inside the trims of the `whole`.
+fn shell_to_text(
+    whole: &dyn Surface,
+    parts: &[&TensorSurface],
     options: &StepOptions,
 ) -> Result<(String, StepReport), StepError> {
-    let mut faces = Vec::with_capacity(surfaces.len());
-    let mut samples = Vec::new();
-    for &surface in surfaces {
-        if surface.dim() != 3 {
-            return Err(ExportError::Dimension { dim: surface.dim() }.into());
-        }
-        let loops = loops::bounds(surface)?;
-        samples.extend(self::samples(surface, &loops));
-        faces.push((Net::new(surface)?, loops));
+    if whole.dim() != 3 {
+        return Err(ExportError::Dimension { dim: whole.dim() }.into());
     }
-    let diagonal = Bounds::of_rows(&samples, 3).diagonal();
+    let loops = loops::bounds(whole)?;
+    let nets = parts.iter().map(|part| Net::new(part)).collect::<Result<Vec<_>, _>>()?;
+    let diagonal = Bounds::of_rows(&samples(whole, &loops), 3).diagonal();
     let tolerance = CURVE_TOLERANCE * diagonal;
     if !(diagonal.is_finite() && tolerance.is_normal()) {
         return Err(StepError::Size { diagonal });
     }
-    let bounded = surfaces
-        .iter()
-        .zip(faces)
-        .map(|(surface, (net, loops))| Ok((net, Boundary::new(surface, &loops, tolerance)?)));
-    let faces = bounded.collect::<Result<Vec<(Net, Boundary)>, StepError>>()?;
-    let boundaries = || faces.iter().map(|(_, boundary)| boundary);
-    let curve_deviation = boundaries().map(Boundary::deviation).fold(0.0, f64::max);
+    let shell = Shell::new(parts, &loops, tolerance)?;
     let report = StepReport {
-        face_count: faces.len(),
-        pole_count: faces.iter().map(|(net, _)| net.points.len()).sum(),
-        loop_count: boundaries().map(|boundary| boundary.loops.len()).sum(),
-        edge_count: boundaries().map(|boundary| boundary.edges().count()).sum(),
-        curve_deviation,
-        uncertainty: tolerance.max(UNCERTAINTY_MARGIN * curve_deviation),
+        face_count: shell.faces.len(),
+        pole_count: shell.surfaces().map(|surface| nets[surface].points.len()).sum(),
+        loop_count: shell.faces.iter().map(|face| face.bounds.len()).sum(),
+        edge_count: shell.edges.len(),
+        curve_deviation: shell.deviation,
+        uncertainty: tolerance.max(UNCERTAINTY_MARGIN * shell.deviation),
         diagonal,
     };
-    Ok((write::file(&faces, &report, options), report))
+    Ok((write::file(&nets, &shell, &report, options), report))
 }
 
 /// Points of the surface inside the trims and on them.
-fn samples(surface: &TensorSurface, loops: &[Vec<DVec2>]) -> Vec<f64> {
+fn samples(surface: &dyn Surface, loops: &[Vec<DVec2>]) -> Vec<f64> {
     const SAMPLES: usize = 33;
     let box_of_loops = Domain::around(loops.iter().flatten().copied());
     let trims = &surface.region().trims;

@@ -159,10 +159,10 @@ fn edges_close_and_lie_on_the_surface() {
     let holes = vec![rectangle(0.05, 0.95), circle([0.5, 0.5], 0.3, 300), circle([0.87, 0.87], 0.03, 3)];
     for surface in [trimmed(wave(), holes.clone()), trimmed(torus_piece(), holes)] {
         let loops = loops::bounds(&surface).unwrap();
-        let boundary = Boundary::new(&surface, &loops, 1e-7).unwrap();
+        let shell = Shell::new(&[&surface], &loops, 1e-7).unwrap();
         // corners of the rectangle and the triangle; a round hole has two edges
-        assert_eq!(boundary.loops.iter().map(Vec::len).collect::<Vec<_>>(), [4, 2, 3]);
-        for edge in boundary.edges() {
+        assert_eq!(shell.faces[0].bounds.iter().map(Vec::len).collect::<Vec<_>>(), [4, 2, 3]);
+        for edge in &shell.edges {
             assert_ne!(edge.start, edge.end);
             let (curve, pcurve) = (&edge.image.curve, &edge.image.pcurve);
             assert_eq!(curve.knots().domain(), pcurve.knots().domain());
@@ -283,5 +283,33 @@ fn a_t_spline_is_written_whole_or_in_strips() {
     let mut trimmed = fit.surface;
     let triangle = [(0.1, 0.1), (0.9, 0.1), (0.5, 0.8)].map(|(u, v)| DVec2::new(u, v)).to_vec();
     trimmed.region_mut().trims = Trims::new(vec![triangle], &trimmed.domain()).unwrap();
-    assert_eq!(to_text(&trimmed.into(), &strips).unwrap_err(), StepError::TrimmedStrips);
+    let (text, report) = to_text(&trimmed.into(), &strips).unwrap();
+    check_syntax(&text);
+    // three corners, and two more where each line of v between strips enters and leaves
+    assert_eq!(report.edge_count - report.face_count, 3 + 2 * (report.face_count - 1) - 1);
+}
+
+#[test]
+fn a_pht_spline_is_a_shell_of_patches() {
+    use crate::surface::pht::{Cell, ConvertOptions, PhtSurface};
+    let mut pht = PhtSurface::from_tensor(&wave(), &ConvertOptions::default()).unwrap();
+    pht.split(&[Cell { level: 0, i: 0, j: 0 }, Cell { level: 1, i: 1, j: 1 }]).unwrap();
+    let options = |level_spread| StepOptions { form: Form::Patches, level_spread, ..StepOptions::default() };
+    for loops in [Vec::new(), vec![rectangle(0.1, 0.9), circle([0.4, 0.5], 0.1, 40)]] {
+        pht.region_mut().trims = Trims::new(loops.clone(), &pht.domain()).unwrap();
+        let surface = AnySurface::from(pht.clone());
+        let holes = loops.len().saturating_sub(1);
+        for level_spread in [0, 1, 20] {
+            let (text, report) = to_text(&surface, &options(level_spread)).unwrap();
+            check_syntax(&text);
+            let counts = ["=ADVANCED_FACE(", "=EDGE_CURVE(", "=VERTEX_POINT(", "=EDGE_LOOP("]
+                .map(|name| text.matches(name).count());
+            let [faces, edges, vertices, bounds] = counts;
+            assert_eq!([faces, edges, bounds], [report.face_count, report.edge_count, report.loop_count]);
+            // a disk with holes
+            assert_eq!(vertices + 2 * faces, edges + bounds + 1 - holes);
+            assert_eq!(faces == 1, level_spread == 20);
+            assert!(report.curve_deviation <= 1e-7 * report.diagonal, "{report:?}");
+        }
+    }
 }

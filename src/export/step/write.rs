@@ -1,24 +1,20 @@
 //! The entities of a file: header, product, units, surface, edges, face.
 
-use super::edges::{Boundary, Edge};
 use super::net::Net;
 use super::part21::{Id, Part21, Real, Text, list};
+use super::shell::{Edge, Face, Shell};
 use super::{Schema, StepOptions, StepReport, Unit};
 use crate::curve::Curve;
 use glam::DVec3;
 
 /// The whole file.
-pub(super) fn file(faces: &[(Net, Boundary)], report: &StepReport, options: &StepOptions) -> String {
+pub(super) fn file(nets: &[Net], shell: &Shell, report: &StepReport, options: &StepOptions) -> String {
     let mut out = Part21::default();
     let definition = product(&mut out, options);
     let context = context(&mut out, options.unit, report.uncertainty);
     let placement = placement(&mut out);
-    let mut ids = Vec::with_capacity(faces.len());
-    for (net, boundary) in faces {
-        let surface = surface(&mut out, net);
-        ids.push(face(&mut out, surface, boundary));
-    }
-    let shell = out.add(format!("OPEN_SHELL('',{})", list(ids)));
+    let faces = faces(&mut out, nets, shell);
+    let shell = out.add(format!("OPEN_SHELL('',{})", list(faces)));
     let model = out.add(format!("SHELL_BASED_SURFACE_MODEL('',({shell}))"));
     let name = Text(options.product);
     let items = list([placement, model]);
@@ -135,17 +131,34 @@ fn surface(out: &mut Part21, net: &Net) -> Id {
     ))
 }
 
-fn face(out: &mut Part21, surface: Id, boundary: &Boundary) -> Id {
+/// Surfaces, vertices and edges once each, then the faces that refer to them.
+fn faces(out: &mut Part21, nets: &[Net], shell: &Shell) -> Vec<Id> {
     let plane = out.add(
         "(GEOMETRIC_REPRESENTATION_CONTEXT(2)PARAMETRIC_REPRESENTATION_CONTEXT()\
          REPRESENTATION_CONTEXT('','parameters'))",
     );
-    let vertices: Vec<Id> = boundary.vertices.iter().map(|&p| vertex(out, p)).collect();
-    let mut bounds = Vec::with_capacity(boundary.loops.len());
-    for (index, edges) in boundary.loops.iter().enumerate() {
-        let ids: Vec<Id> = edges.iter().map(|e| edge(out, surface, plane, &vertices, e)).collect();
-        let oriented: Vec<Id> =
-            ids.iter().map(|edge| out.add(format!("ORIENTED_EDGE('',*,*,{edge},.T.)"))).collect();
+    let mut surfaces = vec![None; nets.len()];
+    for face in &shell.faces {
+        surfaces[face.surface].get_or_insert_with(|| surface(out, &nets[face.surface]));
+    }
+    let vertices: Vec<Id> = shell.vertices.iter().map(|&p| vertex(out, p)).collect();
+    let mut edges = Vec::with_capacity(shell.edges.len());
+    for shared in &shell.edges {
+        let beside: Vec<Id> = shared.surfaces.iter().filter_map(|&k| surfaces[k]).collect();
+        edges.push(edge(out, &beside, plane, &vertices, shared));
+    }
+    let face_on = |face: &Face| Some(self::face(out, surfaces[face.surface]?, &edges, face));
+    shell.faces.iter().filter_map(face_on).collect()
+}
+
+fn face(out: &mut Part21, surface: Id, edges: &[Id], face: &Face) -> Id {
+    let mut bounds = Vec::with_capacity(face.bounds.len());
+    for (index, sides) in face.bounds.iter().enumerate() {
+        let oriented = sides.iter().map(|side| {
+            let sense = if side.is_forward { 'T' } else { 'F' };
+            out.add(format!("ORIENTED_EDGE('',*,*,{},.{sense}.)", edges[side.edge]))
+        });
+        let oriented: Vec<Id> = oriented.collect();
         let edge_loop = out.add(format!("EDGE_LOOP('',{})", list(oriented)));
         let kind = if index == 0 { "FACE_OUTER_BOUND" } else { "FACE_BOUND" };
         bounds.push(out.add(format!("{kind}('',{edge_loop},.T.)")));
@@ -158,14 +171,15 @@ fn vertex(out: &mut Part21, p: DVec3) -> Id {
     out.add(format!("VERTEX_POINT('',{point})"))
 }
 
-/// An edge with its curve in space and its p-curve, which is the one that was given.
-fn edge(out: &mut Part21, surface: Id, plane: Id, vertices: &[Id], edge: &Edge) -> Id {
+/// An edge with its curve in space and its p-curve on the surfaces beside it, which share their parameters.
+fn edge(out: &mut Part21, surfaces: &[Id], plane: Id, vertices: &[Id], edge: &Edge) -> Id {
     let in_space = curve(out, &edge.image.curve);
     let in_plane = curve(out, &edge.image.pcurve);
     let definition = out.add(format!("DEFINITIONAL_REPRESENTATION('',({in_plane}),{plane})"));
-    let pcurve = out.add(format!("PCURVE('',{surface},{definition})"));
-    let both = out.add(format!("SURFACE_CURVE('',{in_space},({pcurve}),.PCURVE_S1.)"));
-    out.add(format!("EDGE_CURVE('',{},{},{both},.T.)", vertices[edge.start], vertices[edge.end]))
+    let pcurves = surfaces.iter().map(|surface| out.add(format!("PCURVE('',{surface},{definition})")));
+    let pcurves = list(pcurves.collect::<Vec<_>>());
+    let all = out.add(format!("SURFACE_CURVE('',{in_space},{pcurves},.PCURVE_S1.)"));
+    out.add(format!("EDGE_CURVE('',{},{},{all},.T.)", vertices[edge.start], vertices[edge.end]))
 }
 
 fn curve(out: &mut Part21, curve: &Curve) -> Id {

@@ -55,13 +55,17 @@ impl PhtSurface {
     }
 
     /// The same surface in tensor patches that meet with equal parameters, each over cells whose levels differ
-    /// by at most `sigma`: the largest quadtree nodes that allow it, joined where whole sides meet. Trims stay
-    /// with the whole.
+    /// by at most `sigma`: the largest quadtree nodes that allow it, joined where whole sides meet. Each has its
+    /// part of the trims.
     pub fn to_tensor_patches(&self, sigma: u32) -> Result<Vec<TensorSurface>, ConvertError> {
         let blocks = blocks(&self.mesh, sigma);
         let leaves = self.leaves_by_block(&blocks);
-        let patches = blocks.iter().zip(leaves);
-        patches.map(|(block, leaves)| Ok(self.tensor_over(&self.lines(block, leaves))?)).collect()
+        let patch = |(block, leaves)| {
+            let mut patch = self.tensor_over(&self.lines(block, leaves))?;
+            *patch.region_mut() = self.region.restrict(&self.domain(), &patch.domain());
+            Ok(patch)
+        };
+        blocks.iter().zip(leaves).map(patch).collect()
     }
 
     fn leaves_by_block(&self, blocks: &[Block]) -> Vec<Vec<usize>> {

@@ -120,8 +120,8 @@ impl TSplineSurface {
         self.knots_v.spans().map(count).sum()
     }
 
-    /// The same surface as tensor surfaces over the single spans of v, each over the knots of its four curves only.
-    /// They know nothing of the trims.
+    /// The same surface as tensor surfaces over the single spans of v, each over the knots of its four curves only,
+    /// each with its part of the trims.
     pub fn to_strips(&self) -> Result<Vec<TensorSurface>, TSplineError> {
         self.knots_v.spans().map(|span| self.strip(span)).collect()
     }
@@ -141,7 +141,9 @@ impl TSplineSurface {
             .collect();
         let knots_v = KnotVector::clamped(&self.knots_v.knots()[span..=span + 1], DEGREE)?;
         let lines: Vec<&[f64]> = lines.iter().map(Vec::as_slice).collect();
-        tensor_of(curves[0].knots().clone(), knots_v, &lines, self.dim())
+        let mut strip = tensor_of(curves[0].knots().clone(), knots_v, &lines, self.dim())?;
+        *strip.region_mut() = self.region.restrict(&self.domain(), &strip.domain());
+        Ok(strip)
     }
 }
 
