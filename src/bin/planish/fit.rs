@@ -5,7 +5,7 @@ use crate::{Failure, Outcome};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use planish::Control;
-use planish::export::step::{StepOptions, Unit};
+use planish::export::step::{Form, StepOptions, Unit};
 use planish::fit::pht::{self, PhtOptions};
 use planish::fit::report::{FitReport, Remarks, StopReason, Tolerance, ToleranceScale};
 use planish::fit::tessellation::{self, Ends, FitError, Method, Regularize, TensorOptions};
@@ -36,6 +36,12 @@ pub struct FitArguments {
     /// What one model unit is, for STEP files.
     #[arg(long, value_enum, default_value_t = UnitName::Mm)]
     unit: UnitName,
+    /// What STEP files hold of a PHT-spline.
+    #[arg(long, value_enum, default_value_t = FormName::Tensor)]
+    step_form: FormName,
+    /// Most levels that cells in one face of --step-form patches differ by: more gives fewer faces.
+    #[arg(long, default_value_t = 1, value_name = "N")]
+    level_spread: u32,
     /// Name of the product in STEP files; that of the mesh file if it is left out.
     #[arg(long, value_name = "NAME")]
     product: Option<String>,
@@ -97,6 +103,14 @@ enum FamilyName {
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
+enum FormName {
+    /// One face over the lines of all cells.
+    Tensor,
+    /// A shell of faces that share edges, each over cells of nearly equal size: far fewer control points.
+    Patches,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
 enum UnitName {
     Mm,
     M,
@@ -120,6 +134,11 @@ pub fn run(arguments: &FitArguments) -> Result<Outcome, Failure> {
             UnitName::Inch => Unit::Inch,
         },
         product: arguments.product.as_deref().unwrap_or(&stem),
+        form: match arguments.step_form {
+            FormName::Tensor => Form::Tensor,
+            FormName::Patches => Form::Patches,
+        },
+        level_spread: arguments.level_spread,
         ..StepOptions::default()
     };
     for path in &arguments.out {
