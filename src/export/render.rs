@@ -1,4 +1,5 @@
-//! Pictures of surfaces in space: shaded or coloured by deviation, with knot lines, trims and control net.
+//! Pictures of surfaces in space: shaded or coloured by deviation, with knot lines, trims and control net; or of
+//! their parameter planes.
 
 use super::picture::{Picture, View};
 use super::vtk::on_surface;
@@ -21,7 +22,9 @@ pub struct RenderOptions<'a> {
     pub view: Option<View>,
     /// A mesh to compare with: its triangles are drawn on the surface, coloured by the distance of their nodes.
     pub deviation_from: Option<&'a Mesh>,
-    /// Whether the borders of the patches are drawn: knot lines, or the edges of a T-mesh.
+    /// Whether the parameter plane is drawn instead of the surface, stretched to a square, without control net.
+    pub plane: bool,
+    /// Whether knot lines are drawn, or the edges of a T-mesh.
     pub knot_lines: bool,
     /// Whether the trims are drawn.
     pub trims: bool,
@@ -36,6 +39,7 @@ impl Default for RenderOptions<'_> {
             height: 900,
             view: None,
             deviation_from: None,
+            plane: false,
             knot_lines: false,
             trims: false,
             control_net: false,
@@ -52,18 +56,20 @@ const PIECES: usize = 32;
 
 /// Draws the part of a surface inside its trims.
 pub fn render(surface: &dyn Surface, options: &RenderOptions, pool: &Pool) -> Result<Picture, Error> {
-    let (mesh, distances) = shape(surface, options.deviation_from, pool)?;
-    let view = options.view.unwrap_or_else(|| View::facing(&mesh));
+    let scene = Scene { surface, is_plane: options.plane };
+    let (mesh, distances) = scene.shape(options.deviation_from, pool)?;
+    let front = || if options.plane { View::from([0.0, 0.0, 1.0]) } else { View::facing(&mesh) };
+    let view = options.view.unwrap_or_else(front);
     let mut picture = Picture::new(options.width, options.height, &view, &mesh);
     let range = (0.0, distances.iter().flatten().copied().fold(0.0, f64::max));
     picture.draw_mesh(&mesh, distances.as_deref(), range);
     if options.knot_lines {
-        draw_knot_lines(surface, &mut picture);
+        surface.knot_lines().into_iter().for_each(|[from, to]| scene.draw_side(from, to, &mut picture));
     }
     if options.trims {
-        draw_trims(surface, &mut picture);
+        scene.draw_trims(&mut picture);
     }
-    if options.control_net {
+    if options.control_net && !options.plane {
         draw_control_net(surface, &mut picture);
     }
     if distances.is_some() {
@@ -72,55 +78,57 @@ pub fn render(surface: &dyn Surface, options: &RenderOptions, pool: &Pool) -> Re
     Ok(picture)
 }
 
-/// The triangles to draw, and the distances at their nodes.
-fn shape(
-    surface: &dyn Surface,
-    deviation_from: Option<&Mesh>,
-    pool: &Pool,
-) -> Result<(Mesh, Option<Vec<f64>>), Error> {
-    let Some(mesh) = deviation_from else {
-        return Ok((tessellate(surface, &TessellateOptions::default())?.mesh, None));
-    };
-    let report = deviation(surface, mesh, &DeviationOptions::default(), pool)?;
-    Ok((on_surface(surface, mesh, &report.uv)?, Some(report.nodes.each)))
+/// A surface where it lies, or its parameter plane.
+struct Scene<'a> {
+    surface: &'a dyn Surface,
+    is_plane: bool,
 }
 
-/// The lower sides of all patches, and the upper ones at the end of the domain.
-fn draw_knot_lines(surface: &dyn Surface, picture: &mut Picture) {
-    let Some(patches) = surface.patches() else {
-        return;
-    };
-    let end = surface.domain().max;
-    for index in 0..patches.patch_count() {
-        let part = patches.patch(index).domain;
-        let (lower_right, upper_left) =
-            (DVec2::new(part.max.x, part.min.y), DVec2::new(part.min.x, part.max.y));
-        draw_side(surface, part.min, lower_right, picture);
-        draw_side(surface, part.min, upper_left, picture);
-        if part.max.x == end.x {
-            draw_side(surface, lower_right, part.max, picture);
-        }
-        if part.max.y == end.y {
-            draw_side(surface, upper_left, part.max, picture);
+impl Scene<'_> {
+    /// The triangles to draw, and the distances at their nodes.
+    fn shape(&self, deviation_from: Option<&Mesh>, pool: &Pool) -> Result<(Mesh, Option<Vec<f64>>), Error> {
+        let (mesh, distances) = match deviation_from {
+            None => (tessellate(self.surface, &TessellateOptions::default())?.mesh, None),
+            Some(mesh) => {
+                let report = deviation(self.surface, mesh, &DeviationOptions::default(), pool)?;
+                (on_surface(self.surface, mesh, &report.uv)?, Some(report.nodes.each))
+            }
+        };
+        match mesh.parameters() {
+            Some(uv) if self.is_plane => {
+                Ok((Mesh::new(self.places(uv), mesh.triangles().to_vec())?, distances))
+            }
+            _ => Ok((mesh, distances)),
         }
     }
-}
 
-/// The part of a straight line between parameters that lies inside the trims.
-fn draw_side(surface: &dyn Surface, from: DVec2, to: DVec2, picture: &mut Picture) {
-    let uv: Vec<DVec2> = (0..=PIECES).map(|k| from.lerp(to, k as f64 / PIECES as f64)).collect();
-    let points = places(surface, &uv);
-    let trims = &surface.region().trims;
-    for (uv, points) in uv.windows(2).zip(points.windows(2)) {
-        if trims.contains(uv[0].midpoint(uv[1])) {
-            picture.draw_line(points, KNOT_INK);
+    /// Where parameters are drawn.
+    fn places(&self, uv: &[DVec2]) -> Vec<DVec3> {
+        if self.is_plane {
+            let domain = self.surface.domain();
+            return uv.iter().map(|&uv| ((uv - domain.min) / domain.size()).extend(0.0)).collect();
+        }
+        let mut rows = vec![0.0; 3 * uv.len()];
+        self.surface.eval_rows(uv, 0, &mut rows);
+        rows.chunks_exact(3).map(DVec3::from_slice).collect()
+    }
+
+    /// The part of a straight line between parameters that lies inside the trims.
+    fn draw_side(&self, from: DVec2, to: DVec2, picture: &mut Picture) {
+        let uv: Vec<DVec2> = (0..=PIECES).map(|k| from.lerp(to, k as f64 / PIECES as f64)).collect();
+        let points = self.places(&uv);
+        let trims = &self.surface.region().trims;
+        for (uv, points) in uv.windows(2).zip(points.windows(2)) {
+            if trims.contains(uv[0].midpoint(uv[1])) {
+                picture.draw_line(points, KNOT_INK);
+            }
         }
     }
-}
 
-fn draw_trims(surface: &dyn Surface, picture: &mut Picture) {
-    for (from, to) in surface.region().trims.segments() {
-        picture.draw_line(&places(surface, &[from, from.midpoint(to), to]), TRIM_INK);
+    fn draw_trims(&self, picture: &mut Picture) {
+        for (from, to) in self.surface.region().trims.segments() {
+            picture.draw_line(&self.places(&[from, from.midpoint(to), to]), TRIM_INK);
+        }
     }
 }
 
@@ -133,12 +141,6 @@ fn draw_control_net(surface: &dyn Surface, picture: &mut Picture) {
         picture.draw_line(&points, NET_INK);
     }
     net.points.iter().for_each(|&point| picture.draw_dot(point, NET_INK));
-}
-
-fn places(surface: &dyn Surface, uv: &[DVec2]) -> Vec<DVec3> {
-    let mut rows = vec![0.0; 3 * uv.len()];
-    surface.eval_rows(uv, 0, &mut rows);
-    rows.chunks_exact(3).map(DVec3::from_slice).collect()
 }
 
 #[cfg(test)]
@@ -167,6 +169,7 @@ mod tests {
             (RenderOptions { trims: true, ..small }, TRIM_INK),
             (RenderOptions { control_net: true, ..small }, NET_INK),
             (RenderOptions { knot_lines: true, ..small }, KNOT_INK),
+            (RenderOptions { plane: true, knot_lines: true, ..small }, KNOT_INK),
         ] {
             assert!(count(&draw(&options), ink) > count(&plain, ink) + 100, "{options:?}");
         }

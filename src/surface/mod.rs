@@ -83,6 +83,12 @@ pub trait Surface: Send + Sync {
         None
     }
 
+    /// The images of knots in the parameter plane, as straight lines: knot lines, or the edges of a T-mesh. None
+    /// for a family without knots in (u,v).
+    fn knot_lines(&self) -> Vec<[DVec2; 2]> {
+        self.patches().map_or_else(Vec::new, |patches| sides(patches, self.domain().max))
+    }
+
     /// Values at all pairs of `u` and `v`, `v` running fastest.
     fn eval_grid(&self, u: &[f64], v: &[f64], out: &mut [f64]) {
         eval_grid_by_rows(self, u, v, out);
@@ -112,6 +118,23 @@ pub trait Patches: Send + Sync {
     /// The patch over a parameter pair, in constant or logarithmic time; beyond the domain the one whose
     /// polynomial is continued there.
     fn patch_at(&self, uv: DVec2) -> usize;
+}
+
+/// The lower sides of all patches, and the upper ones at the end of the domain.
+fn sides(patches: &dyn Patches, end: DVec2) -> Vec<[DVec2; 2]> {
+    let mut sides = Vec::with_capacity(2 * patches.patch_count());
+    for index in 0..patches.patch_count() {
+        let Domain { min, max } = patches.patch(index).domain;
+        let (lower_right, upper_left) = (DVec2::new(max.x, min.y), DVec2::new(min.x, max.y));
+        sides.extend([[min, lower_right], [min, upper_left]]);
+        if max.x == end.x {
+            sides.push([lower_right, max]);
+        }
+        if max.y == end.y {
+            sides.push([upper_left, max]);
+        }
+    }
+    sides
 }
 
 /// [`Surface::eval_grid`] for families without a faster way: row by row.

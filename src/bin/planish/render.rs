@@ -20,6 +20,9 @@ pub struct RenderArguments {
     /// Colour the surface by its distance to the nodes of this mesh (OFF, OBJ, PLY, STL).
     #[arg(long, value_name = "MESH")]
     deviation: Option<PathBuf>,
+    /// Draw the parameter plane instead of the surface.
+    #[arg(long)]
+    plane: bool,
     /// Draw the knot lines.
     #[arg(long)]
     knots: bool,
@@ -49,6 +52,7 @@ pub fn run(arguments: &RenderArguments) -> Result<Outcome, Failure> {
         height,
         view: arguments.from.as_deref().map(view).transpose()?,
         deviation_from: mesh.as_ref(),
+        plane: arguments.plane,
         knot_lines: arguments.knots,
         trims: arguments.trims,
         control_net: arguments.net,

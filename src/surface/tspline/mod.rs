@@ -192,6 +192,21 @@ impl Surface for TSplineSurface {
         Some(self)
     }
 
+    /// The knots along v, and the knots of each control curve half way to its neighbours.
+    fn knot_lines(&self) -> Vec<[DVec2; 2]> {
+        let Domain { min, max } = self.domain();
+        let across = |v: f64| [DVec2::new(min.x, v), DVec2::new(max.x, v)];
+        let mut lines: Vec<[DVec2; 2]> = self.knots_v.breaks().into_iter().map(across).collect();
+        let places: Vec<f64> = (0..self.curves.len()).map(|curve| self.knots_v.greville(curve)).collect();
+        for (k, curve) in self.curves.iter().enumerate() {
+            let from = k.checked_sub(1).map_or(min.y, |before| places[before].midpoint(places[k]));
+            let to = places.get(k + 1).map_or(max.y, |&after| places[k].midpoint(after));
+            let knots = curve.knots().breaks();
+            lines.extend(knots.into_iter().map(|u| [DVec2::new(u, from), DVec2::new(u, to)]));
+        }
+        lines
+    }
+
     /// The control points of each control curve are a line; those of neighbours are not opposite to one another.
     fn control_net(&self) -> Option<ControlNet> {
         if self.dim() != 3 {
