@@ -11,7 +11,7 @@ use planish::fit::report::Tolerance;
 use planish::fit::tessellation::{self, TensorOptions};
 use planish::mesh::{MeshOptions, read};
 use planish::query::project::{ProjectOptions, Projector};
-use planish::samples::Random;
+use planish::samples::{Random, ridged_surface};
 use planish::surface::pht::{ConvertOptions, PhtSurface, TMesh};
 use planish::surface::tensor::TensorSurface;
 use planish::surface::{Patches, Surface, derivative_rows};
@@ -252,28 +252,14 @@ fn one(file: &str, value: f64, held: Option<&&str>) {
     }
 }
 
-/// Scattered samples of a smooth warp with two ridges and twelve bumps over the unit square.
+/// Scattered samples of the ridged sheet.
 fn ridges(count: usize) -> (Vec<DVec2>, Vec<f64>) {
-    use std::f64::consts::PI;
     let mut random = Random::new(7);
-    let mut between = |from: f64, to: f64| from + (to - from) * random.unit();
-    let bumps: Vec<[f64; 4]> = (0..12)
-        .map(|_| [between(0.05, 0.95), between(0.05, 0.95), between(0.008, 0.03), between(-0.06, 0.06)])
-        .collect();
-    let surface = |u: f64, v: f64| {
-        let wave = 0.15 * (2.0 * PI * u).sin() * (1.5 * PI * v).cos() + 0.10 * u * v;
-        let ridge = 0.10 / ((v - (0.30 + 0.15 * (2.5 * u).sin())) / 0.02).cosh();
-        let step = 0.06 * ((u - (0.65 + 0.10 * v * v)) / 0.015).tanh();
-        let slant = 0.08 * (3.0 * PI * (u - 0.3 * v)).cos();
-        let hill = |[a, b, s, h]: &[f64; 4]| h * (-((u - a).powi(2) + (v - b).powi(2)) / (2.0 * s * s)).exp();
-        let x = u + 0.16 * (2.0 * PI * v).sin() * u * (1.0 - u);
-        let y = v + 0.04 * (2.0 * PI * u).sin();
-        [x, y, wave + slant + ridge + step + bumps.iter().map(hill).sum::<f64>()]
-    };
+    let surface = ridged_surface(&mut random);
     let corners = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)].map(|(u, v)| DVec2::new(u, v));
     let inner = (4..count).map(|_| DVec2::new(random.unit(), random.unit()));
     let uv: Vec<DVec2> = corners.into_iter().chain(inner).collect();
-    let values = uv.iter().flat_map(|uv| surface(uv.x, uv.y)).collect();
+    let values = uv.iter().flat_map(|&uv| surface(uv).to_array()).collect();
     (uv, values)
 }
 

@@ -287,6 +287,31 @@ pub fn bumps(
     Ok((mesh, height))
 }
 
+/// A smooth warp of the unit square with two ridges and twelve bumps, about a hundred times narrower than it.
+pub fn ridged_surface(random: &mut Random) -> impl Fn(DVec2) -> DVec3 + use<> {
+    let mut between = |from: f64, to: f64| from + (to - from) * random.unit();
+    let bumps: Vec<[f64; 4]> = (0..12)
+        .map(|_| [between(0.05, 0.95), between(0.05, 0.95), between(0.008, 0.03), between(-0.06, 0.06)])
+        .collect();
+    move |uv| {
+        let [u, v] = uv.to_array();
+        let wave = 0.15 * (2.0 * PI * u).sin() * (1.5 * PI * v).cos() + 0.10 * u * v;
+        let ridge = 0.10 / ((v - (0.30 + 0.15 * (2.5 * u).sin())) / 0.02).cosh();
+        let step = 0.06 * ((u - (0.65 + 0.10 * v * v)) / 0.015).tanh();
+        let slant = 0.08 * (3.0 * PI * (u - 0.3 * v)).cos();
+        let hill = |[a, b, s, h]: &[f64; 4]| h * (-((u - a).powi(2) + (v - b).powi(2)) / (2.0 * s * s)).exp();
+        let x = u + 0.16 * (2.0 * PI * v).sin() * u * (1.0 - u);
+        let y = v + 0.04 * (2.0 * PI * u).sin();
+        DVec3::new(x, y, wave + slant + ridge + step + bumps.iter().map(hill).sum::<f64>())
+    }
+}
+
+/// A mesh of [`ridged_surface`] with parameters, 40,000 nodes.
+pub fn ridged_sheet(seed: u64) -> Result<Mesh, MeshError> {
+    let surface = ridged_surface(&mut Random::new(seed));
+    mesh_over(grid([200, 200], 0.3, seed, |_| true), |uv| (surface(uv), uv))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -300,6 +325,7 @@ mod tests {
             (wing(), 1, 5500..6000),
             (sphere_with_holes(5000, 5), 3, 5000..5500),
             (fuselage_panel(1), 3, 5000..6600),
+            (ridged_sheet(1), 0, 40_000..40_001),
         ] {
             let mesh = mesh.unwrap();
             assert_eq!(mesh.loops().len(), holes + 1);

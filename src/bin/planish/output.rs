@@ -129,3 +129,9 @@ pub fn write_png(picture: &Picture, path: &Path) -> Result<(), Failure> {
     writer.write_image_data(&pixels).map_err(|error| fail(&error))?;
     writer.finish().map_err(|error| fail(&error))
 }
+
+/// Writes a text.
+pub fn write_text(text: &str, path: &Path) -> Result<(), Failure> {
+    std::fs::write(path, text)
+        .map_err(|reason| Failure::new(format!("cannot write {}: {reason}", path.display())))
+}

@@ -1,17 +1,19 @@
 //! `planish sample`.
 
+use crate::output::write_text;
 use crate::{Failure, Outcome};
 use clap::{Args, ValueEnum};
 use planish::export::obj;
-use planish::samples;
-use std::path::PathBuf;
+use planish::samples::{self, rows::RowSet};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub struct SampleArguments {
     /// Which shape.
     #[arg(value_enum)]
     shape: Shape,
-    /// Where to write it (.obj).
+    /// Where to write it: .obj for a mesh, .txt for rows.
     out: PathBuf,
     /// Seed of the jitter.
     #[arg(long, default_value_t = 1)]
@@ -32,6 +34,14 @@ enum Shape {
     CurvedNotch,
     /// A plane with a notch and two holes.
     Planar,
+    /// A warped sheet with two narrow ridges and twelve bumps.
+    RidgedSheet,
+    /// Rows of points round a dustpan.
+    DustpanRows,
+    /// Rows of points along waves of unlike length.
+    WaveRows,
+    /// Rows of points round a head, closed.
+    HeadRows,
 }
 
 pub fn run(arguments: &SampleArguments) -> Result<Outcome, Failure> {
@@ -43,7 +53,27 @@ pub fn run(arguments: &SampleArguments) -> Result<Outcome, Failure> {
         Shape::Sphere => samples::sphere_with_holes(5000, seed),
         Shape::CurvedNotch => samples::curved_notch(seed),
         Shape::Planar => samples::planar(seed),
+        Shape::RidgedSheet => samples::ridged_sheet(seed),
+        Shape::DustpanRows => return write_rows(&samples::rows::dustpan(), false, &arguments.out),
+        Shape::WaveRows => return write_rows(&samples::rows::wave(), false, &arguments.out),
+        Shape::HeadRows => return write_rows(&samples::rows::head(), true, &arguments.out),
     }?;
     obj::write(&mesh, &arguments.out)?;
+    Ok(Outcome::Done)
+}
+
+/// Writes rows for `planish skin`; the first point of a closed row, which the samples repeat, stands there once.
+fn write_rows(rows: &RowSet, is_closed: bool, path: &Path) -> Result<Outcome, Failure> {
+    let mut text = format!("rows {}\n", rows.counts.len());
+    for index in 0..rows.counts.len() {
+        let count = rows.counts[index] - usize::from(is_closed);
+        let flag = if is_closed { " closed" } else { "" };
+        // writing into a string cannot fail
+        let _ = writeln!(text, "row {index} {count}{flag}");
+        for point in rows.row(index).chunks_exact(3).take(count) {
+            let _ = writeln!(text, "{} {} {}", point[0], point[1], point[2]);
+        }
+    }
+    write_text(&text, path)?;
     Ok(Outcome::Done)
 }
