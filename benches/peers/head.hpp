@@ -1,4 +1,5 @@
-// The rows of samples::rows::head(), computed anew: sections of a head with nose, ears, eyes, mouth, chin and some hair.
+// The rows of samples::rows::head(), computed anew: sections of a head with nose, ears, eyes, mouth, chin and some
+// hair.
 #ifndef PLANISH_PEERS_HEAD_HPP
 #define PLANISH_PEERS_HEAD_HPP
 
@@ -112,7 +113,8 @@ inline void append_row(double height, std::size_t count, std::vector<double> &po
     const auto next = std::upper_bound(along.begin() + 1, along.end() - 1, s);
     const auto k = static_cast<std::size_t>(next - along.begin());
     const double share = (s - along[k - 1]) / (along[k] - along[k - 1]);
-    points.insert(points.end(), {x[k - 1] + share * (x[k] - x[k - 1]), y[k - 1] + share * (y[k] - y[k - 1]), 2.4 * height});
+    points.insert(points.end(),
+                  {x[k - 1] + share * (x[k] - x[k - 1]), y[k - 1] + share * (y[k] - y[k - 1]), 2.4 * height});
   }
 }
 
