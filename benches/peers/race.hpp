@@ -49,6 +49,27 @@ inline void print(const std::string &what, const std::vector<Contender> &contend
   std::fflush(stdout);
 }
 
+// Seconds that a run takes, as text: median, least and largest, or those of its only run if they are more than one.
+inline std::string seconds(const std::function<void()> &run) {
+  char text[64];
+  const double begin = cpu_seconds();
+  run();
+  const double first = cpu_seconds() - begin;
+  if (first >= 1) {
+    std::snprintf(text, sizeof text, "%.3g", first);
+    return text;
+  }
+  std::array<double, runs> taken;
+  for (double &each : taken) {
+    const double start = cpu_seconds();
+    run();
+    each = cpu_seconds() - start;
+  }
+  std::sort(taken.begin(), taken.end());
+  std::snprintf(text, sizeof text, "%.3g (%.3g to %.3g)", taken[runs / 2], taken.front(), taken.back());
+  return text;
+}
+
 // The largest difference of two arrays over the largest number of the first.
 inline double difference(const std::vector<double> &ours, const std::vector<double> &theirs) {
   double largest = 0, apart = 0;
