@@ -33,6 +33,7 @@ mod surface;
 mod tensor;
 #[cfg(test)]
 mod tests;
+mod transfer;
 mod tspline;
 
 pub use curve::*;
@@ -51,4 +52,5 @@ pub use status::*;
 pub use step::*;
 pub use surface::*;
 pub use tensor::*;
+pub use transfer::*;
 pub use tspline::*;

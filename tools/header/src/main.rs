@@ -16,6 +16,7 @@ const SOURCES: &[&str] = &[
     "patch.rs",
     "tensor.rs",
     "field.rs",
+    "transfer.rs",
     "query.rs",
     "rows.rs",
     "export.rs",
