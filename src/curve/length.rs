@@ -163,7 +163,8 @@ mod tests {
     #[test]
     fn a_point_has_no_length_and_places_outside_are_refused() {
         let point = bezier(1, &[2.0, 2.0, 2.0]);
-        assert_eq!(point.length(), 0.0);
+        // slopes that vanish but for the roundoff of a coordinate of 2
+        assert!(point.length() <= 16.0 * f64::EPSILON);
         assert_eq!(point.lengths_to(&[0.5, 2.0]), Err(CurveError::Outside { index: 1, u: 2.0 }));
     }
 }

@@ -15,6 +15,7 @@
 #[macro_use]
 mod arguments;
 mod curve;
+mod curve_query;
 mod export;
 mod field;
 mod guard;
@@ -37,6 +38,7 @@ mod transfer;
 mod tspline;
 
 pub use curve::*;
+pub use curve_query::*;
 pub use export::*;
 pub use field::*;
 pub use mesh::*;

@@ -22,6 +22,7 @@ const SOURCES: &[&str] = &[
     "export.rs",
     "step.rs",
     "curve.rs",
+    "curve_query.rs",
     "tspline.rs",
     "pht.rs",
     "pht_parts.rs",
