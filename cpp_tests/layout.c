@@ -316,3 +316,44 @@ FOLLOWS(planish_field_options, energy, grid_u);
 FOLLOWS(planish_field_options, grid_u, grid_v);
 FOLLOWS(planish_field_options, grid_v, thread_count);
 LAST(planish_field_options, thread_count);
+
+FIRST(planish_transfer_options);
+FOLLOWS(planish_transfer_options, struct_size, field);
+FOLLOWS(planish_transfer_options, field, max_distance);
+FOLLOWS(planish_transfer_options, max_distance, distance_scale);
+FOLLOWS(planish_transfer_options, distance_scale, far_rule);
+LAST(planish_transfer_options, far_rule);
+
+FIRST(planish_transfer_report);
+FOLLOWS(planish_transfer_report, struct_size, max_distance);
+FOLLOWS(planish_transfer_report, max_distance, rms_distance);
+FOLLOWS(planish_transfer_report, rms_distance, limit);
+FOLLOWS(planish_transfer_report, limit, max_shape_error);
+FOLLOWS(planish_transfer_report, max_shape_error, rms_shape_error);
+FOLLOWS(planish_transfer_report, rms_shape_error, seconds);
+FOLLOWS(planish_transfer_report, seconds, farthest_index);
+FOLLOWS(planish_transfer_report, farthest_index, far_count);
+FOLLOWS(planish_transfer_report, far_count, grid_u);
+FOLLOWS(planish_transfer_report, grid_u, grid_v);
+FOLLOWS(planish_transfer_report, grid_v, coefficient_count);
+FOLLOWS(planish_transfer_report, coefficient_count, remarks);
+LAST(planish_transfer_report, remarks);
+
+FIRST(planish_balance_report);
+FOLLOWS(planish_balance_report, struct_size, force_given);
+FOLLOWS(planish_balance_report, force_given, force_arrived);
+FOLLOWS(planish_balance_report, force_arrived, force_error);
+FOLLOWS(planish_balance_report, force_error, moment_given);
+FOLLOWS(planish_balance_report, moment_given, moment_arrived);
+FOLLOWS(planish_balance_report, moment_arrived, moment_error);
+FOLLOWS(planish_balance_report, moment_error, moment_bound);
+FOLLOWS(planish_balance_report, moment_bound, work_given);
+FOLLOWS(planish_balance_report, work_given, work_arrived);
+FOLLOWS(planish_balance_report, work_arrived, work_error);
+LAST(planish_balance_report, work_error);
+
+FIRST(planish_interpolate_options);
+FOLLOWS(planish_interpolate_options, struct_size, end_slopes);
+FOLLOWS(planish_interpolate_options, end_slopes, ends);
+FOLLOWS(planish_interpolate_options, ends, reserved);
+LAST(planish_interpolate_options, reserved);

@@ -1,4 +1,5 @@
-// planish_field_fitter from outside: fields fitted again and again, sums of surfaces, gradients.
+// planish_field_fitter and planish_transfer from outside: fields fitted again and again, sums of surfaces, gradients,
+// values and forces between meshes.
 #include "planish.hpp"
 
 #include "check.hpp"
@@ -95,6 +96,50 @@ TEST(FieldGradient, OfThePlaceIsTheProjection) {
   }
   CHECK(status_of([&] { planish::field_gradient(shape, shape, std::vector<planish::point2>{{9, 9}}); }) ==
         PLANISH_STATUS_OUTSIDE);
+}
+
+TEST(Transfer, CarriesValuesThereAndForcesBack) {
+  const shapes::arrays fine = shapes::graph(37, 31, 0.2, 4);
+  const planish::mesh source = sheet(), target(fine.points, fine.triangles);
+  auto field = planish::defaults<planish_field_options>();
+  field.grid_u = field.grid_v = 13;
+  auto options = planish::defaults<planish_transfer_options>();
+  options.field = &field;
+  const planish::transfer transfer(source, target.points(), options);
+  CHECK_EQUAL(transfer.source_count(), source.point_count());
+  CHECK_EQUAL(transfer.target_count(), target.point_count());
+  CHECK_EQUAL(transfer.distances()[transfer.report().farthest_index], transfer.report().max_distance);
+  CHECK_EQUAL(transfer.parameters().size(), target.point_count());
+  const std::vector<double> constants(source.point_count(), 3.0);
+  for (double x : transfer.apply(constants, 1)) CHECK_NEAR(x, 3.0, 1e-14);
+  std::vector<double> forces;
+  for (const auto &p : target.points()) forces.insert(forces.end(), {p[0] - 2, p[1], 1});
+  const std::vector<double> back = transfer.apply_transpose(forces, 3);
+  for (int k = 0; k < 3; ++k) {
+    double given = 0, arrived = 0;
+    for (std::size_t i = k; i < forces.size(); i += 3) given += forces[i];
+    for (std::size_t i = k; i < back.size(); i += 3) arrived += back[i];
+    CHECK_NEAR(arrived, given, 1e-12 * 3 * static_cast<double>(target.point_count()));
+  }
+  const planish_balance_report balance = transfer.balance(source.points(), forces, {1, 2, 3});
+  CHECK(balance.force_error <= 1e-12 && balance.work_error <= 1e-12);
+  CHECK(balance.moment_error <= balance.moment_bound + 1e-9);
+}
+
+TEST(Transfer, RefusesByName) {
+  const planish::mesh source = sheet();
+  std::vector<planish::point3> targets = source.points();
+  const planish::transfer transfer(source, targets);
+  CHECK(status_of([&] { transfer.apply(std::vector<double>(7), 1); }) == PLANISH_STATUS_INVALID_ARGUMENT);
+  targets[9][2] += 5;
+  CHECK(status_of([&] { planish::transfer(source, targets); }) == PLANISH_STATUS_OUTSIDE);
+  CHECK_EQUAL(planish_error_index(), 9);
+  auto options = planish::defaults<planish_transfer_options>();
+  options.far_rule = PLANISH_FAR_RULE_KEEP;
+  CHECK_EQUAL(planish::transfer(source, targets, options).report().far_count, 1u);
+  targets[3][0] = std::nan("");
+  CHECK(status_of([&] { planish::transfer(source, targets, options); }) == PLANISH_STATUS_NOT_FINITE);
+  CHECK_EQUAL(planish_error_index(), 3);
 }
 
 int main() { return check::run(); }

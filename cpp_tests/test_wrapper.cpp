@@ -368,4 +368,27 @@ TEST(WrapperProgress, LeavesACCallbackInTheOptions) {
   CHECK(calls > 0);
 }
 
+TEST(Curve, IsInterpolatedMeasuredAndSaved) {
+  std::vector<double> angles, points;
+  for (int k = 0; k <= 16; ++k) {
+    angles.push_back(k / 16.0);
+    points.insert(points.end(), {std::cos(angles.back()), std::sin(angles.back())});
+  }
+  const planish::curve arc = planish::curve_interpolate(angles, points, 2);
+  CHECK_NEAR(arc.length(), 1, 1e-4);
+  const std::vector<double> lengths = arc.arc_lengths(std::vector<double>{0, 0.25, 1});
+  CHECK_EQUAL(lengths[0], 0.0);
+  CHECK_NEAR(lengths[1], 0.25, 1e-4);
+  CHECK_EQUAL(lengths[2], arc.length());
+  const planish::curve::feet feet = arc.project(std::vector<double>{2 * std::cos(0.3), 2 * std::sin(0.3), 9, 0});
+  CHECK_NEAR(feet.u[0], 0.3, 1e-4);
+  CHECK_NEAR(feet.distances[0], 1, 1e-4);
+  CHECK_NEAR(feet.distances[1], 8, 1e-12);
+  CHECK(planish::curve::load(arc.save()).control_points() == arc.control_points());
+  const std::string path = "curve.planish";
+  arc.save_file(path);
+  CHECK(planish::curve::load_file(path).knots() == arc.knots());
+  std::remove(path.c_str());
+}
+
 int main() { return check::run(); }

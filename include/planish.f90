@@ -11,8 +11,8 @@
 !>     call planish_tensor_fit(mesh, surface, options, report)
 !>     call surface%eval(uv, points)                          ! uv(2,n), points(3,n)
 !>
-!> Names. planish_mesh_x, planish_surface_x, planish_curve_x and planish_field_fitter_x of C are mesh%x, surface%x,
-!> curve%x and fitter%x; calls that make or use one family keep their names. What planish.h says of a call holds;
+!> Names. planish_mesh_x, planish_surface_x, planish_curve_x, planish_field_fitter_x and planish_transfer_x of C are
+!> mesh%x, surface%x, curve%x, fitter%x and transfer%x; calls that make or use one family keep their names. What planish.h says of a call holds;
 !> here stands what is different.
 !>
 !> Arrays are Fortran's way round: a row of C is a column, so points are (3,n) and parameters (2,n). Whole arrays go
@@ -21,14 +21,15 @@
 !> from the arguments. Counts that come back are integer(c_size_t).
 !>
 !> Indices count from 1: nodes, triangles, loops, trims, patches, control curves and their knots, cells, vertices,
-!> worst_index, twisted_row, corners, planish_error_index(). Only the sentences of planish_error_message() and the
+!> worst_index, farthest_index, twisted_row, corners, planish_error_index(). Only the sentences of planish_error_message() and the
 !> addresses of cells count as C does, from 0: the halves of cell i of a level are 2 i and 2 i + 1 of the next.
 !>
 !> Errors. Calls end with (..., stat, errmsg), both optional. stat receives a PLANISH_STATUS: negative is an error
 !> and nothing has been changed, positive a success with a remark. errmsg receives the sentence of an error, else it
 !> stays as it is. Without stat an error stops the program with the sentence.
 !>
-!> Handles free themselves, and `=` makes a deep copy; fitters have no copies, and `=` between them stops the program.
+!> Handles free themselves, and `=` makes a deep copy; fitters and transfers have no copies, and `=` between them stops the
+!> program.
 !> gfortran 12 has bugs about that which no module can mend: a type of yours that has a handle as a component must not
 !> be assigned with `=`, nor handles allocated with `source=` or gathered as [a, b], nor overlapping sections of an
 !> array of handles assigned to each other. Function results are safe, and so are arrays assigned one by one.
@@ -250,6 +251,11 @@ module planish
   integer(c_int32_t), parameter, public :: PLANISH_PHT_BASIS_CANONICAL = 0
   !> Of the widest cell of a vertex's support on each side: well conditioned whatever the levels
   integer(c_int32_t), parameter, public :: PLANISH_PHT_BASIS_SUPPORT_SIZED = 1
+
+  !> What happens to targets beyond max_distance.
+  integer(c_int32_t), parameter, public :: PLANISH_FAR_RULE_REFUSE = 0 !! The first of them is an error
+  !> They take part like all others; the call returns PLANISH_STATUS_POINTS_OUTSIDE
+  integer(c_int32_t), parameter, public :: PLANISH_FAR_RULE_KEEP = 1
 
   !> An edge of the domain.
   integer(c_int32_t), parameter, public :: PLANISH_BORDER_SIDE_LOW_U = 0 !! Least u
@@ -705,12 +711,74 @@ module planish
     integer(c_int32_t) :: thread_count = 0 !! Threads to keep, at most 1024; 0 for all cores
   end type
 
+  ! Transfer
+
+  !> Options of transfers.
+  type, bind(c), public :: planish_transfer_options
+    integer(c_size_t) :: struct_size = 2 * word + 1 * 8 + 2 * 4
+    type(c_ptr) :: field = c_null_ptr !! The argument field
+    !> How far from the source's surface a target may lie, measured in distance_scale, not negative; INFINITE for
+    !> anywhere
+    real(c_double) :: max_distance = 0.05_c_double
+    integer(c_int32_t) :: distance_scale = 0 !! A planish_tolerance_scale: of the diagonal of the source's points
+    integer(c_int32_t) :: far_rule = 0 !! A planish_far_rule
+  end type
+
+  !> How well source and targets lie on one another. Lengths are in model units.
+  type, bind(c), public :: planish_transfer_report
+    integer(c_size_t) :: struct_size = 6 * word + 7 * 8
+    real(c_double) :: max_distance = 0 !! The largest distance of a target to the source's surface
+    real(c_double) :: rms_distance = 0 !! Square root of the mean of its square
+    real(c_double) :: limit = 0 !! The distance that was allowed
+    !> The largest distance between a node of the source and its surface at the node's (u,v)
+    real(c_double) :: max_shape_error = 0
+    real(c_double) :: rms_shape_error = 0 !! Square root of the mean of its square
+    real(c_double) :: seconds = 0 !! Wall time in all, in seconds
+    integer(c_size_t) :: farthest_index = 0 !! The target with the largest distance, counted from 1
+    integer(c_size_t) :: far_count = 0 !! Targets beyond the limit
+    integer(c_size_t) :: grid_u = 0 !! Knots of the grid along u
+    integer(c_size_t) :: grid_v = 0 !! Knots of the grid along v
+    integer(c_size_t) :: coefficient_count = 0 !! Unknowns of a fit on the grid
+    integer(c_int64_t) :: remarks = 0 !! Everything worth knowing of the source's surface: bits of planish_remark
+  end type
+
+  !> What a transfer keeps of forces, moments and work.
+  type, bind(c), public :: planish_balance_report
+    integer(c_size_t) :: struct_size = 1 * word + 18 * 8
+    real(c_double) :: force_given(3) = 0 !! Sum of the forces on the targets
+    real(c_double) :: force_arrived(3) = 0 !! Sum of the forces that arrive at the nodes of the source
+    !> Length of the difference, as a fraction of the sum of the lengths of the forces given: roundoff
+    real(c_double) :: force_error = 0
+    real(c_double) :: moment_given(3) = 0 !! Moment of the forces on the targets
+    real(c_double) :: moment_arrived(3) = 0 !! Moment of the forces that arrive
+    real(c_double) :: moment_error = 0 !! Length of the difference
+    !> What moment_error cannot exceed but by roundoff: the sum over the targets of the force's length times the
+    !> distance to the source's surface
+    real(c_double) :: moment_bound = 0
+    real(c_double) :: work_given = 0 !! Work of the forces given along the displacements that arrive at the targets
+    real(c_double) :: work_arrived = 0 !! Work of the forces that arrive along the displacements given
+    !> The difference, as a fraction of the sum of the targets' works without their signs: roundoff
+    real(c_double) :: work_error = 0
+  end type
+
+  ! Curve
+
+  !> How points are interpolated.
+  type, bind(c), public :: planish_interpolate_options
+    integer(c_size_t) :: struct_size = 2 * word + 2 * 4
+    type(c_ptr) :: end_slopes = c_null_ptr !! The argument end_slopes
+    !> A planish_section_ends; by default periodic if the last point is the first one, else parabolic
+    integer(c_int32_t) :: ends = 0
+    integer(c_int32_t) :: reserved = 0
+  end type
+
   !> Puts a record back to the defaults that the library has: `call planish_options_init(options)`.
   interface planish_options_init
     module procedure mesh_options_init, parameterize_options_init, eval_options_init, tensor_options_init
     module procedure tessellate_options_init, project_options_init, deviation_options_init
     module procedure vtk_options_init, step_options_init, convert_options_init, skin_options_init
     module procedure pht_options_init, pht_convert_options_init, field_options_init, sample_rows_options_init
+    module procedure transfer_options_init, interpolate_options_init
   end interface
 
   abstract interface
@@ -752,6 +820,11 @@ module planish
     type(c_ptr) :: handle = c_null_ptr
   contains
     final :: finalize_field_fitter
+  end type
+  type :: transfer_owner
+    type(c_ptr) :: handle = c_null_ptr
+  contains
+    final :: finalize_transfer
   end type
 
   !> A triangle mesh. One that nothing was done to yet is no mesh: its counts are 0 and calls refuse it.
@@ -860,6 +933,17 @@ module planish
     procedure, private :: eval_scalars => curve_eval_scalars
     generic :: eval => eval_rows, eval_scalars
     procedure :: eval_derivatives => curve_eval_derivatives
+    procedure, private :: interpolate_rows => curve_interpolate_rows
+    procedure, private :: interpolate_scalars => curve_interpolate_scalars
+    generic :: interpolate => interpolate_rows, interpolate_scalars
+    procedure :: length => curve_length
+    procedure :: arc_lengths => curve_arc_lengths
+    procedure :: project => curve_project
+    procedure :: save_size => curve_save_size
+    procedure :: save => curve_save
+    procedure :: load => curve_load
+    procedure :: save_file => curve_save_file
+    procedure :: load_file => curve_load_file
   end type
 
   !> Fits fields on the nodes of one mesh, or at the same parameters, again and again. It has no copies, and one
@@ -885,6 +969,31 @@ module planish
     procedure, private :: update_rows => field_fitter_update_rows
     procedure, private :: update_scalars => field_fitter_update_scalars
     generic :: update => update_rows, update_scalars
+  end type
+
+  !> Carries values from the nodes of a source mesh to target points, and forces on these back to the nodes. It has no
+  !> copies, and one serves all threads: `=` stops the program.
+  type, public :: planish_transfer_t
+    private
+    class(transfer_owner), allocatable :: owner
+  contains
+    procedure :: new => transfer_new
+    procedure, private :: assign => transfer_assign
+    generic :: assignment(=) => assign
+    procedure :: free => transfer_free
+    procedure :: get => transfer_get
+    procedure :: take => transfer_take
+    procedure :: source_count => transfer_source_count
+    procedure :: target_count => transfer_target_count
+    procedure :: copy_parameters => transfer_copy_parameters
+    procedure :: copy_distances => transfer_copy_distances
+    procedure, private :: apply_rows => transfer_apply_rows
+    procedure, private :: apply_scalars => transfer_apply_scalars
+    generic :: apply => apply_rows, apply_scalars
+    procedure, private :: apply_transpose_rows => transfer_apply_transpose_rows
+    procedure, private :: apply_transpose_scalars => transfer_apply_transpose_scalars
+    generic :: apply_transpose => apply_transpose_rows, apply_transpose_scalars
+    procedure :: balance => transfer_balance
   end type
 
   !> Fits a surface to values(dim,n), or with dim = 1 values(n), at parameters uv(2,n).
@@ -1743,6 +1852,86 @@ module planish
       type(c_ptr), value :: curve
     end subroutine
 
+    integer(c_int) function c_interpolate_options_init(options, size) bind(c, name="planish_interpolate_options_init")
+      import
+      implicit none
+      type(planish_interpolate_options), intent(inout) :: options
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_curve_interpolate( &
+        u, values, count, dim, options, out_curve) bind(c, name="planish_curve_interpolate")
+      import
+      implicit none
+      real(c_double), intent(in) :: u(*), values(*)
+      integer(c_size_t), value :: count, dim
+      type(planish_interpolate_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_curve
+    end function
+
+    pure real(c_double) function c_curve_length(curve) bind(c, name="planish_curve_length")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+    end function
+
+    integer(c_int) function c_curve_arc_lengths( &
+        curve, u, count, out_lengths) bind(c, name="planish_curve_arc_lengths")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+      real(c_double), intent(in) :: u(*)
+      integer(c_size_t), value :: count
+      real(c_double), intent(inout) :: out_lengths(*)
+    end function
+
+    integer(c_int) function c_curve_project( &
+        curve, points, count, options, out_u, out_distances) bind(c, name="planish_curve_project")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+      real(c_double), intent(in) :: points(*)
+      integer(c_size_t), value :: count
+      type(planish_project_options), intent(in), optional :: options
+      real(c_double), intent(inout), optional :: out_u(*), out_distances(*)
+    end function
+
+    pure integer(c_size_t) function c_curve_save_size(curve) bind(c, name="planish_curve_save_size")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+    end function
+
+    integer(c_int) function c_curve_save(curve, buffer, size) bind(c, name="planish_curve_save")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+      integer(c_int8_t), intent(inout) :: buffer(*)
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_curve_load(buffer, size, out_curve) bind(c, name="planish_curve_load")
+      import
+      implicit none
+      integer(c_int8_t), intent(in) :: buffer(*)
+      integer(c_size_t), value :: size
+      type(c_ptr), intent(inout) :: out_curve
+    end function
+
+    integer(c_int) function c_curve_save_file(curve, path) bind(c, name="planish_curve_save_file")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+      character(kind=c_char), intent(in) :: path(*)
+    end function
+
+    integer(c_int) function c_curve_load_file(path, out_curve) bind(c, name="planish_curve_load_file")
+      import
+      implicit none
+      character(kind=c_char), intent(in) :: path(*)
+      type(c_ptr), intent(inout) :: out_curve
+    end function
+
     ! T-spline
 
     integer(c_int) function c_skin_options_init(options, size) bind(c, name="planish_skin_options_init")
@@ -2184,6 +2373,95 @@ module planish
       integer(c_size_t), value :: count, dim
     end function
 
+    ! Transfer
+
+    integer(c_int) function c_transfer_options_init(options, size) bind(c, name="planish_transfer_options_init")
+      import
+      implicit none
+      type(planish_transfer_options), intent(inout) :: options
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_transfer_new( &
+        source, targets, count, options, out_transfer, out_report) bind(c, name="planish_transfer_new")
+      import
+      implicit none
+      type(c_ptr), value :: source
+      real(c_double), intent(in) :: targets(*)
+      integer(c_size_t), value :: count
+      type(planish_transfer_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_transfer
+      type(planish_transfer_report), intent(inout), optional :: out_report
+    end function
+
+    subroutine c_transfer_free(transfer) bind(c, name="planish_transfer_free")
+      import
+      implicit none
+      type(c_ptr), value :: transfer
+    end subroutine
+
+    pure integer(c_size_t) function c_transfer_source_count(transfer) bind(c, name="planish_transfer_source_count")
+      import
+      implicit none
+      type(c_ptr), value :: transfer
+    end function
+
+    pure integer(c_size_t) function c_transfer_target_count(transfer) bind(c, name="planish_transfer_target_count")
+      import
+      implicit none
+      type(c_ptr), value :: transfer
+    end function
+
+    integer(c_int) function c_transfer_copy_parameters( &
+        transfer, out_uv, count) bind(c, name="planish_transfer_copy_parameters")
+      import
+      implicit none
+      type(c_ptr), value :: transfer
+      real(c_double), intent(inout) :: out_uv(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_transfer_copy_distances( &
+        transfer, out_distances, count) bind(c, name="planish_transfer_copy_distances")
+      import
+      implicit none
+      type(c_ptr), value :: transfer
+      real(c_double), intent(inout) :: out_distances(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_transfer_apply( &
+        transfer, values, count, dim, out_values) bind(c, name="planish_transfer_apply")
+      import
+      implicit none
+      type(c_ptr), value :: transfer
+      real(c_double), intent(in) :: values(*)
+      integer(c_size_t), value :: count, dim
+      real(c_double), intent(inout) :: out_values(*)
+    end function
+
+    integer(c_int) function c_transfer_apply_transpose( &
+        transfer, forces, count, dim, out_forces) bind(c, name="planish_transfer_apply_transpose")
+      import
+      implicit none
+      type(c_ptr), value :: transfer
+      real(c_double), intent(in) :: forces(*)
+      integer(c_size_t), value :: count, dim
+      real(c_double), intent(inout) :: out_forces(*)
+    end function
+
+    integer(c_int) function c_transfer_balance( &
+        transfer, displacements, source_count, forces, target_count, about, out_report) &
+        bind(c, name="planish_transfer_balance")
+      import
+      implicit none
+      type(c_ptr), value :: transfer
+      real(c_double), intent(in) :: displacements(*), forces(*)
+      integer(c_size_t), value :: source_count, target_count
+      real(c_double), intent(in), optional :: about(*)
+      type(planish_balance_report), intent(inout) :: out_report
+    end function
+
     integer(c_int) function c_tensor_combine( &
         surfaces, factors, count, out_surface) bind(c, name="planish_tensor_combine")
       import
@@ -2443,6 +2721,16 @@ contains
   subroutine pht_convert_options_init(options)
     type(planish_pht_convert_options), intent(inout) :: options
     call conclude(c_pht_convert_options_init(options, c_sizeof(options)))
+  end subroutine
+
+  subroutine transfer_options_init(options)
+    type(planish_transfer_options), intent(inout) :: options
+    call conclude(c_transfer_options_init(options, c_sizeof(options)))
+  end subroutine
+
+  subroutine interpolate_options_init(options)
+    type(planish_interpolate_options), intent(inout) :: options
+    call conclude(c_interpolate_options_init(options, c_sizeof(options)))
   end subroutine
 
   subroutine field_options_init(options)
@@ -3830,6 +4118,154 @@ contains
     call self%fit(u, rows, options, report, weights, errors, progress, stat, errmsg)
   end subroutine
 
+  !> Makes the cubic curve through values(dim,n) at u(n), which rises.
+  !>
+  !> end_slopes: (dim,2), for PLANISH_SECTION_ENDS_SLOPES the derivatives at the first and the last point.
+  subroutine curve_interpolate_rows(self, u, values, options, end_slopes, stat, errmsg)
+    class(planish_curve_t), intent(inout) :: self
+    real(c_double), intent(in), contiguous :: u(:), values(:, :)
+    type(planish_interpolate_options), intent(in), optional :: options
+    real(c_double), intent(in), optional, target, contiguous :: end_slopes(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_interpolate_options) :: call_options
+    type(c_ptr) :: handle
+    integer(c_size_t) :: count, dim
+    integer(c_int) :: status
+    count = size(u, kind=c_size_t)
+    dim = size(values, 1, c_size_t)
+    if (present(options)) call_options = options
+    if (refuse_extent(size(values, 2, c_size_t), count, "the number of values", stat, errmsg)) return
+    if (present(end_slopes)) then
+      if (refuse_extent(size(end_slopes, 1, c_size_t), dim, "the first extent of end_slopes", stat, errmsg)) return
+      if (refuse_extent(size(end_slopes, 2, c_size_t), 2_c_size_t, "the number of end_slopes", stat, errmsg)) return
+      call_options%end_slopes = c_loc(end_slopes)
+    end if
+    status = c_curve_interpolate(u, values, count, dim, call_options, handle)
+    if (status >= 0) call self%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> The same for numbers, values(n) and end_slopes(2).
+  subroutine curve_interpolate_scalars(self, u, values, options, end_slopes, stat, errmsg)
+    class(planish_curve_t), intent(inout) :: self
+    real(c_double), intent(in), contiguous :: u(:)
+    real(c_double), intent(in), contiguous, target :: values(:)
+    type(planish_interpolate_options), intent(in), optional :: options
+    real(c_double), intent(in), optional, target, contiguous :: end_slopes(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    real(c_double), pointer, contiguous :: rows(:, :), slopes(:, :)
+    rows(1:1, 1:size(values)) => values
+    if (present(end_slopes)) then
+      slopes(1:1, 1:size(end_slopes)) => end_slopes
+      call self%interpolate(u, rows, options, slopes, stat, errmsg)
+    else
+      call self%interpolate(u, rows, options, stat=stat, errmsg=errmsg)
+    end if
+  end subroutine
+
+  !> Length of the curve, but for 1e-12 of it and the roundoff of its coordinates.
+  pure real(c_double) function curve_length(self) result(length)
+    class(planish_curve_t), intent(in) :: self
+    length = c_curve_length(self%get())
+  end function
+
+  !> Lengths from the start of the curve to u(n).
+  subroutine curve_arc_lengths(self, u, lengths, stat, errmsg)
+    class(planish_curve_t), intent(in) :: self
+    real(c_double), intent(in), contiguous :: u(:)
+    real(c_double), intent(inout), contiguous :: lengths(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_size_t) :: count
+    count = size(u, kind=c_size_t)
+    if (refuse_short(size(lengths, kind=c_size_t), count, "lengths", stat, errmsg)) return
+    call conclude(c_curve_arc_lengths(self%get(), u, count, lengths), stat, errmsg)
+  end subroutine
+
+  !> Finds the places u(n) on the curve nearest to points(dim,n), and the distances.
+  subroutine curve_project(self, points, u, distances, options, guesses, stat, errmsg)
+    class(planish_curve_t), intent(in) :: self
+    real(c_double), intent(in), contiguous :: points(:, :)
+    real(c_double), intent(inout), optional, contiguous :: u(:), distances(:)
+    type(planish_project_options), intent(in), optional :: options
+    real(c_double), intent(in), optional, target, contiguous :: guesses(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_project_options) :: call_options
+    integer(c_size_t) :: count
+    count = size(points, 2, c_size_t)
+    if (present(options)) call_options = options
+    if (refuse_dim(size(points, 1, c_size_t), self%dim(), "points", stat, errmsg)) return
+    if (present(u)) then
+      if (refuse_short(size(u, kind=c_size_t), count, "u", stat, errmsg)) return
+    end if
+    if (present(distances)) then
+      if (refuse_short(size(distances, kind=c_size_t), count, "distances", stat, errmsg)) return
+    end if
+    if (present(guesses)) then
+      if (refuse_short(size(guesses, kind=c_size_t), count, "guesses", stat, errmsg)) return
+      call_options%guesses = c_loc(guesses)
+    end if
+    call conclude(c_curve_project(self%get(), points, count, call_options, u, distances), stat, errmsg)
+  end subroutine
+
+  !> Bytes that save() makes.
+  pure integer(c_size_t) function curve_save_size(self) result(size)
+    class(planish_curve_t), intent(in) :: self
+    size = c_curve_save_size(self%get())
+  end function
+
+  !> Everything the curve is, as bytes that are the same on all machines.
+  subroutine curve_save(self, bytes, stat, errmsg)
+    class(planish_curve_t), intent(in) :: self
+    integer(c_int8_t), allocatable, intent(inout) :: bytes(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int8_t), allocatable :: saved(:)
+    integer(c_int) :: status
+    allocate (saved(self%save_size()))
+    status = c_curve_save(self%get(), saved, size(saved, kind=c_size_t))
+    if (status >= 0) call move_alloc(saved, bytes)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Makes a curve from the bytes of save().
+  subroutine curve_load(self, bytes, stat, errmsg)
+    class(planish_curve_t), intent(inout) :: self
+    integer(c_int8_t), intent(in), contiguous :: bytes(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    status = c_curve_load(bytes, size(bytes, kind=c_size_t), handle)
+    if (status >= 0) call self%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Writes the bytes of save() to a file.
+  subroutine curve_save_file(self, path, stat, errmsg)
+    class(planish_curve_t), intent(in) :: self
+    character(*), intent(in) :: path
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call conclude(c_curve_save_file(self%get(), terminated(path)), stat, errmsg)
+  end subroutine
+
+  !> Makes a curve from a file of save_file().
+  subroutine curve_load_file(self, path, stat, errmsg)
+    class(planish_curve_t), intent(inout) :: self
+    character(*), intent(in) :: path
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    status = c_curve_load_file(terminated(path), handle)
+    if (status >= 0) call self%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
   !> Numbers of a value.
   pure integer(c_size_t) function curve_dim(self) result(dim)
     class(planish_curve_t), intent(in) :: self
@@ -4853,6 +5289,185 @@ contains
     real(c_double), pointer, contiguous :: rows(:, :)
     rows(1:1, 1:size(values)) => values
     call self%update(surface, rows, stat, errmsg)
+  end subroutine
+
+  ! ---------------------------------------------------------------------------------------------------------
+  ! Transfer
+  ! ---------------------------------------------------------------------------------------------------------
+
+  !> Makes a transfer from the nodes of a mesh to targets(3,n); both may go afterwards.
+  !>
+  !> field:  how fields on the source are fitted; the arguments after it are those of field_fitter%new().
+  !> report: receives how well the two lie on one another.
+  subroutine transfer_new(self, source, targets, options, field, parameterize, weights, mask, sample_values, &
+      progress, report, stat, errmsg)
+    class(planish_transfer_t), intent(inout) :: self
+    class(planish_mesh_t), intent(in) :: source
+    real(c_double), intent(in), contiguous :: targets(:, :)
+    type(planish_transfer_options), intent(in), optional :: options
+    type(planish_field_options), intent(in), optional :: field
+    type(planish_parameterize_options), intent(in), optional :: parameterize
+    real(c_double), intent(in), optional, target, contiguous :: weights(:), sample_values(:, :)
+    logical, intent(in), optional :: mask(:)
+    procedure(planish_progress), optional :: progress
+    type(planish_transfer_report), intent(inout), optional :: report
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_transfer_options) :: call_options
+    type(planish_field_options), target :: field_options
+    type(planish_parameterize_options), target :: map
+    type(listener), target :: user
+    integer(c_int8_t), allocatable, target :: has_values(:)
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    if (present(options)) call_options = options
+    if (present(field)) field_options = field
+    if (refuse_extent(size(targets, 1, c_size_t), 3_c_size_t, "the first extent of targets", stat, errmsg)) return
+    if (refuse_nodes(field_options, map, user, has_values, source%point_count(), parameterize, weights, mask, &
+        sample_values, progress, stat, errmsg)) return
+    call_options%field = c_loc(field_options)
+    status = c_transfer_new(source%get(), targets, size(targets, 2, c_size_t), call_options, handle, report)
+    if (status >= 0) call self%take(handle)
+    if (status >= 0 .and. present(report)) report%farthest_index = report%farthest_index + 1
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  impure elemental subroutine transfer_assign(self, other)
+    class(planish_transfer_t), intent(inout) :: self
+    class(planish_transfer_t), intent(in) :: other
+    if (allocated(other%owner)) call fail(PLANISH_STATUS_INVALID_ARGUMENT, "a transfer has no copies")
+    call self%free()
+  end subroutine
+
+  subroutine finalize_transfer(self)
+    type(transfer_owner), intent(inout) :: self
+    call c_transfer_free(self%handle)
+    self%handle = c_null_ptr
+  end subroutine
+
+  !> Frees the transfer before the variable ends.
+  subroutine transfer_free(self)
+    class(planish_transfer_t), intent(inout) :: self
+    if (allocated(self%owner)) deallocate (self%owner)
+  end subroutine
+
+  !> The handle, for C; it stays this transfer's.
+  pure type(c_ptr) function transfer_get(self) result(handle)
+    class(planish_transfer_t), intent(in) :: self
+    handle = c_null_ptr
+    if (allocated(self%owner)) handle = self%owner%handle
+  end function
+
+  !> Takes over a handle of C, which is freed by this transfer from now on.
+  subroutine transfer_take(self, handle)
+    class(planish_transfer_t), intent(inout) :: self
+    type(c_ptr), intent(in) :: handle
+    call self%free()
+    if (.not. c_associated(handle)) return
+    allocate (self%owner)
+    self%owner%handle = handle
+  end subroutine
+
+  !> Number of nodes of the source, those without values included.
+  pure integer(c_size_t) function transfer_source_count(self) result(count)
+    class(planish_transfer_t), intent(in) :: self
+    count = c_transfer_source_count(self%get())
+  end function
+
+  !> Number of targets.
+  pure integer(c_size_t) function transfer_target_count(self) result(count)
+    class(planish_transfer_t), intent(in) :: self
+    count = c_transfer_target_count(self%get())
+  end function
+
+  !> Where the targets lie on the source's surface: uv(2,n), n at least target_count().
+  subroutine transfer_copy_parameters(self, uv, stat, errmsg)
+    class(planish_transfer_t), intent(in) :: self
+    real(c_double), intent(inout), contiguous :: uv(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_extent(size(uv, 1, c_size_t), 2_c_size_t, "the first extent of uv", stat, errmsg)) return
+    call conclude(c_transfer_copy_parameters(self%get(), uv, size(uv, 2, c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> How far the targets are from the source's surface.
+  subroutine transfer_copy_distances(self, distances, stat, errmsg)
+    class(planish_transfer_t), intent(in) :: self
+    real(c_double), intent(inout), contiguous :: distances(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call conclude(c_transfer_copy_distances(self%get(), distances, size(distances, kind=c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> Values at the targets, out_values(dim,m), from values(dim,n) at the nodes of the source.
+  subroutine transfer_apply_rows(self, values, out_values, stat, errmsg)
+    class(planish_transfer_t), intent(in) :: self
+    real(c_double), intent(in), contiguous :: values(:, :)
+    real(c_double), intent(inout), contiguous :: out_values(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_size_t) :: dim
+    dim = size(values, 1, c_size_t)
+    if (refuse_extent(size(out_values, 1, c_size_t), dim, "the first extent of out_values", stat, errmsg)) return
+    if (refuse_short(size(out_values, 2, c_size_t), self%target_count(), "out_values", stat, errmsg)) return
+    call conclude(c_transfer_apply(self%get(), values, size(values, 2, c_size_t), dim, out_values), stat, errmsg)
+  end subroutine
+
+  !> The same for numbers, values(n) and out_values(m).
+  subroutine transfer_apply_scalars(self, values, out_values, stat, errmsg)
+    class(planish_transfer_t), intent(in) :: self
+    real(c_double), intent(in), contiguous, target :: values(:)
+    real(c_double), intent(inout), contiguous, target :: out_values(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    real(c_double), pointer, contiguous :: rows(:, :), out_rows(:, :)
+    rows(1:1, 1:size(values)) => values
+    out_rows(1:1, 1:size(out_values)) => out_values
+    call self%apply(rows, out_rows, stat, errmsg)
+  end subroutine
+
+  !> Forces at the nodes of the source, out_forces(dim,n), from forces(dim,m) on the targets: the transpose of apply().
+  subroutine transfer_apply_transpose_rows(self, forces, out_forces, stat, errmsg)
+    class(planish_transfer_t), intent(in) :: self
+    real(c_double), intent(in), contiguous :: forces(:, :)
+    real(c_double), intent(inout), contiguous :: out_forces(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_size_t) :: dim
+    dim = size(forces, 1, c_size_t)
+    if (refuse_extent(size(out_forces, 1, c_size_t), dim, "the first extent of out_forces", stat, errmsg)) return
+    if (refuse_short(size(out_forces, 2, c_size_t), self%source_count(), "out_forces", stat, errmsg)) return
+    call conclude(c_transfer_apply_transpose( &
+        self%get(), forces, size(forces, 2, c_size_t), dim, out_forces), stat, errmsg)
+  end subroutine
+
+  !> The same for numbers, forces(m) and out_forces(n).
+  subroutine transfer_apply_transpose_scalars(self, forces, out_forces, stat, errmsg)
+    class(planish_transfer_t), intent(in) :: self
+    real(c_double), intent(in), contiguous, target :: forces(:)
+    real(c_double), intent(inout), contiguous, target :: out_forces(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    real(c_double), pointer, contiguous :: rows(:, :), out_rows(:, :)
+    rows(1:1, 1:size(forces)) => forces
+    out_rows(1:1, 1:size(out_forces)) => out_forces
+    call self%apply_transpose(rows, out_rows, stat, errmsg)
+  end subroutine
+
+  !> Carries displacements(3,n) one way and forces(3,m) the other, and adds up forces, moments about a point (the
+  !> origin if it is left out) and work on both sides.
+  subroutine transfer_balance(self, displacements, forces, report, about, stat, errmsg)
+    class(planish_transfer_t), intent(in) :: self
+    real(c_double), intent(in), contiguous :: displacements(:, :), forces(:, :)
+    type(planish_balance_report), intent(inout) :: report
+    real(c_double), intent(in), optional :: about(3)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_extent(size(displacements, 1, c_size_t), 3_c_size_t, "the first extent of displacements", &
+        stat, errmsg)) return
+    if (refuse_extent(size(forces, 1, c_size_t), 3_c_size_t, "the first extent of forces", stat, errmsg)) return
+    call conclude(c_transfer_balance(self%get(), displacements, size(displacements, 2, c_size_t), forces, &
+        size(forces, 2, c_size_t), about, report), stat, errmsg)
   end subroutine
 
 end module

@@ -580,7 +580,21 @@ typedef enum planish_v_rule {
 } planish_v_rule;
 
 /**
- * What a STEP file holds of a T-spline or PHT-spline.
+ * What happens to targets beyond max_distance.
+ */
+typedef enum planish_far_rule {
+    /**
+     * The first of them is an error, PLANISH_STATUS_OUTSIDE.
+     */
+    PLANISH_FAR_RULE_REFUSE = 0,
+    /**
+     * They take part like all others; the call returns PLANISH_STATUS_POINTS_OUTSIDE.
+     */
+    PLANISH_FAR_RULE_KEEP = 1,
+} planish_far_rule;
+
+/**
+ * What a STEP file holds of a T-spline.
  */
 typedef enum planish_step_form {
     /**
@@ -591,11 +605,6 @@ typedef enum planish_step_form {
      * One face for each span of v, over the knots of four control curves: far fewer control points.
      */
     PLANISH_STEP_FORM_STRIPS = 1,
-    /**
-     * A PHT-spline as a shell of faces that share edges, each over a rectangle of cells whose levels differ by at
-     * most level_spread.
-     */
-    PLANISH_STEP_FORM_PATCHES = 2,
 } planish_step_form;
 
 /**
@@ -631,8 +640,8 @@ typedef enum planish_unit {
 } planish_unit;
 
 /**
- * A B-spline curve: a map from an interval of parameters u to R^dim. Made by planish_curve_fit(), destroyed by
- * planish_curve_free().
+ * A B-spline curve: a map from an interval of parameters u to R^dim. Made by planish_curve_fit(),
+ * planish_curve_interpolate(), planish_curve_new() or planish_curve_load(), destroyed by planish_curve_free().
  *
  * Calls that take it const may run at once on any threads.
  */
@@ -661,6 +670,14 @@ typedef struct planish_mesh planish_mesh;
  * Calls that take it const may run at once on any threads; a call that takes it non-const needs it alone.
  */
 typedef struct planish_surface planish_surface;
+
+/**
+ * Carries values from the nodes of a source mesh to target points, and forces on these back to the nodes. Made by
+ * planish_transfer_new(), destroyed by planish_transfer_free().
+ *
+ * Calls that take it const may run at once on any threads.
+ */
+typedef struct planish_transfer planish_transfer;
 
 /**
  * What was done to arrays or a file to make a mesh of them. Set struct_size to sizeof(planish_mesh_repairs)
@@ -1267,6 +1284,147 @@ typedef struct planish_field_options {
 } planish_field_options;
 
 /**
+ * How values are carried. Fill with planish_transfer_options_init(), then change what you need.
+ */
+typedef struct planish_transfer_options {
+    /**
+     * Set by planish_transfer_options_init().
+     */
+    size_t struct_size;
+    /**
+     * How fields on the source are fitted: the grid (given, found for a sample field, or chosen from the number of
+     * nodes, about four of them a coefficient), mask, weights; also threads and progress of the transfer. NULL
+     * (default) for the defaults. Borrowed for the call.
+     */
+    const struct planish_field_options *field;
+    /**
+     * How far from the source's surface a target may lie, measured in distance_scale, not negative; infinity for
+     * anywhere. Default 0.05.
+     */
+    double max_distance;
+    /**
+     * A planish_tolerance_scale: of the diagonal of the source's points, or model units. Default
+     * PLANISH_TOLERANCE_SCALE_RELATIVE.
+     */
+    uint32_t distance_scale;
+    /**
+     * A planish_far_rule. Default PLANISH_FAR_RULE_REFUSE.
+     */
+    uint32_t far_rule;
+} planish_transfer_options;
+
+/**
+ * How well source and targets lie on one another. Set struct_size to sizeof(planish_transfer_report) before the
+ * call; the report is filled as far as that goes, on success only. Lengths are in model units.
+ */
+typedef struct planish_transfer_report {
+    /**
+     * sizeof(planish_transfer_report) as the caller sees it.
+     */
+    size_t struct_size;
+    /**
+     * The largest distance of a target to the source's surface.
+     */
+    double max_distance;
+    /**
+     * Square root of the mean of its square.
+     */
+    double rms_distance;
+    /**
+     * The distance that was allowed.
+     */
+    double limit;
+    /**
+     * The largest distance between a node of the source and its surface at the node's (u,v).
+     */
+    double max_shape_error;
+    /**
+     * Square root of the mean of its square.
+     */
+    double rms_shape_error;
+    /**
+     * Wall time in all, in seconds.
+     */
+    double seconds;
+    /**
+     * The target with the largest distance, counted from 0.
+     */
+    size_t farthest_index;
+    /**
+     * Targets beyond the limit.
+     */
+    size_t far_count;
+    /**
+     * Knots of the grid along u.
+     */
+    size_t grid_u;
+    /**
+     * Knots of the grid along v.
+     */
+    size_t grid_v;
+    /**
+     * Unknowns of a fit on the grid.
+     */
+    size_t coefficient_count;
+    /**
+     * Everything worth knowing of the source's surface: bits of planish_remark.
+     */
+    uint64_t remarks;
+} planish_transfer_report;
+
+/**
+ * What a transfer keeps of forces, moments and work. Set struct_size to sizeof(planish_balance_report) before the
+ * call; the report is filled as far as that goes, on success only.
+ */
+typedef struct planish_balance_report {
+    /**
+     * sizeof(planish_balance_report) as the caller sees it.
+     */
+    size_t struct_size;
+    /**
+     * Sum of the forces on the targets.
+     */
+    double force_given[3];
+    /**
+     * Sum of the forces that arrive at the nodes of the source.
+     */
+    double force_arrived[3];
+    /**
+     * Length of the difference, as a fraction of the sum of the lengths of the forces given: roundoff.
+     */
+    double force_error;
+    /**
+     * Moment of the forces on the targets.
+     */
+    double moment_given[3];
+    /**
+     * Moment of the forces that arrive.
+     */
+    double moment_arrived[3];
+    /**
+     * Length of the difference.
+     */
+    double moment_error;
+    /**
+     * What moment_error cannot exceed but by roundoff: the sum over the targets of the force's length times the
+     * distance to the source's surface.
+     */
+    double moment_bound;
+    /**
+     * Work of the forces given along the displacements that arrive at the targets.
+     */
+    double work_given;
+    /**
+     * Work of the forces that arrive along the displacements given.
+     */
+    double work_arrived;
+    /**
+     * The difference, as a fraction of the sum of the targets' works without their signs: roundoff.
+     */
+    double work_error;
+} planish_balance_report;
+
+/**
  * How good a tessellation is. Set struct_size to sizeof(planish_tessellate_report) before the call; filled as far
  * as that goes.
  */
@@ -1523,7 +1681,7 @@ typedef struct planish_step_report {
      */
     size_t loop_count;
     /**
-     * Edges; one between two faces counts once.
+     * Edges of all bounds.
      */
     size_t edge_count;
     /**
@@ -1531,7 +1689,7 @@ typedef struct planish_step_report {
      */
     size_t face_count;
     /**
-     * Control points of the surfaces of all faces.
+     * Control points of all faces.
      */
     size_t pole_count;
 } planish_step_report;
@@ -1579,16 +1737,38 @@ typedef struct planish_step_options {
      */
     size_t max_coefficients;
     /**
-     * A planish_step_form, what is written of a T-spline or PHT-spline; PLANISH_STEP_FORM_TENSOR (default), which
-     * is also taken where the form is of another family.
+     * A planish_step_form, what is written of a T-spline; PLANISH_STEP_FORM_TENSOR (default).
      */
     uint32_t form;
     /**
-     * By how much the levels of cells in one face of PLANISH_STEP_FORM_PATCHES may differ. Default 1; more gives
-     * fewer faces with more control points.
+     * 0.
      */
-    uint32_t level_spread;
+    uint32_t reserved;
 } planish_step_options;
+
+/**
+ * How points are interpolated. Fill with planish_interpolate_options_init(), then change what you need.
+ */
+typedef struct planish_interpolate_options {
+    /**
+     * Set by planish_interpolate_options_init().
+     */
+    size_t struct_size;
+    /**
+     * For PLANISH_SECTION_ENDS_SLOPES: 2 rows of dim numbers, the derivatives with respect to u at the first and at
+     * the last point; otherwise NULL (default). Borrowed for the call.
+     */
+    const double *end_slopes;
+    /**
+     * A planish_section_ends. Default PLANISH_SECTION_ENDS_AUTO: periodic if the last point is the first one, else
+     * parabolic.
+     */
+    uint32_t ends;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} planish_interpolate_options;
 
 /**
  * What a skin did beside what every fit reports. Lengths are in model units.
@@ -3006,6 +3186,150 @@ enum planish_status planish_surface_field_gradient(const struct planish_surface 
  * Fills options with the defaults.
  *
  * options: not NULL.
+ * size:    sizeof(planish_transfer_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ */
+PLANISH_API
+enum planish_status planish_transfer_options_init(struct planish_transfer_options *options,
+                                                  size_t size);
+
+/**
+ * Makes a transfer from the nodes of a mesh to points near it. The points of the mesh are fitted by a surface over its
+ * parameters or, if it has none, over those it is given here; each target is projected onto that once, inside the
+ * mesh's boundary. It keeps what it needs; mesh and points may go.
+ *
+ * source:       not NULL.
+ * targets:      count rows of x, y, z.
+ * count:        may be 0.
+ * options:      NULL for the defaults.
+ * out_transfer: receives a new transfer; destroy with planish_transfer_free().
+ * out_report:   receives how well the two lie on one another; NULL for no report.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_POINTS_OUTSIDE (targets beyond max_distance were kept), or an error:
+ * PLANISH_STATUS_OUTSIDE (a target lies beyond it; the index is the target), PLANISH_STATUS_NOT_FINITE (a target; the
+ * index), PLANISH_STATUS_INVALID_ARGUMENT (an option), or what planish_field_fitter_new() returns.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_transfer_new(const struct planish_mesh *source,
+                                         const double *targets,
+                                         size_t count,
+                                         const struct planish_transfer_options *options,
+                                         struct planish_transfer **out_transfer,
+                                         struct planish_transfer_report *out_report);
+
+/**
+ * Destroys a transfer.
+ *
+ * transfer: from this library and not destroyed yet; NULL does nothing.
+ */
+PLANISH_API void planish_transfer_free(struct planish_transfer *transfer);
+
+/**
+ * Number of nodes of the source, those without values included; 0 for NULL.
+ */
+PLANISH_API size_t planish_transfer_source_count(const struct planish_transfer *transfer);
+
+/**
+ * Number of targets; 0 for NULL.
+ */
+PLANISH_API size_t planish_transfer_target_count(const struct planish_transfer *transfer);
+
+/**
+ * Copies where the targets lie on the source's surface.
+ *
+ * transfer: not NULL.
+ * out_uv:   receives planish_transfer_target_count() rows of u, v.
+ * count:    rows that out_uv has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_transfer_copy_parameters(const struct planish_transfer *transfer,
+                                                     double *out_uv,
+                                                     size_t count);
+
+/**
+ * Copies how far the targets are from the source's surface.
+ *
+ * transfer:      not NULL.
+ * out_distances: receives planish_transfer_target_count() distances.
+ * count:         distances that out_distances has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_transfer_copy_distances(const struct planish_transfer *transfer,
+                                                    double *out_distances,
+                                                    size_t count);
+
+/**
+ * Values at the targets, from values at the nodes of the source: they are fitted, and the fit is evaluated where the
+ * targets lie. A constant arrives as it is.
+ *
+ * transfer:   not NULL.
+ * values:     count rows of dim numbers, one a node.
+ * count:      planish_transfer_source_count().
+ * dim:        numbers of a value, at least 1.
+ * out_values: receives planish_transfer_target_count() rows of dim numbers; it must not overlap values.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (count, dim),
+ * PLANISH_STATUS_NOT_FINITE (the index is the node) or PLANISH_STATUS_TOO_LARGE.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_transfer_apply(const struct planish_transfer *transfer,
+                                           const double *values,
+                                           size_t count,
+                                           size_t dim,
+                                           double *out_values);
+
+/**
+ * Forces at the nodes of the source, from forces on the targets: the transpose of planish_transfer_apply(), so that
+ * both do the same work; the sum of the forces stays.
+ *
+ * transfer:   not NULL.
+ * forces:     count rows of dim numbers, one a target.
+ * count:      planish_transfer_target_count().
+ * dim:        numbers of a force, at least 1.
+ * out_forces: receives planish_transfer_source_count() rows of dim numbers, 0 for nodes without values; it must not
+ *             overlap forces.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (count, dim),
+ * PLANISH_STATUS_NOT_FINITE (the index is the target) or PLANISH_STATUS_TOO_LARGE.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_transfer_apply_transpose(const struct planish_transfer *transfer,
+                                                     const double *forces,
+                                                     size_t count,
+                                                     size_t dim,
+                                                     double *out_forces);
+
+/**
+ * Carries displacements one way and forces the other, and adds up forces, moments and work on both sides.
+ *
+ * transfer:      not NULL.
+ * displacements: source_count rows of 3 numbers, one a node of the source.
+ * source_count:  planish_transfer_source_count().
+ * forces:        target_count rows of 3 numbers, one a target.
+ * target_count:  planish_transfer_target_count().
+ * about:         3 numbers: the point that moments are about; NULL for the origin.
+ * out_report:    not NULL; receives the sums.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (a count),
+ * PLANISH_STATUS_NOT_FINITE (the index is the node or the target) or PLANISH_STATUS_TOO_LARGE.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_transfer_balance(const struct planish_transfer *transfer,
+                                             const double *displacements,
+                                             size_t source_count,
+                                             const double *forces,
+                                             size_t target_count,
+                                             const double *about,
+                                             struct planish_balance_report *out_report);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options: not NULL.
  * size:    sizeof(planish_tessellate_options).
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
  */
@@ -3236,11 +3560,9 @@ PLANISH_API enum planish_status planish_step_options_init(struct planish_step_op
 
 /**
  * Writes a surface in space as a STEP file with one face, bounded by the surface's trims or, if it has none, by its
- * domain. A T-spline or PHT-spline is written as the same tensor surface, or as a shell of faces that share their
- * edges: trims are cut where they cross the faces' common sides, and where they run within 1e-7 of the domain's
- * size beside one they are moved on to it. P-curves are the trims themselves, of degree 1; curves in space are cubic
- * and follow them over the same parameters within the uncertainty that the file states. The file appears whole or
- * not at all; equal input gives equal bytes.
+ * domain. A T-spline is written as the same tensor surface, or in strips. P-curves are the trims themselves, of degree 1; curves in space are cubic and follow
+ * them over the same parameters within the uncertainty that the file states. The file appears whole or not at
+ * all; equal input gives equal bytes.
  *
  * surface: not NULL, of dimension 3.
  * path:    UTF-8, ends with a NUL; an existing file is replaced.
@@ -3302,6 +3624,40 @@ enum planish_status planish_curve_new(size_t dim,
                                       size_t knot_count,
                                       const double *control_points,
                                       struct planish_curve **out_curve);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options: not NULL.
+ * size:    sizeof(planish_interpolate_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ */
+PLANISH_API
+enum planish_status planish_interpolate_options_init(struct planish_interpolate_options *options,
+                                                     size_t size);
+
+/**
+ * Makes the cubic curve with two continuous derivatives that passes through points.
+ *
+ * u:         count parameters, each above the one before it.
+ * values:    count rows of dim numbers.
+ * count:     at least 2.
+ * dim:       numbers of a value, at least 1.
+ * options:   NULL for the defaults.
+ * out_curve: receives a new curve; destroy with planish_curve_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_NOT_FINITE (a parameter or a value; the index
+ * is the point), PLANISH_STATUS_DEGENERATE (a parameter is not above the one before it; the index is the point),
+ * PLANISH_STATUS_INVALID_ARGUMENT (count, dim, ends; a periodic curve whose last point is not the first),
+ * PLANISH_STATUS_TOO_LARGE or PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_curve_interpolate(const double *u,
+                                              const double *values,
+                                              size_t count,
+                                              size_t dim,
+                                              const struct planish_interpolate_options *options,
+                                              struct planish_curve **out_curve);
 
 /**
  * Numbers of a value; 0 for NULL.
@@ -3402,6 +3758,110 @@ enum planish_status planish_curve_clone(const struct planish_curve *curve,
  * curve: from this library and not destroyed yet; NULL does nothing.
  */
 PLANISH_API void planish_curve_free(struct planish_curve *curve);
+
+/**
+ * Length of a curve, but for 1e-12 of it and the roundoff of its coordinates; 0 for NULL.
+ */
+PLANISH_API double planish_curve_length(const struct planish_curve *curve);
+
+/**
+ * The lengths of a curve from its start to parameters, as exact as planish_curve_length().
+ *
+ * curve:       not NULL.
+ * u:           count parameters in the domain, in any order.
+ * count:       may be 0.
+ * out_lengths: receives count lengths.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_NOT_FINITE or PLANISH_STATUS_OUTSIDE (the
+ * index is the parameter for both).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_curve_arc_lengths(const struct planish_curve *curve,
+                                              const double *u,
+                                              size_t count,
+                                              double *out_lengths);
+
+/**
+ * Finds the place on a curve nearest to each point, anywhere on the curve: there is no start to choose, and no local
+ * minimum to fall into.
+ *
+ * curve:         not NULL.
+ * points:        count rows of planish_curve_dim() doubles.
+ * count:         number of points; with 0 nothing is done.
+ * options:       NULL for the defaults. guesses are count parameters u; keep_trims is not used.
+ * out_u:         receives count parameters; NULL for none.
+ * out_distances: receives count distances; NULL for none.
+ * Returns what planish_surface_project() returns, but for PLANISH_STATUS_WRONG_KIND.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_curve_project(const struct planish_curve *curve,
+                                          const double *points,
+                                          size_t count,
+                                          const struct planish_project_options *options,
+                                          double *out_u,
+                                          double *out_distances);
+
+/**
+ * How many bytes planish_curve_save() writes; 0 for NULL.
+ */
+PLANISH_API size_t planish_curve_save_size(const struct planish_curve *curve);
+
+/**
+ * Writes everything a curve is into a buffer, to the bit. The layout is documented in docs/format.md; it is the same
+ * on all machines.
+ *
+ * curve:  not NULL.
+ * buffer: receives planish_curve_save_size() bytes.
+ * size:   bytes that the buffer has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_curve_save(const struct planish_curve *curve,
+                                       void *buffer,
+                                       size_t size);
+
+/**
+ * Makes a curve from bytes of planish_curve_save(). Damaged bytes are refused, sizes are checked before memory is
+ * asked for.
+ *
+ * buffer:    size bytes.
+ * out_curve: receives a new curve; destroy with planish_curve_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_FORMAT (the index is the byte) or
+ * PLANISH_STATUS_VERSION (a later library made it).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_curve_load(const void *buffer,
+                                       size_t size,
+                                       struct planish_curve **out_curve);
+
+/**
+ * Writes the bytes of planish_curve_save() to a file, which appears whole or not at all.
+ *
+ * curve: not NULL.
+ * path:  UTF-8, ends with a NUL; an existing file is replaced.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the path is not UTF-8) or
+ * PLANISH_STATUS_FILE.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_curve_save_file(const struct planish_curve *curve,
+                                            const char *path);
+
+/**
+ * Makes a curve from a file of planish_curve_save_file().
+ *
+ * path:      UTF-8, ends with a NUL.
+ * out_curve: receives a new curve; destroy with planish_curve_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the path is not UTF-8),
+ * PLANISH_STATUS_FILE, PLANISH_STATUS_FORMAT (the index is the byte) or PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_curve_load_file(const char *path,
+                                            struct planish_curve **out_curve);
 
 /**
  * Fills options with the defaults.
@@ -3777,8 +4237,7 @@ enum planish_status planish_pht_from_surface(const struct planish_surface *surfa
 
 /**
  * Makes tensor surfaces that together are a PHT-spline exactly. They meet with equal parameters, each over cells
- * whose levels differ by at most sigma: many small ones for 0, one for 20. Each
- * has its part of the trims; one outside of them has a trim without area.
+ * whose levels differ by at most sigma: many small ones for 0, one for 20. They have no trims.
  *
  * surface:      not NULL.
  * sigma:        levels.

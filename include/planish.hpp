@@ -153,6 +153,12 @@ inline planish_status init(planish_tessellate_options &options) {
 inline planish_status init(planish_field_options &options) {
   return planish_field_options_init(&options, sizeof options);
 }
+inline planish_status init(planish_transfer_options &options) {
+  return planish_transfer_options_init(&options, sizeof options);
+}
+inline planish_status init(planish_interpolate_options &options) {
+  return planish_interpolate_options_init(&options, sizeof options);
+}
 inline planish_status init(planish_convert_options &options) {
   return planish_convert_options_init(&options, sizeof options);
 }
@@ -229,11 +235,19 @@ std::vector<double> filled(std::size_t count, std::size_t width, const planish_e
   return out;
 }
 
+inline void check_rows(std::size_t value_count, std::size_t row_count, std::size_t dim) {
+  if (value_count == row_count * dim) return;
+  const std::string text = std::to_string(value_count) + " values do not fit " + std::to_string(row_count) +
+                           " rows of " + std::to_string(dim);
+  throw error(PLANISH_STATUS_INVALID_ARGUMENT, text, -1);
+}
+
 struct destroy {
   void operator()(planish_mesh *mesh) const noexcept { planish_mesh_free(mesh); }
   void operator()(planish_surface *surface) const noexcept { planish_surface_free(surface); }
   void operator()(planish_curve *curve) const noexcept { planish_curve_free(curve); }
   void operator()(planish_field_fitter *fitter) const noexcept { planish_field_fitter_free(fitter); }
+  void operator()(planish_transfer *transfer) const noexcept { planish_transfer_free(transfer); }
 };
 
 } // namespace detail
@@ -853,6 +867,57 @@ class curve {
   /// The value at one parameter.
   std::vector<double> value(double u) const { return eval(std::array<double, 1>{u}); }
 
+  /// The length, but for 1e-12 of it and the roundoff of the coordinates.
+  double length() const noexcept { return planish_curve_length(get()); }
+
+  /// The lengths from the start to parameters.
+  std::vector<double> arc_lengths(const values<double> &u) const {
+    std::vector<double> lengths(u.count());
+    detail::checked(planish_curve_arc_lengths(get(), u.data(), u.count(), lengths.data()));
+    return lengths;
+  }
+
+  /// The places nearest to rows of dim numbers.
+  struct feet {
+    /// Their parameters; NaN for points farther away than options.max_distance.
+    std::vector<double> u;
+    /// Their distances; NaN for the same points.
+    std::vector<double> distances;
+  };
+
+  /// Finds them anywhere on the curve.
+  feet project(const values<double> &points,
+               const planish_project_options &options = defaults<planish_project_options>()) const {
+    detail::check_rows(points.count(), points.count() / dim(), dim());
+    feet feet{std::vector<double>(points.count() / dim()), std::vector<double>(points.count() / dim())};
+    detail::checked(planish_curve_project(get(), points.data(), feet.u.size(), &options, feet.u.data(),
+                                          feet.distances.data()));
+    return feet;
+  }
+
+  /// Everything the curve is, as bytes that curve::load() takes.
+  std::vector<std::uint8_t> save() const {
+    std::vector<std::uint8_t> bytes(planish_curve_save_size(get()));
+    detail::checked(planish_curve_save(get(), bytes.data(), bytes.size()));
+    return bytes;
+  }
+  /// The same into a file, which appears whole or not at all; `path` is UTF-8.
+  void save_file(const std::string &path) const {
+    detail::checked(planish_curve_save_file(get(), path.c_str()));
+  }
+  /// The curve that bytes of save() hold.
+  static curve load(const values<std::uint8_t> &bytes) {
+    planish_curve *made = nullptr;
+    detail::checked(planish_curve_load(bytes.data(), bytes.count(), &made));
+    return curve(made);
+  }
+  /// The curve that a file of save_file() holds; `path` is UTF-8.
+  static curve load_file(const std::string &path) {
+    planish_curve *made = nullptr;
+    detail::checked(planish_curve_load_file(path.c_str(), &made));
+    return curve(made);
+  }
+
  private:
   std::unique_ptr<planish_curve, detail::destroy> handle_;
 };
@@ -916,13 +981,6 @@ skinned skin(planish_skin_options options, const progress &hear, const Call &cal
   auto made = fit_any<fitted, surface, planish_surface>(options, hear, call);
   return {std::move(made.surface), made.report, options.out_report == &skin ? skin : *options.out_report,
           made.status};
-}
-
-inline void check_rows(std::size_t value_count, std::size_t row_count, std::size_t dim) {
-  if (value_count == row_count * dim) return;
-  const std::string text = std::to_string(value_count) + " values do not fit " + std::to_string(row_count) +
-                           " rows of " + std::to_string(dim);
-  throw error(PLANISH_STATUS_INVALID_ARGUMENT, text, -1);
 }
 
 } // namespace detail
@@ -1198,6 +1256,74 @@ class field_fitter {
   std::unique_ptr<planish_field_fitter, detail::destroy> handle_;
 };
 
+/// Carries values from the nodes of a source mesh to target points, and forces on these back to the nodes.
+///
+/// Const members may run at once on any threads. It can be moved, not copied.
+class transfer {
+ public:
+  /// From the nodes of a mesh to points near it.
+  transfer(const mesh &source, const rows<double, 3> &targets,
+           const planish_transfer_options &options = defaults<planish_transfer_options>())
+      : report_(detail::sized<planish_transfer_report>()) {
+    planish_transfer *made = nullptr;
+    detail::checked(
+        planish_transfer_new(source.get(), targets.data(), targets.count(), &options, &made, &report_));
+    handle_.reset(made);
+  }
+
+  /// The handle, for calls of planish.h; it stays this object's.
+  const planish_transfer *get() const noexcept { return handle_.get(); }
+  /// How well source and targets lie on one another.
+  const planish_transfer_report &report() const noexcept { return report_; }
+  /// Number of nodes of the source.
+  std::size_t source_count() const noexcept { return planish_transfer_source_count(get()); }
+  /// Number of targets.
+  std::size_t target_count() const noexcept { return planish_transfer_target_count(get()); }
+
+  /// Where the targets lie on the source's surface.
+  std::vector<point2> parameters() const {
+    std::vector<point2> uv(target_count());
+    detail::checked(planish_transfer_copy_parameters(get(), detail::flat(uv), uv.size()));
+    return uv;
+  }
+
+  /// How far the targets are from it.
+  std::vector<double> distances() const {
+    std::vector<double> distances(target_count());
+    detail::checked(planish_transfer_copy_distances(get(), distances.data(), distances.size()));
+    return distances;
+  }
+
+  /// Values at the targets, from rows of dim numbers at the nodes of the source.
+  std::vector<double> apply(const values<double> &field, std::size_t dim) const {
+    detail::check_rows(field.count(), source_count(), dim);
+    std::vector<double> out(target_count() * dim);
+    detail::checked(planish_transfer_apply(get(), field.data(), source_count(), dim, out.data()));
+    return out;
+  }
+
+  /// Forces at the nodes of the source, from rows of dim numbers on the targets: the transpose of apply().
+  std::vector<double> apply_transpose(const values<double> &forces, std::size_t dim) const {
+    detail::check_rows(forces.count(), target_count(), dim);
+    std::vector<double> out(source_count() * dim);
+    detail::checked(planish_transfer_apply_transpose(get(), forces.data(), target_count(), dim, out.data()));
+    return out;
+  }
+
+  /// Sums of forces, moments about a point and work on both sides.
+  planish_balance_report balance(const rows<double, 3> &displacements, const rows<double, 3> &forces,
+                                 const point3 &about = {0, 0, 0}) const {
+    auto report = detail::sized<planish_balance_report>();
+    detail::checked(planish_transfer_balance(get(), displacements.data(), displacements.count(), forces.data(),
+                                             forces.count(), about.data(), &report));
+    return report;
+  }
+
+ private:
+  std::unique_ptr<planish_transfer, detail::destroy> handle_;
+  planish_transfer_report report_;
+};
+
 /// The sum of polynomial tensor surfaces over one domain, each times its factor.
 inline surface combine(const std::vector<std::pair<double, const surface *>> &terms) {
   std::vector<const planish_surface *> surfaces;
@@ -1227,6 +1353,16 @@ inline curve curve_new(std::size_t dim, std::uint32_t degree, const values<doubl
   detail::check_rows(control_points.count(), knots.count() > degree + 1 ? knots.count() - degree - 1 : 0, dim);
   planish_curve *made = nullptr;
   detail::checked(planish_curve_new(dim, degree, knots.data(), knots.count(), control_points.data(), &made));
+  return curve(made);
+}
+
+/// The cubic curve through rows of `dim` numbers at rising parameters.
+inline curve curve_interpolate(
+    const values<double> &u, const values<double> &points, std::size_t dim,
+    const planish_interpolate_options &options = defaults<planish_interpolate_options>()) {
+  detail::check_rows(points.count(), u.count(), dim);
+  planish_curve *made = nullptr;
+  detail::checked(planish_curve_interpolate(u.data(), points.data(), u.count(), dim, &options, &made));
   return curve(made);
 }
 

@@ -103,7 +103,9 @@ pub fn is_pool_thread() -> bool {
 pub struct Control<'a> {
     pool: Pool,
     progress: Option<&'a mut ProgressFn<'a>>,
-    /// The part of the whole that the present stage covers.
+    /// The part of the whole that the present call covers.
+    part: (f64, f64),
+    /// The part of it that the present stage covers.
     stage: (f64, f64),
     /// What the listener was told last.
     last: (f64, f64),
@@ -121,7 +123,14 @@ const POLL: Duration = Duration::from_millis(20);
 impl<'a> Control<'a> {
     /// `thread_count` 0 means all cores; no progress is reported.
     pub fn new(thread_count: usize) -> Self {
-        Self { pool: Pool::new(thread_count), progress: None, stage: (0.0, 1.0), last: (0.0, f64::NAN) }
+        let whole = (0.0, 1.0);
+        Self {
+            pool: Pool::new(thread_count),
+            progress: None,
+            part: whole,
+            stage: whole,
+            last: (0.0, f64::NAN),
+        }
     }
 
     /// The same with a listener.
@@ -147,13 +156,30 @@ impl<'a> Control<'a> {
     /// From now on progress runs from `from` to `to` of the whole call.
     pub fn set_stage(&mut self, from: f64, to: f64) {
         self.stage = (from, to);
-        self.last = (from, f64::NAN);
+        self.last = (self.fraction(0.0), f64::NAN);
+    }
+
+    /// Runs a call that is only a part of this one: what is the whole to it covers `from` to `to` here.
+    pub fn within<R>(&mut self, from: f64, to: f64, call: impl FnOnce(&mut Self) -> R) -> R {
+        let outer = (self.part, self.stage);
+        self.set_stage(from, to);
+        self.part = (self.fraction(0.0), self.fraction(1.0));
+        self.set_stage(0.0, 1.0);
+        let result = call(self);
+        (self.part, self.stage) = outer;
+        self.set_stage(to, 1.0);
+        result
+    }
+
+    /// How much of everything is done when `fraction` of the present stage is.
+    fn fraction(&self, fraction: f64) -> f64 {
+        let at = |(from, to): (f64, f64), fraction: f64| from + fraction * (to - from);
+        at(self.part, at(self.stage, fraction))
     }
 
     /// Tells the listener; `fraction` is of the present stage.
     pub fn report(&mut self, fraction: f64, error: f64) -> Result<(), Cancelled> {
-        let (from, to) = self.stage;
-        self.last = (from + fraction * (to - from), error);
+        self.last = (self.fraction(fraction), error);
         self.tell()
     }
 
@@ -235,6 +261,25 @@ mod tests {
         };
         assert_eq!(control.watch(work), Err(Cancelled));
         assert_eq!(calls, 3);
+    }
+
+    #[test]
+    fn a_call_within_a_call_covers_its_part() {
+        let mut told = Vec::new();
+        let mut progress = |fraction: f64, _: f64| {
+            told.push(fraction);
+            ControlFlow::Continue(())
+        };
+        let mut control = Control::new(1).with_progress(&mut progress);
+        let inner = |control: &mut Control| {
+            control.set_stage(0.0, 0.5);
+            control.report(0.5, f64::NAN)?;
+            control.set_stage(0.5, 1.0);
+            control.report(1.0, f64::NAN)
+        };
+        control.within(0.5, 0.75, inner).unwrap();
+        control.report(0.5, f64::NAN).unwrap();
+        assert_eq!(told, [0.5625, 0.75, 0.875]);
     }
 
     #[test]

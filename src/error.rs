@@ -9,6 +9,7 @@ use crate::curve::CurveError;
 use crate::export::ExportError;
 use crate::export::native::LoadError;
 use crate::export::step::StepError;
+use crate::fit::field::transfer::TransferError;
 use crate::fit::skin::SkinError;
 use crate::fit::tessellation::FitError;
 use crate::knots::KnotError;
@@ -75,6 +76,9 @@ pub enum Error {
     /// A fit is not possible.
     #[error(transparent)]
     Fit(#[from] FitError),
+    /// Values cannot be carried from mesh to mesh.
+    #[error(transparent)]
+    Transfer(#[from] TransferError),
     /// Rows cannot be skinned.
     #[error(transparent)]
     Skin(#[from] SkinError),
@@ -154,6 +158,7 @@ impl Error {
             Self::Read(error) => (error.kind(), error.index()),
             Self::Parameterize(error) => (error.kind(), error.index()),
             Self::Fit(error) => (error.kind(), error.index()),
+            Self::Transfer(error) => (error.kind(), error.index()),
             Self::Skin(error) => (error.kind(), error.index()),
             Self::Knots(error) => (error.kind(), error.index()),
             Self::Curve(error) => (error.kind(), error.index()),

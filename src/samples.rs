@@ -218,6 +218,45 @@ fn delaunay(places: &[DVec2], spacing: f64) -> Vec<[u32; 3]> {
     nodes.filter(|t| area(t) > 1e-6 * spacing * spacing).collect()
 }
 
+/// A quarter of a cylinder of radius 1 and height pi/2 over the square of its angle and height, all lengths of which
+/// are those of the surface. `count` nodes: as many along a side as in a square grid, inside a scrambled lattice (R2, M.
+/// Roberts 2018) turned and jittered by the seed.
+pub fn cylinder_patch(count: usize, seed: u64) -> Result<Mesh, MeshError> {
+    /// Inverse powers of the number whose cube is itself and 1: the lattice has no large gaps.
+    const STEPS: DVec2 = DVec2::new(0.754_877_666_246_692_7, 0.569_840_290_998_053_2);
+    let side = (count as f64).sqrt() as usize;
+    let spacing = 1.0 / side as f64;
+    let mut random = Random::new(seed);
+    let mut places = Vec::with_capacity(count);
+    let corners = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
+    for (k, corner) in corners.into_iter().enumerate() {
+        let next = corners[(k + 1) % 4];
+        places.extend((0..side).map(|i| corner.lerp(next, i as f64 * spacing)));
+    }
+    let start = DVec2::new(random.unit(), random.unit());
+    for k in 0..count.saturating_sub(places.len()) {
+        let regular = (start + k as f64 * STEPS).fract_gl();
+        let moved = 0.15 * spacing * DVec2::new(random.signed(), random.signed());
+        places.push(DVec2::splat(0.65 * spacing) + (1.0 - 1.3 * spacing) * regular + moved);
+    }
+    let triangles = delaunay(&places, spacing);
+    mesh_over((places, triangles), |p| {
+        let DVec2 { x: angle, y: height } = PI / 2.0 * p;
+        (DVec3::new(angle.cos(), angle.sin(), height), DVec2::new(angle, height))
+    })
+}
+
+/// Two hills and a dale over the unit square: R. Franke, "Scattered data interpolation: tests of some methods", Math.
+/// Comp. 38 (1982), 181-200.
+pub fn franke(p: DVec2) -> f64 {
+    let bell = |height: f64, a: f64, b: f64| height * (-a - b).exp();
+    let DVec2 { x, y } = 9.0 * p;
+    bell(0.75, (x - 2.0).powi(2) / 4.0, (y - 2.0).powi(2) / 4.0)
+        + bell(0.75, (x + 1.0).powi(2) / 49.0, (y + 1.0) / 10.0)
+        + bell(0.5, (x - 7.0).powi(2) / 4.0, (y - 3.0).powi(2) / 4.0)
+        - bell(0.2, (x - 4.0).powi(2), (y - 7.0).powi(2))
+}
+
 /// A panel of a fuselage: double curvature, a notch for a door and three windows with round corners; no
 /// parameters. About 6,000 nodes.
 pub fn fuselage_panel(seed: u64) -> Result<Mesh, MeshError> {
@@ -326,6 +365,7 @@ mod tests {
             (sphere_with_holes(5000, 5), 3, 5000..5500),
             (fuselage_panel(1), 3, 5000..6600),
             (ridged_sheet(1), 0, 40_000..40_001),
+            (cylinder_patch(4321, 1), 0, 4321..4322),
         ] {
             let mesh = mesh.unwrap();
             assert_eq!(mesh.loops().len(), holes + 1);

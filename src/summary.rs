@@ -1,4 +1,4 @@
-//! Many errors in a few numbers.
+//! Many numbers in a few.
 
 /// Errors at some data.
 #[derive(Debug, Clone, Default)]
@@ -27,4 +27,26 @@ pub fn summarize(each: Vec<f64>) -> DataErrors {
     let squares: f64 = each.iter().map(|e| (e / scale) * (e / scale)).sum();
     let sum: f64 = each.iter().sum();
     DataErrors { rms: scale * (squares / count).sqrt(), mean: sum / count, max, worst_index, each }
+}
+
+/// The sum, rounded about once: what each addition loses is added up beside it (A. Neumaier, "Rundungsfehleranalyse
+/// einiger Verfahren zur Summation endlicher Summen", Z. Angew. Math. Mech. 54 (1974), 39-51).
+pub fn sum(numbers: impl Iterator<Item = f64>) -> f64 {
+    let (sum, lost) = numbers.fold((0.0_f64, 0.0), |(sum, lost), x| {
+        let next = sum + x;
+        let (large, small) = if sum.abs() >= x.abs() { (sum, x) } else { (x, sum) };
+        (next, lost + ((large - next) + small))
+    });
+    sum + lost
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sums_keep_what_large_terms_would_swallow() {
+        assert_eq!(sum([1.0, 1e100, 1.0, -1e100].into_iter()), 2.0);
+        assert_eq!(sum(std::iter::repeat_n(0.1, 1 << 20)), 0.1 * f64::from(1 << 20));
+    }
 }

@@ -8,6 +8,8 @@ mod eval;
 mod fit;
 #[path = "planish/info.rs"]
 mod info;
+#[path = "planish/morph.rs"]
+mod morph;
 #[path = "planish/output.rs"]
 mod output;
 #[path = "planish/render.rs"]
@@ -38,6 +40,8 @@ enum Command {
     Info(info::InfoArguments),
     /// Evaluate a saved surface.
     Eval(eval::EvalArguments),
+    /// Draw a sequence of pictures of a mesh's surface, moved by a displacement on its nodes.
+    Morph(morph::MorphArguments),
     /// Draw a picture of a saved surface.
     Render(render::RenderArguments),
     /// Write one of the seeded sample meshes.
@@ -86,6 +90,7 @@ fn main() -> ExitCode {
         Command::Skin(arguments) => skin::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
+        Command::Morph(arguments) => morph::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
         Command::Sample(arguments) => sample::run(&arguments),
     };

@@ -34,6 +34,29 @@ pub enum EndRule<'a> {
     Periodic,
 }
 
+/// The C2 cubic curve through rows of `dim` numbers at rising parameters.
+pub fn interpolate(dim: usize, u: &[f64], points: &[f64], ends: EndRule) -> Result<Curve, CurveError> {
+    if u.len() < 2 {
+        return Err(CurveError::TooFew { count: u.len() });
+    }
+    Curve::check_finite(u)?;
+    if let Some(index) = points.iter().position(|x| !x.is_finite()) {
+        return Err(CurveError::PointNotFinite { index: index / dim.max(1) });
+    }
+    match ends {
+        EndRule::Slopes { begin, end } if begin.len() != dim || end.len() != dim => {
+            return Err(CurveError::SlopeCount { count: begin.len() + end.len(), expected: 2 * dim });
+        }
+        EndRule::Slopes { begin, end } if begin.iter().chain(end).any(|x| !x.is_finite()) => {
+            return Err(CurveError::SlopesNotFinite);
+        }
+        EndRule::Periodic if points.get(..dim) != points.get(points.len().saturating_sub(dim)..) => {
+            return Err(CurveError::NotClosed);
+        }
+        _ => Interpolant::new(dim, u.to_vec(), points.to_vec(), ends)?.to_curve(),
+    }
+}
+
 /// A cubic spline in Hermite form: points and slopes at rising parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Interpolant {
@@ -419,5 +442,35 @@ mod tests {
     fn equal_parameters_are_refused() {
         let refused = Interpolant::new(1, vec![0.0, 1.0, 1.0], vec![0.0; 3], EndRule::Natural);
         assert_eq!(refused.unwrap_err(), CurveError::NotRising { index: 2 });
+    }
+
+    #[test]
+    fn curves_pass_through_their_points_and_refuse_what_is_none() {
+        let u = [0.0, 0.5, 2.0, 3.0, 3.25];
+        let points = [0.0, 1.0, 2.0, -1.0, 3.0, 0.5, 1.0, 4.0, 0.0, 1.0];
+        let slopes = EndRule::Slopes { begin: &[1.0, 0.0], end: &[0.0, -2.0] };
+        for ends in [EndRule::Parabolic, EndRule::Natural, EndRule::Periodic, slopes] {
+            let curve = interpolate(2, &u, &points, ends).unwrap();
+            for (u, point) in u.iter().zip(points.chunks(2)) {
+                let value = curve.eval(*u);
+                // sums of four products of numbers below 20
+                assert!((value[0] - point[0]).abs() + (value[1] - point[1]).abs() <= 1e3 * f64::EPSILON);
+            }
+        }
+        let refused = |u: &[f64], points: &[f64], ends| interpolate(2, u, points, ends).unwrap_err();
+        let natural = EndRule::Natural;
+        assert_eq!(refused(&u[..1], &points[..2], natural), CurveError::TooFew { count: 1 });
+        let short = CurveError::ControlPointCount { count: 8, expected: 5, dim: 2 };
+        assert_eq!(refused(&u, &points[..8], natural), short);
+        assert_eq!(refused(&u[..4], &points[..8], EndRule::Periodic), CurveError::NotClosed);
+        let bad = EndRule::Slopes { begin: &[f64::NAN, 0.0], end: &[0.0; 2] };
+        assert_eq!(refused(&u, &points, bad), CurveError::SlopesNotFinite);
+        let short = EndRule::Slopes { begin: &[0.0], end: &[0.0; 2] };
+        assert_eq!(refused(&u, &points, short), CurveError::SlopeCount { count: 3, expected: 4 });
+        let infinite = [0.0, 0.5, 2.0, 3.0, f64::INFINITY];
+        assert_eq!(refused(&infinite, &points, natural), CurveError::ParameterNotFinite { index: 4 });
+        let mut ugly = points;
+        ugly[5] = f64::NAN;
+        assert_eq!(refused(&u, &ugly, natural), CurveError::PointNotFinite { index: 2 });
     }
 }

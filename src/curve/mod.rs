@@ -1,9 +1,10 @@
 //! B-spline curves in any dimension.
 
 mod interpolate;
+mod length;
 mod refine;
 
-pub use interpolate::{EndRule, Interpolant};
+pub use interpolate::{EndRule, Interpolant, interpolate};
 pub use refine::{KNOT_TOLERANCE, common_breaks, common_knots, on_common_knots};
 
 use crate::basis::basis_derivatives;
@@ -51,6 +52,32 @@ pub enum CurveError {
         /// The point.
         index: usize,
     },
+    /// Too few points to interpolate.
+    #[error("{count} points are too few to interpolate, at least 2 are needed")]
+    TooFew {
+        /// Points given.
+        count: usize,
+    },
+    /// A coordinate of a point to interpolate is NaN or infinite.
+    #[error("point {index} is not finite")]
+    PointNotFinite {
+        /// The point.
+        index: usize,
+    },
+    /// The slopes at the ends are not rows of the curve's dimension.
+    #[error("{count} numbers are given for the slopes at both ends, {expected} are needed")]
+    SlopeCount {
+        /// Numbers given.
+        count: usize,
+        /// Numbers needed.
+        expected: usize,
+    },
+    /// A slope at an end is NaN or infinite.
+    #[error("the slopes at the ends are not finite")]
+    SlopesNotFinite,
+    /// A periodic curve ends where it begins.
+    #[error("the last point is not the first one, so the curve cannot be periodic: repeat the first point")]
+    NotClosed,
     /// The knots are none.
     #[error(transparent)]
     Knots(#[from] KnotError),
@@ -60,7 +87,10 @@ impl CurveError {
     /// The class of the error.
     pub fn kind(&self) -> crate::ErrorKind {
         match self {
-            Self::NotFinite { .. } | Self::ParameterNotFinite { .. } => crate::ErrorKind::NotFinite,
+            Self::NotFinite { .. }
+            | Self::ParameterNotFinite { .. }
+            | Self::PointNotFinite { .. }
+            | Self::SlopesNotFinite => crate::ErrorKind::NotFinite,
             Self::Outside { .. } => crate::ErrorKind::Outside,
             Self::NotRising { .. } => crate::ErrorKind::Degenerate,
             Self::Knots(error) => error.kind(),
@@ -73,6 +103,7 @@ impl CurveError {
         match *self {
             Self::NotFinite { index }
             | Self::ParameterNotFinite { index }
+            | Self::PointNotFinite { index }
             | Self::Outside { index, .. }
             | Self::NotRising { index } => Some(index),
             Self::Knots(ref error) => error.index(),

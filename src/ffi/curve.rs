@@ -1,21 +1,23 @@
 //! B-spline curves.
 
 use super::arguments::{
-    ArgumentError, array_len, choice, copy, deref, options, out, rows_mut, slice, slice_mut,
+    ArgumentError, array_len, choice, copy, deref, init_options, options, out, rows_mut, slice, slice_mut,
     slice_mut_or_none, stride, strided_len,
 };
 use super::guard::{Failure, guard};
 use super::progress::{thread_count, with_control};
 use super::report::{FitOutputs, planish_fit_report};
 use super::status::query;
-use super::{planish_eval_options, planish_flag, planish_status, planish_tensor_options};
-use crate::curve::{Curve, MAX_DERIVATIVE};
+use super::{
+    planish_eval_options, planish_flag, planish_section_ends, planish_status, planish_tensor_options,
+};
+use crate::curve::{Curve, EndRule, MAX_DERIVATIVE, interpolate};
 use crate::fit::tessellation::fit_curve;
 use crate::knots::KnotVector;
 use crate::surface::evaluate::OutsideRule;
 
-/// A B-spline curve: a map from an interval of parameters u to R^dim. Made by planish_curve_fit(), destroyed by
-/// planish_curve_free().
+/// A B-spline curve: a map from an interval of parameters u to R^dim. Made by planish_curve_fit(),
+/// planish_curve_interpolate(), planish_curve_new() or planish_curve_load(), destroyed by planish_curve_free().
 ///
 /// Calls that take it const may run at once on any threads.
 pub struct planish_curve(Curve);
@@ -109,11 +111,100 @@ pub unsafe extern "C" fn planish_curve_new(
     })
 }
 
+/// How points are interpolated. Fill with planish_interpolate_options_init(), then change what you need.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct planish_interpolate_options {
+    /// Set by planish_interpolate_options_init().
+    pub struct_size: usize,
+    /// For PLANISH_SECTION_ENDS_SLOPES: 2 rows of dim numbers, the derivatives with respect to u at the first and at
+    /// the last point; otherwise NULL (default). Borrowed for the call.
+    pub end_slopes: *const f64,
+    /// A planish_section_ends. Default PLANISH_SECTION_ENDS_AUTO: periodic if the last point is the first one, else
+    /// parabolic.
+    pub ends: u32,
+    /// 0.
+    pub reserved: u32,
+}
+
+record!(planish_interpolate_options, 24, { struct_size: 0, end_slopes: 8, ends: 16, reserved: 20 });
+
+impl Default for planish_interpolate_options {
+    fn default() -> Self {
+        Self { struct_size: size_of::<Self>(), end_slopes: std::ptr::null(), ends: 0, reserved: 0 }
+    }
+}
+
+/// Fills options with the defaults.
+///
+/// options: not NULL.
+/// size:    sizeof(planish_interpolate_options).
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_interpolate_options_init(
+    options: *mut planish_interpolate_options,
+    size: usize,
+) -> planish_status {
+    // SAFETY: the caller's promise.
+    guard(|| unsafe { init_options(options, size) })
+}
+
+/// Makes the cubic curve with two continuous derivatives that passes through points.
+///
+/// u:         count parameters, each above the one before it.
+/// values:    count rows of dim numbers.
+/// count:     at least 2.
+/// dim:       numbers of a value, at least 1.
+/// options:   NULL for the defaults.
+/// out_curve: receives a new curve; destroy with planish_curve_free().
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_NOT_FINITE (a parameter or a value; the index
+/// is the point), PLANISH_STATUS_DEGENERATE (a parameter is not above the one before it; the index is the point),
+/// PLANISH_STATUS_INVALID_ARGUMENT (count, dim, ends; a periodic curve whose last point is not the first),
+/// PLANISH_STATUS_TOO_LARGE or PLANISH_STATUS_VERSION.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_curve_interpolate(
+    u: *const f64,
+    values: *const f64,
+    count: usize,
+    dim: usize,
+    options: *const planish_interpolate_options,
+    out_curve: *mut *mut planish_curve,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let u = slice(u, count, "u")?;
+        let values = slice(values, array_len::<f64>(count, dim, "values")?, "values")?;
+        let out_curve = out(out_curve, "out_curve")?;
+        let given = self::options(options)?;
+        if given.reserved != 0 {
+            let record = "planish_interpolate_options";
+            return Err(ArgumentError::Reserved { record, given: given.reserved }.into());
+        }
+        let slopes = match given.ends == planish_section_ends::Slopes as u32 {
+            true => slice(given.end_slopes, array_len::<f64>(2, dim, "end_slopes")?, "end_slopes")?,
+            false if given.end_slopes.is_null() => &[],
+            false => return Err(ArgumentError::NotNull { name: "end_slopes" }.into()),
+        };
+        let (begin, end) = slopes.split_at(slopes.len() / 2);
+        let is_closed = values.len() > dim && values[..dim] == values[values.len() - dim..];
+        let auto = if is_closed { EndRule::Periodic } else { EndRule::Parabolic };
+        let given_slopes = EndRule::Slopes { begin, end };
+        let rules = [auto, EndRule::Parabolic, EndRule::Natural, given_slopes, EndRule::Periodic];
+        let curve = interpolate(dim, u, values, choice(given.ends, &rules, "ends")?)?;
+        out_curve.write(planish_curve::into_raw(curve));
+        Ok(())
+    })
+}
+
 /// What `find` reads from a curve; 0 for NULL.
 ///
 /// # Safety
 /// `curve` is NULL or a curve.
-unsafe fn query_curve<T: Default>(curve: *const planish_curve, find: impl FnOnce(&Curve) -> T) -> T {
+pub(super) unsafe fn query_curve<T: Default>(
+    curve: *const planish_curve,
+    find: impl FnOnce(&Curve) -> T,
+) -> T {
     // SAFETY: the caller's promise.
     query(|| Ok(find(&unsafe { deref(curve, "curve") }?.0)))
 }

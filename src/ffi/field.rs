@@ -12,7 +12,7 @@ use super::status::query;
 use super::surface::planish_surface;
 use super::tensor::{planish_ends, planish_energy, planish_tolerance_scale};
 use super::{planish_parameterize_options, planish_progress, planish_status};
-use crate::control::Pool;
+use crate::control::{Control, Pool};
 use crate::fit::field::{FieldFitter, FieldGrid, FieldOptions};
 use crate::fit::report::{Tolerance, ToleranceScale};
 use crate::fit::tessellation::{Ends, Energy, FitError};
@@ -120,19 +120,17 @@ pub unsafe extern "C" fn planish_field_options_init(
     guard(|| unsafe { init_options(options, size) })
 }
 
-/// Makes a fitter with options that are already borrowed, for `count` nodes.
+/// Runs `work` with the core's options for `count` nodes, the caller's threads and listener.
 ///
 /// # Safety
 /// The pointers of the options are NULL or as the header says.
-unsafe fn make(
+pub(super) unsafe fn with_field_options<R>(
     given: planish_field_options,
     count: usize,
-    out_fitter: *mut *mut planish_field_fitter,
-    make: impl FnOnce(&FieldOptions, &mut crate::Control) -> Result<FieldFitter, FitError>,
-) -> Result<(), Failure> {
+    work: impl FnOnce(&FieldOptions, &mut Control) -> R,
+) -> Result<R, Failure> {
     // SAFETY: the caller's promises.
     unsafe {
-        let out_fitter = out(out_fitter, "out_fitter")?;
         let parameterize: planish_parameterize_options = options(given.parameterize)?;
         if !parameterize.node_weights.is_null() {
             return Err(ArgumentError::NotNull { name: "node_weights" }.into());
@@ -154,8 +152,7 @@ unsafe fn make(
             }
             counts => FieldGrid::Fixed(counts.map(|count| count as usize)),
         };
-        let scales = [ToleranceScale::Relative, ToleranceScale::Absolute];
-        let scale = choice(given.tolerance_scale, &scales, "tolerance_scale")?;
+        let scale = tolerance_scale(given.tolerance_scale, "tolerance_scale")?;
         let core = FieldOptions {
             tolerance: Tolerance { value: given.tolerance, scale },
             grid,
@@ -167,11 +164,13 @@ unsafe fn make(
             is_known: is_known.as_deref(),
             parameterize: parameterize.to_core()?,
         };
-        let fitter =
-            with_control(given.thread_count, given.progress, given.user, |control| make(&core, control))??;
-        out_fitter.write(Box::into_raw(Box::new(planish_field_fitter(fitter))));
-        Ok(())
+        Ok(with_control(given.thread_count, given.progress, given.user, |control| work(&core, control))?)
     }
+}
+
+/// What a tolerance is measured in.
+pub(super) fn tolerance_scale(given: u32, name: &'static str) -> Result<ToleranceScale, ArgumentError> {
+    choice(given, &[ToleranceScale::Relative, ToleranceScale::Absolute], name)
 }
 
 /// Makes a fitter for fields on the nodes of a mesh, over its parameters or, if it has none, over those it is given
@@ -195,9 +194,12 @@ pub unsafe extern "C" fn planish_field_fitter_new(
     // SAFETY: the caller's promises.
     guard(|| unsafe {
         let mesh = &deref(mesh, "mesh")?.0;
-        make(self::options(options)?, mesh.points().len(), out_fitter, |core, control| {
+        let (out_fitter, given) = (out(out_fitter, "out_fitter")?, self::options(options)?);
+        let fitter = with_field_options(given, mesh.points().len(), |core, control| {
             FieldFitter::on_mesh(mesh, core, control)
-        })
+        })??;
+        out_fitter.write(Box::into_raw(Box::new(planish_field_fitter(fitter))));
+        Ok(())
     })
 }
 
@@ -219,7 +221,10 @@ pub unsafe extern "C" fn planish_field_fitter_new_points(
     // SAFETY: the caller's promises.
     guard(|| unsafe {
         let uv = copy_rows(uv, count, 2, "uv", DVec2::from_array)?;
-        make(self::options(options)?, count, out_fitter, |core, control| FieldFitter::at(&uv, core, control))
+        let (out_fitter, given) = (out(out_fitter, "out_fitter")?, self::options(options)?);
+        let fitter = with_field_options(given, count, |core, control| FieldFitter::at(&uv, core, control))??;
+        out_fitter.write(Box::into_raw(Box::new(planish_field_fitter(fitter))));
+        Ok(())
     })
 }
 

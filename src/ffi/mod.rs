@@ -15,6 +15,7 @@
 #[macro_use]
 mod arguments;
 mod curve;
+mod curve_query;
 mod export;
 mod field;
 mod guard;
@@ -33,9 +34,11 @@ mod surface;
 mod tensor;
 #[cfg(test)]
 mod tests;
+mod transfer;
 mod tspline;
 
 pub use curve::*;
+pub use curve_query::*;
 pub use export::*;
 pub use field::*;
 pub use mesh::*;
@@ -51,4 +54,5 @@ pub use status::*;
 pub use step::*;
 pub use surface::*;
 pub use tensor::*;
+pub use transfer::*;
 pub use tspline::*;

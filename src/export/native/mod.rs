@@ -5,7 +5,7 @@
 //! offset  type          content
 //!  0      8 bytes       "PLANISH" and a zero
 //!  8      u32           version of the format, 1
-//! 12      u32           kind of the surface: 0 tensor, 1 T-spline, 2 PHT-spline
+//! 12      u32           kind: 0 tensor surface, 1 T-spline, 2 PHT-spline, 16 curve
 //! 16      u64           size of the whole in bytes
 //! 24                    what the family needs, see its module
 //! end-8   u64           CRC-32 (IEEE 802.3) of all bytes before
@@ -13,17 +13,19 @@
 //! Each family has a module of its own here, with its layout, its [`Save`] and `read`.
 
 mod bytes;
+mod curve;
 mod pht;
 mod tensor;
 mod tspline;
 
 use super::error::{ExportError, write_file};
+use crate::curve::Curve;
 use crate::surface::AnySurface;
 use bytes::Reader;
 pub use bytes::Writer;
 use std::path::Path;
 
-/// A buffer or file is not a saved surface.
+/// A buffer or file is not what was saved.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LoadError {
     /// The file cannot be read.
@@ -35,7 +37,7 @@ pub enum LoadError {
         reason: String,
     },
     /// The bytes are not what they claim to be.
-    #[error("not a saved surface: byte {byte}: {problem}")]
+    #[error("not a saved surface or curve: byte {byte}: {problem}")]
     Format {
         /// Where.
         byte: usize,
@@ -78,10 +80,12 @@ const FRAME_SIZE: usize = 24 + 8;
 const TENSOR: u32 = 0;
 const TSPLINE: u32 = 1;
 const PHT: u32 = 2;
+/// What is no surface has kinds from 16 on.
+const CURVE: u32 = 16;
 
-/// A surface that the format knows.
+/// A surface or curve that the format knows.
 pub trait Save {
-    /// The kind of the surface as the file says it.
+    /// Its kind as the file says it.
     fn file_kind(&self) -> u32;
 
     /// Bytes that [`Save::write`] adds.
@@ -102,7 +106,7 @@ impl AnySurface {
     }
 }
 
-/// The bytes of a surface.
+/// The bytes of a surface or curve.
 pub fn save<S: Save + ?Sized>(surface: &S) -> Vec<u8> {
     let mut writer = Writer::new(surface.file_kind(), save_size(surface));
     surface.write(&mut writer);
@@ -121,10 +125,22 @@ pub fn load(bytes: &[u8]) -> Result<AnySurface, LoadError> {
         TENSOR => AnySurface::Tensor(tensor::read(&mut reader)?),
         PHT => AnySurface::Pht(pht::read(&mut reader)?),
         TSPLINE => AnySurface::TSpline(tspline::read(&mut reader)?),
+        CURVE => return Err(reader.wrong("this is a curve, not a surface")),
         _ => return Err(reader.wrong(format!("the kind {kind} is unknown"))),
     };
     reader.end()?;
     Ok(surface)
+}
+
+/// The curve that bytes of [`save`] hold.
+pub fn load_curve(bytes: &[u8]) -> Result<Curve, LoadError> {
+    let (kind, mut reader) = Reader::open(bytes)?;
+    if kind != CURVE {
+        return Err(reader.wrong(format!("the kind is {kind}, not that of a curve")));
+    }
+    let curve = curve::read(&mut reader)?;
+    reader.end()?;
+    Ok(curve)
 }
 
 /// Saves to a file.
@@ -134,11 +150,20 @@ pub fn save_file<S: Save + ?Sized>(surface: &S, path: &Path) -> Result<(), Expor
 
 /// Loads from a file.
 pub fn load_file(path: &Path) -> Result<AnySurface, LoadError> {
+    load(&read_file(path)?)
+}
+
+/// Loads a curve from a file.
+pub fn load_curve_file(path: &Path) -> Result<Curve, LoadError> {
+    load_curve(&read_file(path)?)
+}
+
+fn read_file(path: &Path) -> Result<Vec<u8>, LoadError> {
     let fail = |error: std::io::Error| LoadError::File {
         path: path.display().to_string(),
         reason: error.to_string(),
     };
-    load(&std::fs::read(path).map_err(fail)?)
+    std::fs::read(path).map_err(fail)
 }
 
 #[cfg(test)]

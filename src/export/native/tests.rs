@@ -81,7 +81,10 @@ fn every_flipped_bit_and_every_truncation_is_refused() {
 
 /// Writes a field and makes the checksum right again.
 fn forge(surface: &AnySurface, at: usize, field: &[u8]) -> Vec<u8> {
-    let mut bytes = save(surface.as_saved());
+    with_field(save(surface.as_saved()), at, field)
+}
+
+fn with_field(mut bytes: Vec<u8>, at: usize, field: &[u8]) -> Vec<u8> {
     bytes[at..at + field.len()].copy_from_slice(field);
     let end = bytes.len() - 8;
     let sum = crc32fast::hash(&bytes[..end]);
@@ -107,4 +110,38 @@ fn later_versions_and_unknown_kinds_are_named() {
     assert_eq!(later.unwrap_err(), LoadError::Version { version: 2 });
     let unknown = load(&forge(&tensor(), 12, &77u32.to_le_bytes()));
     assert!(unknown.unwrap_err().to_string().contains("kind 77"));
+}
+
+fn curve() -> Curve {
+    let knots = KnotVector::new(vec![0., 0., 0., 0.5, 1., 1., 1.], 2).unwrap();
+    Curve::new(3, knots, (0..12).map(|k| f64::from(k).sqrt()).collect()).unwrap()
+}
+
+#[test]
+fn a_curve_comes_back_to_the_bit_and_nothing_else_does() {
+    let bytes = save(&curve());
+    assert_eq!(bytes.len(), save_size(&curve()));
+    assert_eq!(load_curve(&bytes).unwrap(), curve());
+    for byte in 0..bytes.len() {
+        for bit in 0..8 {
+            let mut flipped = bytes.clone();
+            flipped[byte] ^= 1 << bit;
+            let error = load_curve(&flipped).unwrap_err();
+            assert!(matches!(error, LoadError::Format { .. }), "byte {byte}: {error}");
+        }
+        assert!(matches!(load_curve(&bytes[..byte]), Err(LoadError::Format { .. })), "{byte} bytes");
+    }
+    for at in [24, 32, 40] {
+        for value in [u64::MAX, u64::MAX / 8, 1 << 40, 77] {
+            let result = load_curve(&with_field(bytes.clone(), at, &value.to_le_bytes()));
+            assert!(matches!(result, Err(LoadError::Format { .. })), "{value} at {at}: {result:?}");
+        }
+    }
+}
+
+#[test]
+fn curves_and_surfaces_are_not_taken_for_one_another() {
+    assert!(load(&save(&curve())).unwrap_err().to_string().contains("a curve, not a surface"));
+    let refused = load_curve(&save(tensor().as_saved())).unwrap_err();
+    assert!(refused.to_string().contains("the kind is 0"), "{refused}");
 }

@@ -137,3 +137,133 @@ fn bad_arguments_are_refused() {
         planish_curve_free(null_mut());
     }
 }
+
+/// The quarter of a circle of radius 2 by 9 points, with its tangents at the ends: within 1e-4.
+fn arc() -> CurveHandle {
+    let angles: [f64; 9] = std::array::from_fn(|i| i as f64 * std::f64::consts::FRAC_PI_2 / 8.0);
+    let points: Vec<f64> = angles.iter().flat_map(|a| [2.0 * a.cos(), 2.0 * a.sin()]).collect();
+    let slopes = [0.0, 2.0, -2.0, 0.0];
+    let ends = planish_section_ends::Slopes as u32;
+    let options = planish_interpolate_options { end_slopes: slopes.as_ptr(), ends, ..record() };
+    let mut out = null_mut();
+    // SAFETY: the arrays have these lengths.
+    ok(unsafe { planish_curve_interpolate(angles.as_ptr(), points.as_ptr(), 9, 2, &options, &mut out) });
+    CurveHandle(out)
+}
+
+#[test]
+fn an_arc_has_its_length_and_its_nearest_places() {
+    let curve = arc();
+    let u = [0.0, 1.0, 0.25];
+    // the center is as far from all places as the radius; the others lie on rays
+    let points = [4.0, 0.0, 3.0 * 1.0_f64.cos(), 3.0 * 1.0_f64.sin(), 0.0, 0.0, -1.0, 5.0];
+    let (mut lengths, mut places, mut distances) = ([0.0; 3], [0.0; 4], [0.0; 4]);
+    // SAFETY: the arrays have these lengths.
+    unsafe {
+        let c = curve.0;
+        ok(planish_curve_arc_lengths(c, u.as_ptr(), 3, lengths.as_mut_ptr()));
+        ok(planish_curve_project(c, points.as_ptr(), 4, null(), places.as_mut_ptr(), distances.as_mut_ptr()));
+        assert!((planish_curve_length(c) - std::f64::consts::PI).abs() < 1e-4);
+        assert_eq!(planish_curve_length(null()), 0.0);
+        let near = planish_project_options { max_distance: 1.5, guesses: u.as_ptr(), ..record() };
+        let status = planish_curve_project(c, points.as_ptr(), 3, &near, places.as_mut_ptr(), null_mut());
+        assert_eq!(status, planish_status::PointsOutside);
+    }
+    for (length, u) in lengths.iter().zip(u) {
+        assert!((length - 2.0 * u).abs() < 1e-4, "{lengths:?}");
+    }
+    assert!(places[0].is_nan() && (places[1] - 1.0).abs() < 1e-4 && places[2].is_nan(), "{places:?}");
+    let last = (1.0_f64 + 9.0).sqrt(); // from (-1, 5) to (0, 2)
+    for (distance, exact) in distances.iter().zip([2.0, 1.0, 2.0, last]) {
+        assert!((distance - exact).abs() < 1e-4, "{distances:?}");
+    }
+}
+
+#[test]
+fn a_curve_is_saved_and_loaded_to_the_bit() {
+    let curve = arc();
+    let path =
+        c(&std::env::temp_dir().join(format!("planish curve {}", std::process::id())).to_string_lossy());
+    let (mut loaded, mut from_file, mut refused_curve) = (null_mut(), null_mut(), canary());
+    // SAFETY: live handles, and arrays of these lengths.
+    unsafe {
+        let size = planish_curve_save_size(curve.0);
+        assert_eq!(planish_curve_save_size(null()), 0);
+        let (mut bytes, mut again) = (vec![0_u8; size], vec![0_u8; size]);
+        ok(planish_curve_save(curve.0, bytes.as_mut_ptr().cast(), size));
+        ok(planish_curve_load(bytes.as_ptr().cast(), size, &mut loaded));
+        ok(planish_curve_save_file(curve.0, path.as_ptr()));
+        ok(planish_curve_load_file(path.as_ptr(), &mut from_file));
+        for copy in [CurveHandle(loaded), CurveHandle(from_file)] {
+            ok(planish_curve_save(copy.0, again.as_mut_ptr().cast(), size));
+            assert_eq!(bytes, again);
+        }
+        let mut surface = canary();
+        let status = planish_surface_load(bytes.as_ptr().cast(), size, &mut surface);
+        refused(status, planish_status::Format, 24, &["a curve, not a surface"]);
+        assert_untouched(&surface);
+        let small = planish_curve_save(curve.0, again.as_mut_ptr().cast(), size - 1);
+        refused(small, planish_status::BufferTooSmall, -1, &["buffer"]);
+        null_refused(planish_curve_save(null(), again.as_mut_ptr().cast(), size), "curve");
+        null_refused(planish_curve_save(curve.0, null_mut(), size), "buffer");
+        null_refused(planish_curve_load(null(), size, &mut refused_curve), "buffer");
+        null_refused(planish_curve_load(bytes.as_ptr().cast(), size, null_mut()), "out_curve");
+        null_refused(planish_curve_save_file(null(), path.as_ptr()), "curve");
+        null_refused(planish_curve_save_file(curve.0, null()), "path");
+        null_refused(planish_curve_load_file(null(), &mut refused_curve), "path");
+        null_refused(planish_curve_load_file(path.as_ptr(), null_mut()), "out_curve");
+        bytes[40] ^= 1;
+        let status = planish_curve_load(bytes.as_ptr().cast(), size, &mut refused_curve);
+        refused(status, planish_status::Format, size as i64 - 8, &["checksum"]);
+        std::fs::remove_file(path.to_str().unwrap()).unwrap();
+        let status = planish_curve_load_file(path.as_ptr(), &mut refused_curve);
+        refused(status, planish_status::File, -1, &["planish curve"]);
+        assert_untouched(&refused_curve);
+    }
+}
+
+#[test]
+fn what_cannot_be_interpolated_or_measured_is_refused() {
+    use planish_status::*;
+    let curve = arc();
+    let (u, values) = ([0.0, 0.5, 0.5, 1.0], [0.0, 1.0, 2.0, NAN]);
+    let mut numbers: [f64; 4] = canary();
+    let mut out = canary();
+    // SAFETY: the arrays have these lengths, or are refused before.
+    unsafe {
+        let (u, v, n) = (u.as_ptr(), values.as_ptr(), numbers.as_mut_ptr());
+        let mut make =
+            |u, v, count, dim, options| planish_curve_interpolate(u, v, count, dim, options, &mut out);
+        null_refused(make(null(), v, 3, 1, null()), "u");
+        null_refused(make(u, null(), 3, 1, null()), "values");
+        refused(make(u, v, 3, 1, null()), Degenerate, 2, &["parameter 2"]);
+        refused(make(u, v, 4, 1, null()), NotFinite, 3, &["point 3"]);
+        refused(make(u, v, 1, 1, null()), InvalidArgument, -1, &["1 points"]);
+        refused(make(u, v, 2, 0, null()), InvalidArgument, -1, &["dimension is 0"]);
+        let with = |ends, end_slopes| planish_interpolate_options { ends, end_slopes, ..record() };
+        refused(make(u, v, 2, 1, &with(5, null())), InvalidArgument, -1, &["ends is 5"]);
+        refused(make(u, v, 2, 1, &with(4, null())), InvalidArgument, -1, &["repeat the first point"]);
+        refused(make(u, v, 2, 1, &with(0, v)), InvalidArgument, -1, &["end_slopes must be NULL"]);
+        null_refused(make(u, v, 2, 1, &with(3, null())), "end_slopes");
+        let newer = planish_interpolate_options { reserved: 1, ..record() };
+        refused(make(u, v, 2, 1, &newer), Version, -1, &["reserved"]);
+        null_refused(planish_curve_interpolate(u, v, 2, 1, null(), null_mut()), "out_curve");
+        null_refused(planish_interpolate_options_init(null_mut(), 24), "options");
+        assert_untouched(&out);
+
+        let c = curve.0;
+        null_refused(planish_curve_arc_lengths(null(), u, 1, n), "curve");
+        null_refused(planish_curve_arc_lengths(c, null(), 1, n), "u");
+        null_refused(planish_curve_arc_lengths(c, u, 1, null_mut()), "out_lengths");
+        ok(planish_curve_arc_lengths(c, null(), 0, null_mut()));
+        refused(planish_curve_arc_lengths(c, v.add(1), 2, n), Outside, 1, &["point 1 at 2"]);
+        refused(planish_curve_arc_lengths(c, v.add(3), 1, n), NotFinite, 0, &["point 0"]);
+        null_refused(planish_curve_project(null(), v, 1, null(), n, null_mut()), "curve");
+        null_refused(planish_curve_project(c, null(), 1, null(), n, null_mut()), "points");
+        refused(planish_curve_project(c, v, 2, null(), n, null_mut()), NotFinite, 1, &["point 1"]);
+        let negative = planish_project_options { max_distance: -1.0, ..record() };
+        let status = planish_curve_project(c, v, 1, &negative, n, null_mut());
+        refused(status, InvalidArgument, -1, &["largest distance"]);
+        assert_untouched(&numbers);
+    }
+}

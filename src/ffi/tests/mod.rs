@@ -11,6 +11,7 @@ mod records;
 mod rows;
 mod statuses;
 mod surfaces;
+mod transfers;
 mod tsplines;
 
 use super::arguments::Record;
@@ -219,4 +220,14 @@ impl Sheet {
         ok(unsafe { planish_mesh_set_parameters(mesh.0, self.uv.as_ptr(), self.count()) });
         mesh
     }
+}
+
+/// An octahedron: nothing that lies flat without being cut.
+fn closed_mesh() -> MeshHandle {
+    let points = [1., 0., 0., 0., 1., 0., -1., 0., 0., 0., -1., 0., 0., 0., 1., 0., 0., -1.];
+    let triangles = [0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4, 1, 0, 5, 2, 1, 5, 3, 2, 5, 0, 3, 5];
+    let mut out = null_mut();
+    // SAFETY: arrays of these lengths.
+    ok(unsafe { planish_mesh_new(points.as_ptr(), 6, triangles.as_ptr(), 8, null(), &mut out) });
+    MeshHandle(out)
 }

@@ -58,6 +58,8 @@ fn every_init_refuses_null() {
         null_refused(planish_skin_options_init(null_mut(), 144), "options");
         null_refused(planish_pht_options_init(null_mut(), 128), "options");
         null_refused(planish_pht_convert_options_init(null_mut(), 32), "options");
+        null_refused(planish_field_options_init(null_mut(), 112), "options");
+        null_refused(planish_transfer_options_init(null_mut(), 32), "options");
     }
 }
 
@@ -107,6 +109,11 @@ fn defaults_are_those_of_the_header() {
     assert!(pht.parameterize.is_null() && pht.weights.is_null() && pht.progress.is_none());
     assert_eq!((convert.tolerance, convert.max_cells, convert.max_level), (0.0, 200_000, 12));
     assert!(tensor.out_parameters.is_null() && tensor.out_errors.is_null() && tensor.user.is_null());
+    let mut transfer: planish_transfer_options = canary();
+    // SAFETY: of its size.
+    ok(unsafe { planish_transfer_options_init(&mut transfer, size_of_val(&transfer)) });
+    assert_eq!((transfer.max_distance, transfer.distance_scale, transfer.far_rule), (0.05, 0, 0));
+    assert!(transfer.field.is_null());
 }
 
 #[test]

@@ -8,6 +8,7 @@
 //! it is asked for, the measure of its errors.
 
 mod right_side;
+pub mod transfer;
 
 use super::report::{FitReport, Remarks, StopReason, Tolerance};
 use super::tessellation::energy::FreeFunctions;
@@ -15,10 +16,10 @@ use super::tessellation::grid::{Ends, UniformBasis, UniformGrid};
 use super::tessellation::normal_equations::{NormalEquations, Samples, TensorBasis};
 use super::tessellation::samples::interior_places;
 use super::tessellation::{
-    Energy, FitError, LARGEST_GRID, NodeParameters, Regularize, TensorOptions, check_parameters,
-    check_values, fit_field, fit_points, node_parameters,
+    Energy, FitError, LARGEST_GRID, NodeParameters, Regularize, TensorOptions, check_count, check_parameters,
+    check_values, check_weights, fit_field, fit_points, node_parameters,
 };
-use crate::control::{Control, Pool};
+use crate::control::{Control, Pool, Watch};
 use crate::fit::errors::{DataErrors, data_errors};
 use crate::geometry::Bounds;
 use crate::knots::KnotVector;
@@ -118,7 +119,9 @@ pub struct FieldReport {
 impl FieldFitter {
     /// For fields on the nodes of a mesh, over its parameters or, if it has none, over those it is given here.
     pub fn on_mesh(mesh: &Mesh, options: &FieldOptions, control: &mut Control) -> Result<Self, FitError> {
-        let map = node_parameters(mesh, &options.parameterize, Regularize::Never, control)?;
+        let find =
+            |control: &mut Control| node_parameters(mesh, &options.parameterize, Regularize::Never, control);
+        let map = control.within(0.0, 0.3, find)?;
         Self::new(map, Some(mesh), options, control)
     }
 
@@ -148,7 +151,10 @@ impl FieldFitter {
             FreeFunctions::Bilinear => Energy::Plate,
             FreeFunctions::Linear => return Err(FitError::Singular),
         };
-        let (counts, smoothing) = choose_grid(&uv, mesh, known_uv.len(), options, control)?;
+        let choose = |control: &mut Control| choose_grid(&uv, mesh, known_uv.len(), options, control);
+        let (counts, smoothing) = control.within(0.3, 0.7, choose)?;
+        control.set_stage(0.7, 1.0);
+        control.report(0.0, f64::NAN)?;
         let grid = [
             UniformGrid::over(data_box.min.x, data_box.max.x, options.buffer, counts[0]),
             UniformGrid::over(data_box.min.y, data_box.max.y, options.buffer, counts[1]),
@@ -163,10 +169,12 @@ impl FieldFitter {
                 places.filter(|place| place.nodes.into_iter().all(is_known)).collect()
             }
         };
-        let pool = Pool::new(control.pool().thread_count());
         let data = right_side::Data::new(&uv, known.as_deref(), options.weights, places, smoothing);
-        let factor = factor(&basis, &data, smoothing, energy, &pool)?;
-        let right_side = RightSide::new(&basis, data, &pool);
+        let (factor, right_side) = control.watch(|pool, watch| -> Result<_, FitError> {
+            let factor = factor(&basis, &data, smoothing, energy, pool, watch)?;
+            Ok((factor, RightSide::new(&basis, data, pool)))
+        })??;
+        control.report(1.0, f64::NAN)?;
         let knots = |grid: &UniformGrid, axis| {
             grid.knot_vector().map_err(|_| FitError::DegenerateRange { axis, at: grid.start })
         };
@@ -183,7 +191,7 @@ impl FieldFitter {
             smoothing,
             tolerance: options.tolerance,
             map_remarks: map.remarks,
-            pool,
+            pool: Pool::new(control.thread_count()),
             scratch: Mutex::default(),
         })
     }
@@ -360,8 +368,8 @@ fn check(uv: &[DVec2], options: &FieldOptions) -> Result<(), FitError> {
     {
         return Err(FitError::Count { what: "the mask", count: is_known.len(), expected: uv.len() });
     }
-    // weights are checked as those of any fit
-    check_values(uv.len(), &vec![0.0; uv.len()], 1, options.weights)
+    check_count(uv.len())?;
+    check_weights(uv.len(), options.weights)
 }
 
 fn known_nodes(uv: &[DVec2], options: &FieldOptions) -> Result<Option<Vec<u32>>, FitError> {
@@ -441,11 +449,15 @@ fn factor(
     smoothing: f64,
     energy: Energy,
     pool: &Pool,
+    watch: &Watch,
 ) -> Result<Cholesky, FitError> {
     let nothing = vec![0.0; data.uv.len()];
     let samples = Samples { uv: &data.uv, values: &nothing, dim: 1, weights: Some(&data.weights) };
     let equations = NormalEquations::assemble(*basis, &samples, pool);
-    equations.factor(&equations.analyse(), smoothing, energy).map_err(|_| FitError::Singular)
+    watch.check()?;
+    let symbolic = equations.analyse();
+    watch.check()?;
+    equations.factor(&symbolic, smoothing, energy).map_err(|_| FitError::Singular)
 }
 
 /// The boundary loops of the mesh in the parameter plane.

@@ -1,7 +1,8 @@
 //! The right side `N^T W x` of the normal equations, again and again for other values.
 //!
 //! Everything that does not depend on the values is kept: the data in the order of their cells, and the weights of
-//! the 16 unknowns that each of them meets, as four along u (times the datum's own weight) and four along v.
+//! the 16 unknowns that each of them meets, as four along u (times the datum's own weight) and four along v. The
+//! same rows read a solution at the data: the transpose, `W N c`.
 
 use crate::control::Pool;
 use crate::fit::tessellation::normal_equations::{ByCell, TensorBasis};
@@ -11,6 +12,9 @@ use crate::linalg::SolveMemory;
 use glam::DVec2;
 use rayon::prelude::*;
 use std::fmt;
+
+/// Data read in one piece of work. Pieces do not depend on the number of threads.
+const CHUNK: usize = 1024;
 
 /// Where the data of a fit lie and how much they weigh: nodes, then places inside triangles.
 pub struct Data {
@@ -44,6 +48,16 @@ impl Data {
                 .collect(),
             nodes,
             places,
+        }
+    }
+
+    /// One datum of weight 1 at each place.
+    pub fn plain(uv: &[DVec2]) -> Self {
+        Self {
+            uv: uv.to_vec(),
+            weights: vec![1.0; uv.len()],
+            nodes: (0..uv.len() as u32).collect(),
+            places: Vec::new(),
         }
     }
 }
@@ -91,6 +105,8 @@ pub struct Scratch {
     rows: Vec<f64>,
     along_u: Vec<f64>,
     pub control_points: Vec<f64>,
+    /// One row for each datum, where the columns are read.
+    data: Vec<f64>,
 }
 
 impl fmt::Debug for Scratch {
@@ -113,7 +129,19 @@ impl Scratch {
             rows: vec![0.0; basis.len() * dim],
             along_u: vec![0.0; count_u * basis.v.len() * dim],
             control_points: vec![0.0; count_u * count_v * dim],
+            data: Vec::new(),
         }
+    }
+
+    /// Sets the frame: the values are taken less `center`, in their own size.
+    pub fn set_center(&mut self, center: impl Iterator<Item = f64>) {
+        self.center.iter_mut().zip(center).for_each(|(c, x)| *c = x);
+        self.scale = 1.0;
+    }
+
+    /// What the values are taken less of.
+    pub fn center(&self) -> &[f64] {
+        &self.center
     }
 
     /// From the columns of unknowns to control points in the frame of the values.
@@ -159,6 +187,11 @@ impl RightSide {
         (basis.u.width() * basis.v.len() + 17) * dim
     }
 
+    /// The nodes with values, in order.
+    pub fn nodes(&self) -> &[u32] {
+        &self.nodes
+    }
+
     /// Chooses the box in which sums of squares keep their digits.
     pub fn frame(&self, values: &[f64], dim: usize, scratch: &mut Scratch) {
         let mut diagonal_sq = 0.0;
@@ -199,6 +232,53 @@ impl RightSide {
             let (first, len) = (basis.u.first(cell_u) * rows, basis.u.width() * rows);
             for (k, sums) in strip.chunks_exact(len).take(dim).enumerate() {
                 columns[k * n + first..][..len].iter_mut().zip(sums).for_each(|(sum, x)| *sum += x);
+            }
+        }
+    }
+
+    /// The transpose of [`RightSide::assemble`]: what the columns of unknowns are at the data, times their weights,
+    /// added up for the nodes that the data take their values from. Other nodes get 0.
+    pub fn transpose(&self, basis: &TensorBasis, scratch: &mut Scratch, out: &mut [f64], pool: &Pool) {
+        let Scratch { columns, data, dim, .. } = scratch;
+        let dim = *dim;
+        data.resize(self.rows.len() * dim, 0.0);
+        pool.run(|| {
+            let chunks = data.par_chunks_mut(CHUNK * dim).enumerate();
+            chunks.for_each(|(chunk, data)| self.read(chunk * CHUNK, columns, basis, dim, data));
+        });
+        out.fill(0.0);
+        for (row, value) in self.rows.iter().zip(data.chunks_exact(dim)) {
+            let mut add = |node: usize, share: f64| {
+                let sums = &mut out[node * dim..][..dim];
+                sums.iter_mut().zip(value).for_each(|(sum, x)| *sum += share * x);
+            };
+            match row.source {
+                Source::Node(node) => add(node as usize, 1.0),
+                Source::Place(place) => {
+                    let InteriorPlace { nodes, shares, .. } = self.places[place as usize];
+                    nodes.into_iter().zip(shares).for_each(|(node, share)| add(node, share));
+                }
+            }
+        }
+    }
+
+    /// What the columns are at the data from row `first` on.
+    fn read(&self, first: usize, columns: &[f64], basis: &TensorBasis, dim: usize, out: &mut [f64]) {
+        let [_, cells_v] = basis.cells();
+        let (n, rows, width_u, width_v) = (basis.len(), basis.v.len(), basis.u.width(), basis.v.width());
+        let mut cell = self.starts.partition_point(|&start| start as usize <= first) - 1;
+        for (index, out) in (first..).zip(out.chunks_exact_mut(dim)) {
+            while self.starts[cell + 1] as usize <= index {
+                cell += 1;
+            }
+            let row = &self.rows[index];
+            let corner = basis.u.first(cell / cells_v) * rows + basis.v.first(cell % cells_v);
+            for (column, out) in columns.chunks_exact(n).zip(out) {
+                let line = |a: usize| {
+                    let line = &column[corner + a * rows..][..width_v];
+                    line.iter().zip(&row.v).map(|(x, v)| x * v).sum::<f64>()
+                };
+                *out = (0..width_u).map(|a| row.u[a] * line(a)).sum();
             }
         }
     }

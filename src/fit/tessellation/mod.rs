@@ -364,19 +364,33 @@ pub(in crate::fit) fn check_values(
     dim: usize,
     weights: Option<&[f64]>,
 ) -> Result<(), FitError> {
+    check_count(count)?;
+    check_rows(count, values, dim)?;
+    check_weights(count, weights)
+}
+
+/// Finite rows of `dim` numbers.
+pub(in crate::fit) fn check_rows(count: usize, values: &[f64], dim: usize) -> Result<(), FitError> {
     if dim == 0 {
         return Err(FitError::Option { option: "dim", value: 0.0, range: "at least 1" });
-    }
-    if count < LEAST_COUNT {
-        return Err(FitError::TooFew { count });
     }
     let expected = count.saturating_mul(dim);
     if values.len() != expected {
         return Err(FitError::Count { what: "the values", count: values.len(), expected });
     }
-    if let Some(index) = values.iter().position(|x| !x.is_finite()) {
-        return Err(FitError::ValuesNotFinite { index: index / dim });
+    match values.iter().position(|x| !x.is_finite()) {
+        Some(index) => Err(FitError::ValuesNotFinite { index: index / dim }),
+        None => Ok(()),
     }
+}
+
+/// As many data as determine anything.
+pub(in crate::fit) fn check_count(count: usize) -> Result<(), FitError> {
+    if count < LEAST_COUNT { Err(FitError::TooFew { count }) } else { Ok(()) }
+}
+
+/// Weights of `count` data, if there are any.
+pub(in crate::fit) fn check_weights(count: usize, weights: Option<&[f64]>) -> Result<(), FitError> {
     let Some(weights) = weights else { return Ok(()) };
     if weights.len() != count {
         return Err(FitError::Count { what: "the weights", count: weights.len(), expected: count });

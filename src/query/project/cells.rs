@@ -1,8 +1,10 @@
-//! The cells of a surface: its Bezier patches in one form, halved while they bend much, and the pieces of its
+//! The cells of a surface or curve: its Bezier patches in one form, halved while they bend much, and the pieces of its
 //! trims that lie on one patch each.
 
 use super::index::Place;
-use crate::bezier::BezierPatch;
+use crate::bezier::{BezierPatch, apply, extraction};
+use crate::curve::Curve;
+use crate::geometry::Domain;
 use crate::surface::{Patches, Trims};
 use glam::DVec2;
 
@@ -17,7 +19,28 @@ const MAX_HALVINGS: u32 = 8;
 
 /// The cells of a surface.
 pub fn surface_cells(surface: &dyn Patches) -> Vec<(BezierPatch, Place)> {
-    let patches = uniform(surface);
+    halved(uniform(surface))
+}
+
+/// The cells of a curve: patches over its spans and the unit interval of v, along which they are constant.
+pub fn curve_cells(curve: &Curve) -> Vec<(BezierPatch, Place)> {
+    let (knots, dim) = (curve.knots(), curve.dim());
+    let degree = knots.degree();
+    let patch = |span: usize| {
+        let points = &curve.control_points()[(span - degree) * dim..(span + 1) * dim];
+        let (from, to) = (knots.knots()[span], knots.knots()[span + 1]);
+        BezierPatch {
+            domain: Domain { min: DVec2::new(from, 0.0), max: DVec2::new(to, 1.0) },
+            degree: [degree, 0],
+            dim,
+            is_rational: false,
+            ordinates: apply(points, [degree, 0], dim, &extraction(knots, span), &[1.0]),
+        }
+    };
+    halved(knots.spans().map(patch).collect())
+}
+
+fn halved(patches: Vec<BezierPatch>) -> Vec<(BezierPatch, Place)> {
     let halvings = (CELL_BUDGET / patches.len().max(1)).checked_ilog2().unwrap_or(0).min(MAX_HALVINGS);
     let mut cells = Vec::with_capacity(patches.len());
     patches.into_iter().for_each(|patch| add_halves(patch, halvings, &mut cells));

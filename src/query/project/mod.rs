@@ -18,12 +18,14 @@ mod search;
 #[cfg(test)]
 mod tests;
 
+use crate::bezier::BezierPatch;
 use crate::control::Pool;
+use crate::curve::Curve;
 use crate::geometry::{Bounds, Domain};
 use crate::surface::{Kind, Surface, Trims};
-use cells::{surface_cells, trim_pieces};
+use cells::{curve_cells, surface_cells, trim_pieces};
 use glam::DVec2;
-use index::Index;
+use index::{Index, Place};
 use rayon::prelude::*;
 use search::{Best, Search, Workspace};
 
@@ -104,7 +106,7 @@ impl ProjectError {
     }
 }
 
-/// Projects points onto one surface. It holds all it needs of the surface, as it was when this was made.
+/// Projects points onto one surface or curve. It holds all it needs of that, as it was when this was made.
 #[derive(Debug, Clone)]
 pub struct Projector {
     dim: usize,
@@ -127,8 +129,23 @@ impl Projector {
         let Some(patches) = surface.patches() else {
             return Err(ProjectError::NoPatches { kind: surface.kind() });
         };
-        let cells = surface_cells(patches);
-        let dim = surface.dim();
+        let trims = &surface.region().trims;
+        let trim_index = Index::new(trim_pieces(patches, trims));
+        Ok(Self {
+            trim_index,
+            trims: trims.clone(),
+            ..Self::over(surface_cells(patches), surface.dim(), surface.domain())
+        })
+    }
+
+    /// Onto a curve: its parameter is the u of the answers, their v means nothing. It has no trims.
+    pub fn of_curve(curve: &Curve) -> Self {
+        let (from, to) = curve.knots().domain();
+        let domain = Domain { min: DVec2::new(from, 0.0), max: DVec2::new(to, 1.0) };
+        Self::over(curve_cells(curve), curve.dim(), domain)
+    }
+
+    fn over(cells: Vec<(BezierPatch, Place)>, dim: usize, domain: Domain) -> Self {
         let corners: Vec<f64> = cells
             .iter()
             .flat_map(|(cell, _)| {
@@ -138,15 +155,14 @@ impl Projector {
             .collect();
         let bounds = Bounds::of_rows(&corners, dim);
         let largest = bounds.min.iter().chain(&bounds.max).fold(0.0, |most: f64, x| most.max(x.abs()));
-        let trims = surface.region().trims.clone();
-        Ok(Self {
+        Self {
             dim,
-            domain: surface.domain(),
+            domain,
             index: Index::new(cells),
-            trim_index: Index::new(trim_pieces(patches, &trims)),
-            trims,
+            trim_index: Index::new(Vec::new()),
+            trims: Trims::default(),
             tolerance: DISTANCE_TOLERANCE * bounds.diagonal() + 4.0 * f64::EPSILON * largest,
-        })
+        }
     }
 
     /// The nearest place for each row of `points`: its (u,v), and the distance. Returns how many points are

@@ -203,3 +203,27 @@ fn refusals_name_the_point() {
     let counts = ProjectError::Count { what: "the parameters", count: 2, expected: 3 };
     assert_eq!(refuse(&[0.0; 9], &options), counts);
 }
+
+#[test]
+fn the_nearest_place_of_a_curve_is_no_farther_than_any_other() {
+    let knots = KnotVector::clamped(&[0.0, 0.3, 1.0, 1.2, 2.0], 3).unwrap();
+    for dim in [1, 2, 3] {
+        let mut random = Random::new(dim as u64);
+        let points = (0..dim * knots.basis_count()).map(|_| random.signed()).collect();
+        let curve = Curve::new(dim, knots.clone(), points).unwrap();
+        let places: Vec<f64> = (0..=20_000).map(|k| f64::from(k) * 1e-4).collect();
+        let mut rows = vec![0.0; dim * places.len()];
+        curve.eval_rows(&places, 0, &mut rows);
+        let queries: Vec<f64> = (0..dim * 200).map(|_| 2.0 * random.signed()).collect();
+        let (mut uv, mut distances) = (vec![DVec2::ZERO; 200], vec![0.0; 200]);
+        let projector = Projector::of_curve(&curve);
+        let pool = Pool::new(1);
+        projector.project(&queries, &ProjectOptions::default(), &mut uv, &mut distances, &pool).unwrap();
+        for ((query, uv), distance) in queries.chunks(dim).zip(&uv).zip(&distances) {
+            let to = |row: &[f64]| row.iter().zip(query).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
+            assert!((to(&curve.eval(uv.x)) - distance).abs() <= 1e-14, "{uv} {distance}");
+            let sampled = rows.chunks(dim).map(to).fold(f64::INFINITY, f64::min);
+            assert!(*distance <= sampled + 1e-12, "{distance} {sampled}");
+        }
+    }
+}

@@ -1,0 +1,143 @@
+//! `planish morph`.
+
+use crate::output::{write_png, write_surface};
+use crate::{Failure, Outcome};
+use clap::Args;
+use glam::DVec3;
+use planish::Control;
+use planish::export::picture::{Picture, View};
+use planish::export::step::StepOptions;
+use planish::export::vtk::on_surface;
+use planish::fit::report::{Remarks, Tolerance};
+use planish::fit::tessellation::{Regularize, TensorFit, TensorOptions, fit_field, fit_mesh};
+use planish::mesh::{Mesh, MeshOptions, read};
+use planish::surface::tensor::TensorSurface;
+use planish::surface::{Surface, normal};
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, Args)]
+pub struct MorphArguments {
+    /// Mesh file with fields on its nodes (PLY).
+    mesh: PathBuf,
+    /// Fields of the mesh that are the displacement: three for its components, or one along the normals.
+    #[arg(long, value_name = "X,Y,Z", value_delimiter = ',', required = true)]
+    displacement: Vec<String>,
+    /// The pictures to write: NAME.png becomes NAME-00.png, NAME-01.png and so on.
+    #[arg(long, value_name = "PNG")]
+    out: PathBuf,
+    /// Number of pictures.
+    #[arg(long, default_value_t = 6, value_name = "N", value_parser = clap::value_parser!(u16).range(2..=1000))]
+    frames: u16,
+    /// Factor of the displacement in the first picture.
+    #[arg(long, default_value_t = 0.0, value_name = "FACTOR", allow_hyphen_values = true)]
+    from: f64,
+    /// Factor of the displacement in the last picture.
+    #[arg(long, default_value_t = 1.0, value_name = "FACTOR", allow_hyphen_values = true)]
+    to: f64,
+    /// Open a closed mesh along the shortest path between two nodes, counted from 0.
+    #[arg(long, value_name = "A,B", value_delimiter = ',', num_args = 1)]
+    cut: Vec<u32>,
+    /// Largest error allowed at the nodes, as a fraction of the diagonal of shape and of displacement.
+    #[arg(long, default_value_t = 1e-3, value_name = "T")]
+    tolerance: f64,
+    /// Save the surface of the last picture: .planish, .step, .vtu, .obj.
+    #[arg(long, value_name = "FILE")]
+    save: Option<PathBuf>,
+}
+
+pub fn run(arguments: &MorphArguments) -> Result<Outcome, Failure> {
+    if let Some(path) = &arguments.save {
+        crate::output::check_names(&[path])?;
+    }
+    let mut mesh = opened(read(&arguments.mesh, &MeshOptions::default())?.0, &arguments.cut)?;
+    let mut control = Control::default();
+    let options = TensorOptions {
+        tolerance: Tolerance { value: arguments.tolerance, ..Tolerance::default() },
+        regularize: Regularize::Never,
+        ..TensorOptions::default()
+    };
+    let shape = fit_mesh(&mesh, &options, &mut control)?;
+    mesh.set_parameters(shape.parameters.clone())?;
+    let ways = displacement(&mesh, &shape, &arguments.displacement)?;
+    let way = fit_field(&mesh, &ways, 3, &options, &mut control)?;
+    say("shape", &shape);
+    say("displacement", &way);
+
+    let moved = |factor: f64| TensorSurface::combine(&[(1.0, &shape.surface), (factor, &way.surface)]);
+    let nodes = |surface: &TensorSurface| on_surface(surface, &mesh, &shape.parameters);
+    let (first, last) = (moved(arguments.from)?, moved(arguments.to)?);
+    let scene = together(&nodes(&first)?, &nodes(&last)?)?;
+    let view = View::facing(&nodes(&first)?);
+    let lengths: Vec<f64> = ways.chunks(3).map(|way| way.iter().map(|x| x * x).sum::<f64>().sqrt()).collect();
+    let most = arguments.from.abs().max(arguments.to.abs()) * lengths.iter().fold(0.0, |a: f64, b| a.max(*b));
+    for frame in 0..arguments.frames {
+        let share = f64::from(frame) / f64::from(arguments.frames - 1);
+        let factor = arguments.from + share * (arguments.to - arguments.from);
+        let colors: Vec<f64> = lengths.iter().map(|length| factor.abs() * length).collect();
+        let mut picture = Picture::new(1200, 900, &view, &scene);
+        picture.draw_mesh(&nodes(&moved(factor)?)?, Some(&colors), (0.0, most));
+        picture.draw_scale("displacement", (0.0, most));
+        write_png(&picture, &numbered(&arguments.out, frame))?;
+    }
+    if let Some(path) = &arguments.save {
+        write_surface(&last.into(), path, &StepOptions::default())?;
+    }
+    let is_met = [&shape, &way].iter().all(|fit| !fit.report.remarks.has(Remarks::TOLERANCE_NOT_MET));
+    Ok(if is_met { Outcome::Done } else { Outcome::ToleranceNotMet })
+}
+
+fn say(what: &str, fit: &TensorFit) {
+    let report = &fit.report;
+    println!(
+        "{what}: {} x {} knots, max error {:.2e} of {:.2e} allowed",
+        report.grid_u, report.grid_v, report.max_error, report.tolerance
+    );
+}
+
+fn opened(mesh: Mesh, cut: &[u32]) -> Result<Mesh, Failure> {
+    match *cut {
+        [] => Ok(mesh),
+        [from, to] => Ok(mesh.cut_along(&mesh.shortest_path(from, to)?)?.mesh),
+        _ => Err(Failure::new("--cut takes two nodes, say --cut 0,2000")),
+    }
+}
+
+/// The displacement of each node, row by row.
+fn displacement(mesh: &Mesh, shape: &TensorFit, names: &[String]) -> Result<Vec<f64>, Failure> {
+    let field = |name: &String| {
+        let there = || mesh.fields().iter().map(|field| field.name.as_str()).collect::<Vec<_>>().join(", ");
+        mesh.field(name)
+            .ok_or_else(|| Failure::new(format!("there is no field {name}; there are {}", there())))
+    };
+    match names {
+        [x, y, z] => {
+            let (x, y, z) = (field(x)?, field(y)?, field(z)?);
+            Ok(x.iter().zip(y).zip(z).flat_map(|((x, y), z)| [*x, *y, *z]).collect())
+        }
+        [name] => {
+            let mut rows = vec![0.0; 9 * shape.parameters.len()];
+            shape.surface.eval_rows(&shape.parameters, 1, &mut rows);
+            let normals = rows.chunks_exact(9).map(|row| normal(vector(&row[3..]), vector(&row[6..])));
+            Ok(field(name)?.iter().zip(normals).flat_map(|(x, normal)| (*x * normal).to_array()).collect())
+        }
+        _ => Err(Failure::new("--displacement takes one field or three")),
+    }
+}
+
+fn vector(numbers: &[f64]) -> DVec3 {
+    DVec3::from_slice(numbers)
+}
+
+/// Two meshes as one, for a picture that has room for both.
+fn together(first: &Mesh, last: &Mesh) -> Result<Mesh, Failure> {
+    let count = first.points().len() as u32;
+    let points = first.points().iter().chain(last.points()).copied().collect();
+    let moved = last.triangles().iter().map(|triangle| triangle.map(|node| node + count));
+    Ok(Mesh::new(points, first.triangles().iter().copied().chain(moved).collect())?)
+}
+
+/// `name.png` with a number.
+fn numbered(path: &Path, number: u16) -> PathBuf {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!("{stem}-{number:02}.png"))
+}

@@ -1,0 +1,191 @@
+//! What can be asked of curves, and their files.
+
+use super::arguments::{
+    ArgumentError, array_len, copy_rows, deref, options, out, slice, slice_mut, slice_mut_or_none, text,
+};
+use super::curve::{planish_curve, query_curve};
+use super::guard::guard;
+use super::progress::thread_count;
+use super::{planish_project_options, planish_status};
+use crate::control::Pool;
+use crate::curve::Curve;
+use crate::export::native;
+use crate::query::project::{ProjectOptions, Projector};
+use glam::DVec2;
+use std::ffi::{c_char, c_void};
+use std::path::Path;
+
+/// Length of a curve, but for 1e-12 of it and the roundoff of its coordinates; 0 for NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_curve_length(curve: *const planish_curve) -> f64 {
+    // SAFETY: the caller's promise.
+    unsafe { query_curve(curve, Curve::length) }
+}
+
+/// The lengths of a curve from its start to parameters, as exact as planish_curve_length().
+///
+/// curve:       not NULL.
+/// u:           count parameters in the domain, in any order.
+/// count:       may be 0.
+/// out_lengths: receives count lengths.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_NOT_FINITE or PLANISH_STATUS_OUTSIDE (the
+/// index is the parameter for both).
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_curve_arc_lengths(
+    curve: *const planish_curve,
+    u: *const f64,
+    count: usize,
+    out_lengths: *mut f64,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let curve = deref(curve, "curve")?.core();
+        let u = slice(u, count, "u")?;
+        let out_lengths = slice_mut(out_lengths, count, "out_lengths")?;
+        out_lengths.copy_from_slice(&curve.lengths_to(u)?);
+        Ok(())
+    })
+}
+
+/// Finds the place on a curve nearest to each point, anywhere on the curve: there is no start to choose, and no local
+/// minimum to fall into.
+///
+/// curve:         not NULL.
+/// points:        count rows of planish_curve_dim() doubles.
+/// count:         number of points; with 0 nothing is done.
+/// options:       NULL for the defaults. guesses are count parameters u; keep_trims is not used.
+/// out_u:         receives count parameters; NULL for none.
+/// out_distances: receives count distances; NULL for none.
+/// Returns what planish_surface_project() returns, but for PLANISH_STATUS_WRONG_KIND.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_curve_project(
+    curve: *const planish_curve,
+    points: *const f64,
+    count: usize,
+    options: *const planish_project_options,
+    out_u: *mut f64,
+    out_distances: *mut f64,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let curve = deref(curve, "curve")?.core();
+        let given = self::options(options)?;
+        let points = slice(points, array_len::<f64>(count, curve.dim(), "points")?, "points")?;
+        let guesses = match given.guesses.is_null() {
+            true => None,
+            false => Some(copy_rows(given.guesses, count, 1, "guesses", |[u]| DVec2::new(u, 0.0))?),
+        };
+        let max_distance = given.max_distance;
+        let core = ProjectOptions { guesses: guesses.as_deref(), max_distance, keep_trims: false };
+        let pool = Pool::new(thread_count(given.thread_count)?);
+        let out_u = slice_mut_or_none(out_u, count, "out_u")?;
+        let out_distances = slice_mut_or_none(out_distances, count, "out_distances")?;
+        let (mut uv, mut distances) = (vec![DVec2::ZERO; count], vec![0.0; count]);
+        let missed = Projector::of_curve(curve).project(points, &core, &mut uv, &mut distances, &pool)?;
+        if let Some(out_u) = out_u {
+            out_u.iter_mut().zip(&uv).for_each(|(out, uv)| *out = uv.x);
+        }
+        if let Some(out_distances) = out_distances {
+            out_distances.copy_from_slice(&distances);
+        }
+        Ok(if missed > 0 { planish_status::PointsOutside } else { planish_status::Ok })
+    })
+}
+
+/// How many bytes planish_curve_save() writes; 0 for NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_curve_save_size(curve: *const planish_curve) -> usize {
+    // SAFETY: the caller's promise.
+    unsafe { query_curve(curve, |curve| native::save_size(curve)) }
+}
+
+/// Writes everything a curve is into a buffer, to the bit. The layout is documented in docs/format.md; it is the same
+/// on all machines.
+///
+/// curve:  not NULL.
+/// buffer: receives planish_curve_save_size() bytes.
+/// size:   bytes that the buffer has room for.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_curve_save(
+    curve: *const planish_curve,
+    buffer: *mut c_void,
+    size: usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let curve = deref(curve, "curve")?.core();
+        let needed = native::save_size(curve);
+        if size < needed {
+            return Err(ArgumentError::TooSmall { name: "buffer", given: size, needed }.into());
+        }
+        slice_mut(buffer.cast::<u8>(), needed, "buffer")?.copy_from_slice(&native::save(curve));
+        Ok(())
+    })
+}
+
+/// Makes a curve from bytes of planish_curve_save(). Damaged bytes are refused, sizes are checked before memory is
+/// asked for.
+///
+/// buffer:    size bytes.
+/// out_curve: receives a new curve; destroy with planish_curve_free().
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_FORMAT (the index is the byte) or
+/// PLANISH_STATUS_VERSION (a later library made it).
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_curve_load(
+    buffer: *const c_void,
+    size: usize,
+    out_curve: *mut *mut planish_curve,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let bytes = slice(buffer.cast::<u8>(), size, "buffer")?;
+        let out_curve = out(out_curve, "out_curve")?;
+        out_curve.write(planish_curve::into_raw(native::load_curve(bytes)?));
+        Ok(())
+    })
+}
+
+/// Writes the bytes of planish_curve_save() to a file, which appears whole or not at all.
+///
+/// curve: not NULL.
+/// path:  UTF-8, ends with a NUL; an existing file is replaced.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the path is not UTF-8) or
+/// PLANISH_STATUS_FILE.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_curve_save_file(
+    curve: *const planish_curve,
+    path: *const c_char,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let curve = deref(curve, "curve")?.core();
+        Ok(native::save_file(curve, Path::new(text(path, "path")?))?)
+    })
+}
+
+/// Makes a curve from a file of planish_curve_save_file().
+///
+/// path:      UTF-8, ends with a NUL.
+/// out_curve: receives a new curve; destroy with planish_curve_free().
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the path is not UTF-8),
+/// PLANISH_STATUS_FILE, PLANISH_STATUS_FORMAT (the index is the byte) or PLANISH_STATUS_VERSION.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_curve_load_file(
+    path: *const c_char,
+    out_curve: *mut *mut planish_curve,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let path = text(path, "path")?;
+        let out_curve = out(out_curve, "out_curve")?;
+        out_curve.write(planish_curve::into_raw(native::load_curve_file(Path::new(path))?));
+        Ok(())
+    })
+}

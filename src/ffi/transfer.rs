@@ -1,0 +1,420 @@
+//! Values and forces between meshes whose nodes do not match.
+
+use super::arguments::{
+    ReportOut, array_len, choice, copy_rows, deref, init_options, options, out, rows_mut, slice,
+};
+use super::field::{planish_field_options, tolerance_scale, with_field_options};
+use super::guard::{Failure, guard};
+use super::mesh::planish_mesh;
+use super::planish_status;
+use super::report::write_pairs;
+use super::status::query;
+use super::tensor::planish_tolerance_scale;
+use crate::fit::field::transfer::{Balance, FarRule, Transfer, TransferOptions, TransferReport};
+use crate::fit::tessellation::FitError;
+use glam::DVec3;
+
+/// Carries values from the nodes of a source mesh to target points, and forces on these back to the nodes. Made by
+/// planish_transfer_new(), destroyed by planish_transfer_free().
+///
+/// Calls that take it const may run at once on any threads.
+pub struct planish_transfer(Transfer);
+
+const _: () = {
+    const fn is_shared<T: Send + Sync>() {}
+    is_shared::<planish_transfer>();
+};
+
+/// What happens to targets beyond max_distance.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum planish_far_rule {
+    /// The first of them is an error, PLANISH_STATUS_OUTSIDE.
+    Refuse = 0,
+    /// They take part like all others; the call returns PLANISH_STATUS_POINTS_OUTSIDE.
+    Keep = 1,
+}
+
+/// How values are carried. Fill with planish_transfer_options_init(), then change what you need.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct planish_transfer_options {
+    /// Set by planish_transfer_options_init().
+    pub struct_size: usize,
+    /// How fields on the source are fitted: the grid (given, found for a sample field, or chosen from the number of
+    /// nodes, about four of them a coefficient), mask, weights; also threads and progress of the transfer. NULL
+    /// (default) for the defaults. Borrowed for the call.
+    pub field: *const planish_field_options,
+    /// How far from the source's surface a target may lie, measured in distance_scale, not negative; infinity for
+    /// anywhere. Default 0.05.
+    pub max_distance: f64,
+    /// A planish_tolerance_scale: of the diagonal of the source's points, or model units. Default
+    /// PLANISH_TOLERANCE_SCALE_RELATIVE.
+    pub distance_scale: u32,
+    /// A planish_far_rule. Default PLANISH_FAR_RULE_REFUSE.
+    pub far_rule: u32,
+}
+
+record!(planish_transfer_options, 32, {
+    struct_size: 0, field: 8, max_distance: 16, distance_scale: 24, far_rule: 28,
+});
+
+impl Default for planish_transfer_options {
+    fn default() -> Self {
+        Self {
+            struct_size: size_of::<Self>(),
+            field: std::ptr::null(),
+            max_distance: TransferOptions::default().max_distance,
+            distance_scale: planish_tolerance_scale::Relative as u32,
+            far_rule: planish_far_rule::Refuse as u32,
+        }
+    }
+}
+
+/// How well source and targets lie on one another. Set struct_size to sizeof(planish_transfer_report) before the
+/// call; the report is filled as far as that goes, on success only. Lengths are in model units.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default)]
+pub struct planish_transfer_report {
+    /// sizeof(planish_transfer_report) as the caller sees it.
+    pub struct_size: usize,
+    /// The largest distance of a target to the source's surface.
+    pub max_distance: f64,
+    /// Square root of the mean of its square.
+    pub rms_distance: f64,
+    /// The distance that was allowed.
+    pub limit: f64,
+    /// The largest distance between a node of the source and its surface at the node's (u,v).
+    pub max_shape_error: f64,
+    /// Square root of the mean of its square.
+    pub rms_shape_error: f64,
+    /// Wall time in all, in seconds.
+    pub seconds: f64,
+    /// The target with the largest distance, counted from 0.
+    pub farthest_index: usize,
+    /// Targets beyond the limit.
+    pub far_count: usize,
+    /// Knots of the grid along u.
+    pub grid_u: usize,
+    /// Knots of the grid along v.
+    pub grid_v: usize,
+    /// Unknowns of a fit on the grid.
+    pub coefficient_count: usize,
+    /// Everything worth knowing of the source's surface: bits of planish_remark.
+    pub remarks: u64,
+}
+
+record!(planish_transfer_report, 104, {
+    struct_size: 0, max_distance: 8, rms_distance: 16, limit: 24, max_shape_error: 32, rms_shape_error: 40,
+    seconds: 48, farthest_index: 56, far_count: 64, grid_u: 72, grid_v: 80, coefficient_count: 88, remarks: 96,
+});
+
+impl From<&TransferReport> for planish_transfer_report {
+    fn from(report: &TransferReport) -> Self {
+        Self {
+            struct_size: size_of::<Self>(),
+            max_distance: report.max_distance,
+            rms_distance: report.rms_distance,
+            limit: report.limit,
+            max_shape_error: report.shape.max_error,
+            rms_shape_error: report.shape.rms_error,
+            seconds: report.seconds,
+            farthest_index: report.farthest_index,
+            far_count: report.far_count,
+            grid_u: report.shape.grid_u,
+            grid_v: report.shape.grid_v,
+            coefficient_count: report.shape.coefficient_count,
+            remarks: report.shape.remarks.0,
+        }
+    }
+}
+
+/// What a transfer keeps of forces, moments and work. Set struct_size to sizeof(planish_balance_report) before the
+/// call; the report is filled as far as that goes, on success only.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default)]
+pub struct planish_balance_report {
+    /// sizeof(planish_balance_report) as the caller sees it.
+    pub struct_size: usize,
+    /// Sum of the forces on the targets.
+    pub force_given: [f64; 3],
+    /// Sum of the forces that arrive at the nodes of the source.
+    pub force_arrived: [f64; 3],
+    /// Length of the difference, as a fraction of the sum of the lengths of the forces given: roundoff.
+    pub force_error: f64,
+    /// Moment of the forces on the targets.
+    pub moment_given: [f64; 3],
+    /// Moment of the forces that arrive.
+    pub moment_arrived: [f64; 3],
+    /// Length of the difference.
+    pub moment_error: f64,
+    /// What moment_error cannot exceed but by roundoff: the sum over the targets of the force's length times the
+    /// distance to the source's surface.
+    pub moment_bound: f64,
+    /// Work of the forces given along the displacements that arrive at the targets.
+    pub work_given: f64,
+    /// Work of the forces that arrive along the displacements given.
+    pub work_arrived: f64,
+    /// The difference, as a fraction of the sum of the targets' works without their signs: roundoff.
+    pub work_error: f64,
+}
+
+record!(planish_balance_report, 152, {
+    struct_size: 0, force_given: 8, force_arrived: 32, force_error: 56, moment_given: 64, moment_arrived: 88,
+    moment_error: 112, moment_bound: 120, work_given: 128, work_arrived: 136, work_error: 144,
+});
+
+impl From<&Balance> for planish_balance_report {
+    fn from(balance: &Balance) -> Self {
+        Self {
+            struct_size: size_of::<Self>(),
+            force_given: balance.force_given.to_array(),
+            force_arrived: balance.force_arrived.to_array(),
+            force_error: balance.force_error,
+            moment_given: balance.moment_given.to_array(),
+            moment_arrived: balance.moment_arrived.to_array(),
+            moment_error: balance.moment_error,
+            moment_bound: balance.moment_bound,
+            work_given: balance.work_given,
+            work_arrived: balance.work_arrived,
+            work_error: balance.work_error,
+        }
+    }
+}
+
+/// Fills options with the defaults.
+///
+/// options: not NULL.
+/// size:    sizeof(planish_transfer_options).
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_transfer_options_init(
+    options: *mut planish_transfer_options,
+    size: usize,
+) -> planish_status {
+    // SAFETY: the caller's promise.
+    guard(|| unsafe { init_options(options, size) })
+}
+
+/// Makes a transfer from the nodes of a mesh to points near it. The points of the mesh are fitted by a surface over its
+/// parameters or, if it has none, over those it is given here; each target is projected onto that once, inside the
+/// mesh's boundary. It keeps what it needs; mesh and points may go.
+///
+/// source:       not NULL.
+/// targets:      count rows of x, y, z.
+/// count:        may be 0.
+/// options:      NULL for the defaults.
+/// out_transfer: receives a new transfer; destroy with planish_transfer_free().
+/// out_report:   receives how well the two lie on one another; NULL for no report.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_POINTS_OUTSIDE (targets beyond max_distance were kept), or an error:
+/// PLANISH_STATUS_OUTSIDE (a target lies beyond it; the index is the target), PLANISH_STATUS_NOT_FINITE (a target; the
+/// index), PLANISH_STATUS_INVALID_ARGUMENT (an option), or what planish_field_fitter_new() returns.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_transfer_new(
+    source: *const planish_mesh,
+    targets: *const f64,
+    count: usize,
+    options: *const planish_transfer_options,
+    out_transfer: *mut *mut planish_transfer,
+    out_report: *mut planish_transfer_report,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let source = &deref(source, "source")?.0;
+        let targets = copy_rows(targets, count, 3, "targets", DVec3::from_array)?;
+        let given = self::options(options)?;
+        let (out_transfer, report) = (out(out_transfer, "out_transfer")?, ReportOut::new(out_report)?);
+        let distance_scale = tolerance_scale(given.distance_scale, "distance_scale")?;
+        let far = choice(given.far_rule, &[FarRule::Refuse, FarRule::Keep], "far_rule")?;
+        let field: planish_field_options = self::options(given.field)?;
+        let (transfer, made) = with_field_options(field, source.points().len(), |field, control| {
+            let (field, max_distance) = (*field, given.max_distance);
+            let core = TransferOptions { field, max_distance, distance_scale, far };
+            Transfer::new(source, &targets, &core, control)
+        })??;
+        report.store((&made).into());
+        out_transfer.write(Box::into_raw(Box::new(planish_transfer(transfer))));
+        Ok(if made.far_count > 0 { planish_status::PointsOutside } else { planish_status::Ok })
+    })
+}
+
+/// Destroys a transfer.
+///
+/// transfer: from this library and not destroyed yet; NULL does nothing.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_transfer_free(transfer: *mut planish_transfer) {
+    query(|| {
+        if !transfer.is_null() {
+            // SAFETY: the caller's promise.
+            drop(unsafe { Box::from_raw(transfer) });
+        }
+        Ok(())
+    });
+}
+
+/// Number of nodes of the source, those without values included; 0 for NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_transfer_source_count(transfer: *const planish_transfer) -> usize {
+    // SAFETY: the caller's promise.
+    query(|| Ok(unsafe { deref(transfer, "transfer") }?.0.source_count()))
+}
+
+/// Number of targets; 0 for NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_transfer_target_count(transfer: *const planish_transfer) -> usize {
+    // SAFETY: the caller's promise.
+    query(|| Ok(unsafe { deref(transfer, "transfer") }?.0.target_count()))
+}
+
+/// Copies where the targets lie on the source's surface.
+///
+/// transfer: not NULL.
+/// out_uv:   receives planish_transfer_target_count() rows of u, v.
+/// count:    rows that out_uv has room for.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_transfer_copy_parameters(
+    transfer: *const planish_transfer,
+    out_uv: *mut f64,
+    count: usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let uv = deref(transfer, "transfer")?.0.parameters();
+        write_pairs(uv, rows_mut(out_uv, count, uv.len(), 2, "out_uv")?);
+        Ok(())
+    })
+}
+
+/// Copies how far the targets are from the source's surface.
+///
+/// transfer:      not NULL.
+/// out_distances: receives planish_transfer_target_count() distances.
+/// count:         distances that out_distances has room for.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_transfer_copy_distances(
+    transfer: *const planish_transfer,
+    out_distances: *mut f64,
+    count: usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let distances = deref(transfer, "transfer")?.0.distances();
+        rows_mut(out_distances, count, distances.len(), 1, "out_distances")?.copy_from_slice(distances);
+        Ok(())
+    })
+}
+
+/// `count` rows of `dim` numbers, of which there must be `expected`.
+///
+/// # Safety
+/// `rows` is NULL or has `count` rows of `dim` numbers.
+unsafe fn all_rows<'a>(
+    rows: *const f64,
+    (count, expected): (usize, usize),
+    dim: usize,
+    name: &'static str,
+) -> Result<&'a [f64], Failure> {
+    if count != expected {
+        return Err(FitError::Count { what: name, count, expected }.into());
+    }
+    // SAFETY: the caller's promise.
+    Ok(unsafe { slice(rows, array_len::<f64>(count, dim, name)?, name) }?)
+}
+
+/// Values at the targets, from values at the nodes of the source: they are fitted, and the fit is evaluated where the
+/// targets lie. A constant arrives as it is.
+///
+/// transfer:   not NULL.
+/// values:     count rows of dim numbers, one a node.
+/// count:      planish_transfer_source_count().
+/// dim:        numbers of a value, at least 1.
+/// out_values: receives planish_transfer_target_count() rows of dim numbers; it must not overlap values.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (count, dim),
+/// PLANISH_STATUS_NOT_FINITE (the index is the node) or PLANISH_STATUS_TOO_LARGE.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_transfer_apply(
+    transfer: *const planish_transfer,
+    values: *const f64,
+    count: usize,
+    dim: usize,
+    out_values: *mut f64,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let transfer = &deref(transfer, "transfer")?.0;
+        let values = all_rows(values, (count, transfer.source_count()), dim, "values")?;
+        let targets = transfer.target_count();
+        Ok(transfer.apply(values, dim, rows_mut(out_values, targets, targets, dim, "out_values")?)?)
+    })
+}
+
+/// Forces at the nodes of the source, from forces on the targets: the transpose of planish_transfer_apply(), so that
+/// both do the same work; the sum of the forces stays.
+///
+/// transfer:   not NULL.
+/// forces:     count rows of dim numbers, one a target.
+/// count:      planish_transfer_target_count().
+/// dim:        numbers of a force, at least 1.
+/// out_forces: receives planish_transfer_source_count() rows of dim numbers, 0 for nodes without values; it must not
+///             overlap forces.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (count, dim),
+/// PLANISH_STATUS_NOT_FINITE (the index is the target) or PLANISH_STATUS_TOO_LARGE.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_transfer_apply_transpose(
+    transfer: *const planish_transfer,
+    forces: *const f64,
+    count: usize,
+    dim: usize,
+    out_forces: *mut f64,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let transfer = &deref(transfer, "transfer")?.0;
+        let forces = all_rows(forces, (count, transfer.target_count()), dim, "forces")?;
+        let nodes = transfer.source_count();
+        Ok(transfer.apply_transpose(forces, dim, rows_mut(out_forces, nodes, nodes, dim, "out_forces")?)?)
+    })
+}
+
+/// Carries displacements one way and forces the other, and adds up forces, moments and work on both sides.
+///
+/// transfer:      not NULL.
+/// displacements: source_count rows of 3 numbers, one a node of the source.
+/// source_count:  planish_transfer_source_count().
+/// forces:        target_count rows of 3 numbers, one a target.
+/// target_count:  planish_transfer_target_count().
+/// about:         3 numbers: the point that moments are about; NULL for the origin.
+/// out_report:    not NULL; receives the sums.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (a count),
+/// PLANISH_STATUS_NOT_FINITE (the index is the node or the target) or PLANISH_STATUS_TOO_LARGE.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_transfer_balance(
+    transfer: *const planish_transfer,
+    displacements: *const f64,
+    source_count: usize,
+    forces: *const f64,
+    target_count: usize,
+    about: *const f64,
+    out_report: *mut planish_balance_report,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let transfer = &deref(transfer, "transfer")?.0;
+        let nodes = (source_count, transfer.source_count());
+        let displacements = all_rows(displacements, nodes, 3, "displacements")?;
+        let forces = all_rows(forces, (target_count, transfer.target_count()), 3, "forces")?;
+        let about = if about.is_null() { DVec3::ZERO } else { DVec3::from_slice(slice(about, 3, "about")?) };
+        deref(out_report, "out_report")?;
+        let report = ReportOut::new(out_report)?;
+        report.store((&transfer.balance(displacements, forces, about)?).into());
+        Ok(())
+    })
+}

@@ -1,0 +1,269 @@
+//! Fields and forces between meshes whose nodes do not match.
+//!
+//! A. de Boer, A. H. van Zuijlen, H. Bijl, "Review of coupling methods for non-matching meshes", Comput. Methods
+//! Appl. Mech. Engrg. 196 (2007), 1515-1525: values go one way by a matrix whose rows sum to one (consistent), forces
+//! the other way by its transpose (conservative). Here the matrix is the fit of a field on the source's nodes
+//! ([`FieldFitter`]), evaluated where the target's nodes lie on the source's shape, which is the fit of its points:
+//! ```text
+//! T0 = E (N^T W N + (mu/12) energy)^-1 N^T W,      T = T0 (I - 1 w^T) + 1 w^T
+//! ```
+//! N are the basis functions at the source's data, E those at the target's foot points; w are equal shares that sum
+//! to one. T0 keeps constants up to the roundoff of the solution, T exactly: the sum of `T^T g` is that of `g`.
+//! Positions go the same way, so the moment of `T^T g` differs from that of `g` by no more than the sum of
+//! `|g_i|` times the target's distances to the shape.
+
+mod balance;
+mod error;
+#[cfg(test)]
+mod tests;
+
+pub use balance::Balance;
+pub use error::TransferError;
+
+use super::right_side::{Data, RightSide, Scratch};
+use super::{FieldFitter, FieldOptions};
+use crate::control::Control;
+use crate::fit::report::{FitReport, ToleranceScale};
+use crate::fit::tessellation::{FitError, check_rows};
+use crate::mesh::Mesh;
+use crate::query::project::{ProjectOptions, Projector};
+use crate::summary::{sum, summarize};
+use crate::surface::tensor::TensorSurface;
+use glam::{DVec2, DVec3};
+use std::time::Instant;
+
+/// What happens to targets beyond the limit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum FarRule {
+    /// The first of them is an error.
+    #[default]
+    Refuse,
+    /// They are counted, and take part like all others.
+    Keep,
+}
+
+/// Options of transfers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TransferOptions<'a> {
+    /// How fields on the source are fitted: the grid, which nodes have values, their weights.
+    pub field: FieldOptions<'a>,
+    /// How far from the source's shape a target may lie; infinity for anywhere.
+    pub max_distance: f64,
+    /// What `max_distance` is measured in: the diagonal of the source's points, or model units.
+    pub distance_scale: ToleranceScale,
+    /// What happens to targets farther away.
+    pub far: FarRule,
+}
+
+impl Default for TransferOptions<'_> {
+    fn default() -> Self {
+        Self {
+            field: FieldOptions::default(),
+            max_distance: 0.05,
+            distance_scale: ToleranceScale::Relative,
+            far: FarRule::Refuse,
+        }
+    }
+}
+
+/// How well the meshes lie on one another.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TransferReport {
+    /// The fit of the source's points, over which the targets are projected.
+    pub shape: FitReport,
+    /// The largest distance of a target to the shape.
+    pub max_distance: f64,
+    /// Square root of the mean of its square.
+    pub rms_distance: f64,
+    /// The target with the largest distance.
+    pub farthest_index: usize,
+    /// The limit, in model units.
+    pub limit: f64,
+    /// Targets beyond it.
+    pub far_count: usize,
+    /// Seconds in all.
+    pub seconds: f64,
+}
+
+/// Carries values from the nodes of one mesh to those of another, and forces back.
+#[derive(Debug)]
+pub struct Transfer {
+    fitter: FieldFitter,
+    shape: TensorSurface,
+    source_points: Vec<DVec3>,
+    target_points: Vec<DVec3>,
+    parameters: Vec<DVec2>,
+    distances: Vec<f64>,
+    targets: RightSide,
+}
+
+/// Targets projected between two looks at the listener.
+const PROJECTED_AT_ONCE: usize = 1 << 14;
+
+impl Transfer {
+    /// From the nodes of a mesh to any points near it.
+    pub fn new(
+        source: &Mesh,
+        targets: &[DVec3],
+        options: &TransferOptions,
+        control: &mut Control,
+    ) -> Result<(Self, TransferReport), TransferError> {
+        let start = Instant::now();
+        let limit = options.max_distance;
+        if !(limit >= 0.0) {
+            return Err(TransferError::MaxDistance { value: limit });
+        }
+        if let Some(index) = targets.iter().position(|point| !point.is_finite()) {
+            return Err(TransferError::NotFinite { index });
+        }
+        let make = |control: &mut Control| FieldFitter::on_mesh(source, &options.field, control);
+        let fitter = control.within(0.0, 0.5, make)?;
+        let positions: Vec<f64> = source.points().iter().flat_map(|p| p.to_array()).collect();
+        let shape = fitter.fit(&positions, 3)?;
+        let shape_report = fitter.measure(&shape, &positions, 3)?.fit;
+        let limit = match options.distance_scale {
+            ToleranceScale::Relative => limit * shape_report.diagonal,
+            ToleranceScale::Absolute => limit,
+        };
+        let (parameters, distances) =
+            control.within(0.5, 1.0, |control| project(&shape, targets, control))?;
+        let is_far = |&distance: &f64| distance > limit;
+        if options.far == FarRule::Refuse
+            && let Some(index) = distances.iter().position(|distance| is_far(distance))
+        {
+            return Err(TransferError::Far { index, distance: distances[index], limit });
+        }
+        let far_count = distances.iter().filter(|distance| is_far(distance)).count();
+        let at_targets = Data::plain(&parameters);
+        let targets_side = RightSide::new(&fitter.basis, at_targets, &fitter.pool);
+        let summary = summarize(distances);
+        let transfer = Self {
+            fitter,
+            shape,
+            source_points: source.points().to_vec(),
+            target_points: targets.to_vec(),
+            parameters,
+            distances: summary.each,
+            targets: targets_side,
+        };
+        let report = TransferReport {
+            shape: shape_report,
+            max_distance: summary.max,
+            rms_distance: summary.rms,
+            farthest_index: summary.worst_index,
+            limit,
+            far_count,
+            seconds: start.elapsed().as_secs_f64(),
+        };
+        Ok((transfer, report))
+    }
+
+    /// Number of nodes of the source, those without values included.
+    pub fn source_count(&self) -> usize {
+        self.source_points.len()
+    }
+
+    /// Number of targets.
+    pub fn target_count(&self) -> usize {
+        self.target_points.len()
+    }
+
+    /// The shape that the targets are projected onto.
+    pub fn shape(&self) -> &TensorSurface {
+        &self.shape
+    }
+
+    /// Where the targets lie on it.
+    pub fn parameters(&self) -> &[DVec2] {
+        &self.parameters
+    }
+
+    /// How far the targets are from it.
+    pub fn distances(&self) -> &[f64] {
+        &self.distances
+    }
+
+    /// Values at the targets: `out = T values`. Rows of `dim` numbers.
+    pub fn apply(&self, values: &[f64], dim: usize, out: &mut [f64]) -> Result<(), TransferError> {
+        self.fitter.check(values, dim)?;
+        check_room("the values at the targets", out, self.target_count(), dim)?;
+        self.fitter.with_scratch(dim, |scratch| {
+            let nodes = self.sources().nodes();
+            let share = 1.0 / nodes.len() as f64;
+            let at = |k: usize| nodes.iter().map(move |&node| values[node as usize * dim + k]);
+            scratch.set_center((0..dim).map(|k| share * sum(at(k))));
+            self.carry(self.sources(), &self.targets, values, scratch, out);
+            for row in out.chunks_exact_mut(dim) {
+                row.iter_mut().zip(scratch.center()).for_each(|(x, c)| *x += c);
+            }
+        });
+        Ok(())
+    }
+
+    /// Forces at the source's nodes: `out = T^T forces`. Rows of `dim` numbers; nodes without values get 0.
+    pub fn apply_transpose(&self, forces: &[f64], dim: usize, out: &mut [f64]) -> Result<(), TransferError> {
+        check_rows(self.target_count(), forces, dim)?;
+        check_room("the forces at the nodes", out, self.source_count(), dim)?;
+        self.fitter.with_scratch(dim, |scratch| {
+            scratch.set_center(std::iter::repeat_n(0.0, dim));
+            self.carry(&self.targets, self.sources(), forces, scratch, out);
+            let nodes = self.sources().nodes();
+            let share = 1.0 / nodes.len() as f64;
+            for k in 0..dim {
+                let given = sum(forces.iter().skip(k).step_by(dim).copied());
+                let arrived = sum(out.iter().skip(k).step_by(dim).copied());
+                nodes.iter().for_each(|&node| out[node as usize * dim + k] += share * (given - arrived));
+            }
+        });
+        Ok(())
+    }
+
+    fn sources(&self) -> &RightSide {
+        &self.fitter.right_side
+    }
+
+    /// `T0` from the source to the targets, and its transpose from the targets to the source: the matrix between the
+    /// two is symmetric.
+    fn carry(
+        &self,
+        from: &RightSide,
+        to: &RightSide,
+        values: &[f64],
+        scratch: &mut Scratch,
+        out: &mut [f64],
+    ) {
+        let FieldFitter { basis, factor, pool, .. } = &self.fitter;
+        from.assemble(values, scratch.dim, basis, scratch, pool);
+        factor.solve_in(&mut scratch.columns, scratch.dim, &mut scratch.memory);
+        to.transpose(basis, scratch, out, pool);
+    }
+}
+
+/// The places on the shape nearest to the targets, and how far they are.
+fn project(
+    shape: &TensorSurface,
+    targets: &[DVec3],
+    control: &mut Control,
+) -> Result<(Vec<DVec2>, Vec<f64>), TransferError> {
+    let projector = Projector::new(shape)?;
+    let mut parameters = vec![DVec2::ZERO; targets.len()];
+    let mut distances = vec![0.0; targets.len()];
+    let pieces = targets.chunks(PROJECTED_AT_ONCE).zip(parameters.chunks_mut(PROJECTED_AT_ONCE));
+    let mut first = 0;
+    for ((points, uv), distances) in pieces.zip(distances.chunks_mut(PROJECTED_AT_ONCE)) {
+        control.report(first as f64 / targets.len() as f64, f64::NAN)?;
+        let points: Vec<f64> = points.iter().flat_map(|p| p.to_array()).collect();
+        projector.project(&points, &ProjectOptions::default(), uv, distances, control.pool())?;
+        first += uv.len();
+    }
+    control.report(1.0, f64::NAN)?;
+    Ok((parameters, distances))
+}
+
+fn check_room(what: &'static str, out: &[f64], count: usize, dim: usize) -> Result<(), FitError> {
+    let expected = count.saturating_mul(dim);
+    match out.len() {
+        count if count == expected => Ok(()),
+        count => Err(FitError::Count { what, count, expected }),
+    }
+}
