@@ -7,6 +7,7 @@
 mod any;
 mod cubic;
 mod cut;
+pub mod d1rc;
 mod differential;
 pub mod evaluate;
 mod homogeneous;
@@ -23,6 +24,7 @@ pub use region::{Region, TrimError, Trims};
 
 use crate::bezier::BezierPatch;
 use glam::{DVec2, DVec3};
+use std::sync::Arc;
 
 /// The family of a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -56,8 +58,13 @@ pub trait Surface: Send + Sync {
     /// Components of a value: 1 for a scalar field, 3 for a shape.
     fn dim(&self) -> usize;
 
-    /// The rectangle on which the surface is defined.
+    /// The rectangle on which the surface is defined, or the box around where it is.
     fn domain(&self) -> Domain;
+
+    /// Whether the surface is defined at a parameter pair: everywhere on its domain, unless that is no rectangle.
+    fn contains(&self, uv: DVec2) -> bool {
+        self.domain().contains(uv)
+    }
 
     /// Number of control points.
     fn coefficient_count(&self) -> usize;
@@ -75,6 +82,11 @@ pub trait Surface: Send + Sync {
 
     /// The surface as Bezier patches; None for a family that is not polynomial on rectangles.
     fn patches(&self) -> Option<&dyn Patches> {
+        None
+    }
+
+    /// The triangles in the parameter plane over which the surface is made; None for the other families.
+    fn faces(&self) -> Option<Arc<dyn Faces>> {
         None
     }
 
@@ -135,6 +147,24 @@ fn sides(patches: &dyn Patches, end: DVec2) -> Vec<[DVec2; 2]> {
         }
     }
     sides
+}
+
+/// The view of a surface over triangles in the parameter plane, for those who keep it and divide its faces.
+pub trait Faces: Surface + std::fmt::Debug {
+    /// The places of the corners.
+    fn places(&self) -> &[DVec2];
+
+    /// Three corners each: the faces on which the surface is best shown.
+    fn triangles(&self) -> Vec<[u32; 3]>;
+
+    /// Values at points of one of those faces.
+    fn eval_on_face(&self, face: usize, uv: &[DVec2], out: &mut [f64]);
+
+    /// Whether the trims are the border of those faces.
+    fn has_own_trims(&self) -> bool;
+
+    /// The place of the domain nearest to a parameter pair.
+    fn nearest_in_domain(&self, uv: DVec2) -> DVec2;
 }
 
 /// [`Surface::eval_grid`] for families without a faster way: row by row.

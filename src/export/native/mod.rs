@@ -5,7 +5,7 @@
 //! offset  type          content
 //!  0      8 bytes       "PLANISH" and a zero
 //!  8      u32           version of the format, 1
-//! 12      u32           kind: 0 tensor surface, 1 T-spline, 2 PHT-spline, 16 curve
+//! 12      u32           kind: 0 tensor surface, 1 T-spline, 2 PHT-spline, 3 D1RC-spline, 16 curve
 //! 16      u64           size of the whole in bytes
 //! 24                    what the family needs, see its module
 //! end-8   u64           CRC-32 (IEEE 802.3) of all bytes before
@@ -14,6 +14,7 @@
 
 mod bytes;
 mod curve;
+mod d1rc;
 mod pht;
 mod tensor;
 mod tspline;
@@ -80,6 +81,7 @@ const FRAME_SIZE: usize = 24 + 8;
 const TENSOR: u32 = 0;
 const TSPLINE: u32 = 1;
 const PHT: u32 = 2;
+const D1RC: u32 = 3;
 /// What is no surface has kinds from 16 on.
 const CURVE: u32 = 16;
 
@@ -102,6 +104,7 @@ impl AnySurface {
             Self::Tensor(surface) => surface,
             Self::Pht(surface) => surface,
             Self::TSpline(surface) => surface,
+            Self::D1rc(surface) => surface,
         }
     }
 }
@@ -124,6 +127,7 @@ pub fn load(bytes: &[u8]) -> Result<AnySurface, LoadError> {
     let surface = match kind {
         TENSOR => AnySurface::Tensor(tensor::read(&mut reader)?),
         PHT => AnySurface::Pht(pht::read(&mut reader)?),
+        D1RC => AnySurface::D1rc(d1rc::read(&mut reader)?),
         TSPLINE => AnySurface::TSpline(tspline::read(&mut reader)?),
         CURVE => return Err(reader.wrong("this is a curve, not a surface")),
         _ => return Err(reader.wrong(format!("the kind {kind} is unknown"))),
