@@ -12,7 +12,7 @@ use crate::export::step::StepError;
 use crate::fit::skin::SkinError;
 use crate::fit::tessellation::FitError;
 use crate::knots::KnotError;
-use crate::mesh::{CutError, MeshError, ReadError};
+use crate::mesh::{CutError, DecimateError, MeshError, ReadError};
 use crate::parameterize::ParameterizeError;
 use crate::query::deviation::DeviationError;
 use crate::query::gradient::GradientError;
@@ -132,6 +132,9 @@ pub enum Error {
     /// A mesh cannot be cut as asked.
     #[error(transparent)]
     Cut(#[from] CutError),
+    /// A mesh cannot be made coarser as asked.
+    #[error(transparent)]
+    Decimate(#[from] DecimateError),
     /// The progress callback asked to stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
@@ -173,6 +176,7 @@ impl Error {
             Self::Combine(error) => (error.kind(), error.index()),
             Self::Convert(error) => (error.kind(), None),
             Self::Cut(error) => (error.kind(), error.index()),
+            Self::Decimate(error) => (error.kind(), error.index()),
             Self::Cancelled(_) => (ErrorKind::Cancelled, None),
         }
     }
