@@ -19,6 +19,7 @@ use crate::query::gradient::GradientError;
 use crate::query::project::ProjectError;
 use crate::query::rows::SampleRowsError;
 use crate::query::tessellate::TessellateError;
+use crate::surface::d1rc::D1rcError;
 use crate::surface::evaluate::EvalError;
 use crate::surface::pht::PhtError;
 use crate::surface::tensor::{CombineError, TensorError};
@@ -90,6 +91,9 @@ pub enum Error {
     /// A PHT-spline is not one, or cannot be changed as asked.
     #[error(transparent)]
     Pht(#[from] PhtError),
+    /// A D1RC-spline is not one, or cannot be changed as asked.
+    #[error(transparent)]
+    D1rc(#[from] D1rcError),
     /// A T-spline is not one, or cannot be changed as asked.
     #[error(transparent)]
     TSpline(#[from] TSplineError),
@@ -162,6 +166,7 @@ impl Error {
             Self::Curve(error) => (error.kind(), error.index()),
             Self::Tensor(error) => (error.kind(), error.index()),
             Self::Pht(error) => (error.kind(), error.index()),
+            Self::D1rc(error) => (error.kind(), error.index()),
             Self::TSpline(error) => (error.kind(), error.index()),
             Self::Eval(error) => (error.kind(), error.index()),
             Self::Deviation(error) => (error.kind(), error.index()),

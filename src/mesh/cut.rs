@@ -206,7 +206,7 @@ impl Mesh {
     }
 
     /// The half-edges of a fan, parted at the cut edges.
-    fn sectors(&self, start: HalfEdge, cut: &[bool]) -> Vec<Vec<HalfEdge>> {
+    pub(crate) fn sectors(&self, start: HalfEdge, cut: &[bool]) -> Vec<Vec<HalfEdge>> {
         let mut sectors: Vec<Vec<HalfEdge>> = vec![Vec::new()];
         for half_edge in self.topology.fan_from(start) {
             match sectors.last_mut() {

@@ -181,13 +181,14 @@ pub fn evaluate(
     if let Layout::Grid { u, v } = points.layout
         && quantity == Quantity::Values
         && output.stride == width
+        && surface.patches().is_some() // else the domain may be no rectangle
         && is_grid_inside(&surface.domain(), u, v)
     {
         evaluate_grid(surface, u, v, output, pool);
         return Ok(0);
     }
     match rule {
-        OutsideRule::Fail => check_inside(&surface.domain(), &points)?,
+        OutsideRule::Fail => check_inside(surface, &points)?,
         OutsideRule::Extrapolate => check_finite(&points)?,
         OutsideRule::Flag => {}
     }
@@ -254,8 +255,8 @@ fn check_quantity(surface: &dyn Surface, quantity: Quantity) -> Result<(), EvalE
     }
 }
 
-fn check_inside(domain: &Domain, points: &Points) -> Result<(), EvalError> {
-    match (0..points.count).find(|&i| !domain.contains(points.get(i))) {
+fn check_inside(surface: &dyn Surface, points: &Points) -> Result<(), EvalError> {
+    match (0..points.count).find(|&i| !surface.contains(points.get(i))) {
         None => Ok(()),
         Some(index) => {
             let DVec2 { x: u, y: v } = points.get(index);
@@ -284,7 +285,7 @@ fn eval_piece(
     output: Output,
 ) -> usize {
     let Output { rows: out, stride: out_stride, flags } = output;
-    let (dim, domain) = (surface.dim(), surface.domain());
+    let dim = surface.dim();
     let width = quantity.width(dim);
     let is_raw = matches!(quantity, Quantity::Values | Quantity::Derivatives(_));
     if is_raw && out_stride == width {
@@ -300,7 +301,7 @@ fn eval_piece(
     let mut outside = 0;
     for (k, &uv) in uv.iter().enumerate() {
         let row = &mut out[k * out_stride..][..width];
-        let is_outside = !domain.contains(uv);
+        let is_outside = !surface.contains(uv);
         outside += usize::from(is_outside);
         if is_outside && rule == OutsideRule::Flag {
             row.fill(f64::NAN);

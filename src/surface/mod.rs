@@ -7,6 +7,7 @@
 mod any;
 mod cubic;
 mod cut;
+pub mod d1rc;
 mod differential;
 pub mod evaluate;
 mod homogeneous;
@@ -56,8 +57,13 @@ pub trait Surface: Send + Sync {
     /// Components of a value: 1 for a scalar field, 3 for a shape.
     fn dim(&self) -> usize;
 
-    /// The rectangle on which the surface is defined.
+    /// The rectangle on which the surface is defined, or the box around where it is.
     fn domain(&self) -> Domain;
+
+    /// Whether the surface is defined at a parameter pair: everywhere on its domain, unless that is no rectangle.
+    fn contains(&self, uv: DVec2) -> bool {
+        self.domain().contains(uv)
+    }
 
     /// Number of control points.
     fn coefficient_count(&self) -> usize;

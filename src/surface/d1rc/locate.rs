@@ -1,0 +1,189 @@
+//! Which face of the parameter mesh holds a point, and from which side limits are taken there.
+
+use super::simplex::Site;
+use crate::geometry::{Domain, Orientation, orientation, signed_area};
+use glam::DVec2;
+
+/// Cells of the grid for each face: a cell then meets some four faces.
+const CELLS_PER_FACE: f64 = 2.0;
+/// Shares of a face's corners in the place towards which limits are taken on the border of the mesh. Nothing that
+/// engineers draw is parallel to the way there.
+const ASKEW: [f64; 3] = [0.302_775_637_7, 0.358_898_943_5, 0.338_325_418_8];
+/// Against the largest coordinate: a point on a border, computed from its ends, is not farther outside.
+const SLACK: f64 = 16.0 * f64::EPSILON;
+
+/// Faces sorted into a uniform grid.
+#[derive(Debug, Clone)]
+pub struct Locator {
+    places: Vec<DVec2>,
+    faces: Vec<[u32; 3]>,
+    domain: Domain,
+    counts: [usize; 2],
+    cells_per_unit: DVec2,
+    /// The faces of cell c are `entries[starts[c]..starts[c + 1]]`, in increasing order.
+    starts: Vec<u32>,
+    entries: Vec<u32>,
+    border: Vec<(u32, [u32; 2])>,
+}
+
+impl Locator {
+    /// For faces of positive area.
+    pub fn new(places: Vec<DVec2>, faces: Vec<[u32; 3]>) -> Self {
+        let used = faces.iter().flatten().map(|&knot| places[knot as usize]);
+        let domain = Domain::around(used);
+        let size = domain.size().max(DVec2::splat(f64::MIN_POSITIVE));
+        let cell = (size.x * size.y / (CELLS_PER_FACE * faces.len() as f64)).sqrt();
+        let most = CELLS_PER_FACE * faces.len() as f64;
+        let counts = [size.x, size.y].map(|length| (length / cell).ceil().clamp(1.0, most) as usize);
+        let cells_per_unit = DVec2::new(counts[0] as f64, counts[1] as f64) / size;
+        let border = border(&faces);
+        let (starts, entries) = (Vec::new(), Vec::new());
+        let mut locator = Self { places, faces, domain, counts, cells_per_unit, starts, entries, border };
+        let mut pairs = Vec::new();
+        for face in 0..locator.faces.len() {
+            let around = Domain::around(locator.corners(face as u32));
+            pairs.extend(locator.cells(&around).map(|cell| (cell as u32, face as u32)));
+        }
+        pairs.sort_unstable();
+        let cell_count = counts[0] * counts[1];
+        locator.starts =
+            (0..=cell_count).map(|c| pairs.partition_point(|p| (p.0 as usize) < c) as u32).collect();
+        locator.entries = pairs.into_iter().map(|(_, face)| face).collect();
+        locator
+    }
+
+    /// The box of all faces.
+    pub fn domain(&self) -> Domain {
+        self.domain
+    }
+
+    /// The corners of a face.
+    pub fn corners(&self, face: u32) -> [DVec2; 3] {
+        self.faces[face as usize].map(|knot| self.places[knot as usize])
+    }
+
+    /// The faces.
+    pub fn faces(&self) -> &[[u32; 3]] {
+        &self.faces
+    }
+
+    /// The places of their corners.
+    pub fn places(&self) -> &[DVec2] {
+        &self.places
+    }
+
+    fn cell(&self, t: DVec2) -> [usize; 2] {
+        let at = (t - self.domain.min) * self.cells_per_unit;
+        [(at.x as usize).min(self.counts[0] - 1), (at.y as usize).min(self.counts[1] - 1)]
+    }
+
+    fn cells(&self, around: &Domain) -> impl Iterator<Item = usize> + use<> {
+        let ([i0, j0], [i1, j1]) = (self.cell(around.min), self.cell(around.max));
+        let count = self.counts[1];
+        (i0..=i1).flat_map(move |i| (j0..=j1).map(move |j| i * count + j))
+    }
+
+    fn entries(&self, cell: usize) -> &[u32] {
+        &self.entries[self.starts[cell] as usize..self.starts[cell + 1] as usize]
+    }
+
+    /// The faces that a box may meet, in increasing order.
+    pub fn faces_near(&self, around: &Domain, out: &mut Vec<u32>) {
+        out.clear();
+        for cell in self.cells(around) {
+            out.extend_from_slice(self.entries(cell));
+        }
+        out.sort_unstable();
+        out.dedup();
+    }
+
+    /// The face that holds a point, and the side from which limits are taken: from the right and above where a
+    /// face is there, else from the inside of the face.
+    pub fn find(&self, t: DVec2) -> Option<(u32, Site)> {
+        if !self.domain.contains(t) {
+            return None;
+        }
+        let [i, j] = self.cell(t);
+        let near = self.entries(i * self.counts[1] + j);
+        let site = Site::new(t);
+        if let Some(&face) = near.iter().find(|&&face| self.holds(face, &site)) {
+            return Some((face, site));
+        }
+        if let Some(&face) = near.iter().find(|&&face| self.touches(face, t)) {
+            return Some((face, self.site_in(face, t)));
+        }
+        near.iter().find_map(|&face| Some((face, self.site_in(face, self.nudged(face, t)?))))
+    }
+
+    /// A point that only rounding has put outside a face, moved back in.
+    fn nudged(&self, face: u32, t: DVec2) -> Option<DVec2> {
+        let slack = SLACK * self.domain.min.abs().max(self.domain.max.abs()).max_element();
+        let inward = self.site_in(face, t).toward;
+        let steps = std::iter::successors(Some(f64::EPSILON / SLACK * slack), |step| Some(2.0 * step));
+        steps
+            .map(|step| step / inward.length() * inward)
+            .take_while(|step| step.length() <= slack)
+            .map(|step| t + step)
+            .find(|&moved| self.touches(face, moved))
+    }
+
+    fn holds(&self, face: u32, site: &Site) -> bool {
+        let [a, b, c] = self.corners(face);
+        let areas = [signed_area(a, b, site.t), signed_area(b, c, site.t), signed_area(c, a, site.t)];
+        let is_inside = areas.iter().all(|&area| area > 0.0);
+        is_inside || (areas.iter().all(|&area| area >= 0.0) && site.is_in([a, b, c]))
+    }
+
+    fn touches(&self, face: u32, t: DVec2) -> bool {
+        let [a, b, c] = self.corners(face);
+        [(a, b), (b, c), (c, a)].iter().all(|&(p, q)| orientation(p, q, t) != Orientation::Negative)
+    }
+
+    /// A point of a face as [`Locator::find`] would see it if there were no other.
+    pub fn site_on(&self, face: u32, t: DVec2) -> Site {
+        match Site::new(t) {
+            site if self.holds(face, &site) => site,
+            _ if self.touches(face, t) => self.site_in(face, t),
+            _ => self.site_in(face, self.nudged(face, t).unwrap_or(t)),
+        }
+    }
+
+    /// A point of a face, seen from inside the face.
+    pub fn site_in(&self, face: u32, t: DVec2) -> Site {
+        let corners = self.corners(face);
+        let inside: DVec2 = corners.iter().zip(ASKEW).map(|(&corner, share)| share * (corner - t)).sum();
+        Site { t, toward: inside }
+    }
+
+    /// The ends of the sides that bound the faces; each comes twice.
+    pub fn border_knots(&self) -> impl Iterator<Item = u32> + '_ {
+        self.border.iter().flat_map(|&(_, side)| side)
+    }
+
+    /// The place on the faces nearest to a point outside, and its face.
+    pub fn nearest(&self, t: DVec2) -> Option<(u32, DVec2)> {
+        let place = |knot: u32| self.places[knot as usize];
+        let on = |&(face, [a, b]): &(u32, [u32; 2])| (face, nearest_on_segment(t, place(a), place(b)));
+        let nearer =
+            |p: &(u32, DVec2), q: &(u32, DVec2)| p.1.distance_squared(t).total_cmp(&q.1.distance_squared(t));
+        let (face, near) = self.border.iter().map(on).min_by(nearer)?;
+        Some((face, if self.touches(face, near) { near } else { self.nudged(face, near).unwrap_or(near) }))
+    }
+}
+
+/// The sides of faces that no other face has, with their faces.
+fn border(faces: &[[u32; 3]]) -> Vec<(u32, [u32; 2])> {
+    let sides = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [c, a]];
+    let mut all: Vec<[u32; 2]> = faces.iter().flat_map(|&face| sides(face)).collect();
+    all.sort_unstable();
+    let is_free = |[a, b]: &[u32; 2]| all.binary_search(&[*b, *a]).is_err();
+    let numbered = faces.iter().enumerate();
+    numbered
+        .flat_map(|(f, &face)| sides(face).into_iter().filter(is_free).map(move |side| (f as u32, side)))
+        .collect()
+}
+
+fn nearest_on_segment(t: DVec2, from: DVec2, to: DVec2) -> DVec2 {
+    let along = to - from;
+    from + ((t - from).dot(along) / along.length_squared()).clamp(0.0, 1.0) * along
+}

@@ -1,0 +1,58 @@
+//! Sharp edges of a control mesh.
+
+use super::error::D1rcError;
+use crate::mesh::{HalfEdge, Mesh};
+use std::f64::consts::PI;
+
+/// Edges whose faces meet at more than `angle` radians (0 for a plane), by their smaller vertex. Boundary edges do
+/// not count, nor do edges of faces without area.
+pub fn sharp_edges(mesh: &Mesh, angle: f64) -> Result<Vec<[u32; 2]>, D1rcError> {
+    if !(0.0..=PI).contains(&angle) {
+        return Err(D1rcError::Angle { angle });
+    }
+    let normal = |face: usize| {
+        let [a, b, c] = mesh.triangles()[face].map(|vertex| mesh.points()[vertex as usize]);
+        (b - a).cross(c - a)
+    };
+    let mut edges = Vec::new();
+    for half_edge in (0..3 * mesh.triangles().len()).map(|h| HalfEdge::new(h / 3, h % 3)) {
+        let Some(twin) = mesh.topology().twin(half_edge).filter(|twin| *twin > half_edge) else { continue };
+        let (m, n) = (normal(half_edge.triangle()), normal(twin.triangle()));
+        if m.cross(n).length().atan2(m.dot(n)) > angle {
+            let (a, b) = (half_edge.origin(mesh.triangles()), half_edge.target(mesh.triangles()));
+            edges.push([a.min(b), a.max(b)]);
+        }
+    }
+    edges.sort_unstable();
+    Ok(edges)
+}
+
+/// By half-edge: whether it is sharp. Sharp edges on the boundary are none.
+pub fn flags(mesh: &Mesh, sharp: &[[u32; 2]]) -> Result<Vec<bool>, D1rcError> {
+    let count = mesh.points().len();
+    let mut flags = vec![false; 3 * mesh.triangles().len()];
+    for (index, &vertices) in sharp.iter().enumerate() {
+        if let Some(&vertex) = vertices.iter().find(|&&vertex| vertex as usize >= count) {
+            return Err(D1rcError::NoSuchVertex { what: "an end of sharp edge", index, vertex, count });
+        }
+        let edge = mesh.edge_between(vertices[0], vertices[1]);
+        let edge = edge.ok_or(D1rcError::NotAnEdge { index, vertices })?;
+        if let Some(twin) = mesh.topology().twin(edge) {
+            flags[edge.index()] = true;
+            flags[twin.index()] = true;
+        }
+    }
+    Ok(flags)
+}
+
+/// Sharp edges that no other touches, with both ends inside: a cut along them would not open.
+pub fn lonely_edges(mesh: &Mesh, flags: &[bool]) -> Vec<HalfEdge> {
+    let is_tip = |vertex: u32| {
+        !mesh.is_boundary(vertex) && mesh.outgoing(vertex).filter(|h| flags[h.index()]).count() == 1
+    };
+    let half_edges = (0..flags.len()).filter(|&h| flags[h]).map(|h| HalfEdge::new(h / 3, h % 3));
+    half_edges
+        .filter(|h| h.origin(mesh.triangles()) < h.target(mesh.triangles()))
+        .filter(|h| is_tip(h.origin(mesh.triangles())) && is_tip(h.target(mesh.triangles())))
+        .collect()
+}

@@ -1,0 +1,230 @@
+//! Exact fractions, identities, creases.
+
+use super::simplex::{Site, simplex_spline};
+use super::*;
+use crate::geometry::signed_area;
+use crate::samples::{Random, grid};
+use crate::surface::Surface;
+use glam::DVec3;
+
+/// A function by itself: its own knots and a ring, counter-clockwise.
+fn alone(knots: &[[f64; 2]], ring: &[[f64; 2]]) -> (Configuration, Vec<DVec2>) {
+    let k = knots.len() as u32;
+    let n = ring.len() as u32;
+    let edges = (0..n).map(|i| [k + i, k + (i + 1) % n]).collect();
+    let places = knots.iter().chain(ring).map(|&knot| DVec2::from(knot)).collect();
+    (Configuration { knots: (0..k).collect(), edges, weight: 1.0, row: Vec::new() }, places)
+}
+
+const K2: [[f64; 2]; 2] = [[0., 0.], [1., 0.]];
+const K2_RING: [[f64; 2]; 8] =
+    [[0., -1.], [1., -1.], [2., -1.], [2., 0.], [1., 1.], [0., 1.], [-1., 1.], [-1., 0.]];
+const K3: [[f64; 2]; 3] = [[0., 0.], [1., 0.], [0., 1.]];
+const K3_RING: [[f64; 2]; 9] =
+    [[0., -1.], [1., -1.], [2., -1.], [2., 0.], [1., 1.], [0., 2.], [-1., 2.], [-1., 1.], [-1., 0.]];
+const K2_GENERIC: [[f64; 2]; 2] = [[0., 0.], [3., 1.]];
+const K2_GENERIC_RING: [[f64; 2]; 6] = [[0., -4.], [5., -3.], [7., 1.], [4., 5.], [-1., 4.], [-3., 1.]];
+const CREASE: [[f64; 2]; 2] = [[0., 0.], [1.5, 0.5]];
+const CREASE_RING: [[f64; 2]; 5] = [[1., -3.], [3., 1.], [1., 4.], [-3., 2.], [-2., -3.]];
+const K3_GENERIC: [[f64; 2]; 3] = [[0., 0.], [3., 1.], [1., 3.]];
+const K3_GENERIC_RING: [[f64; 2]; 7] =
+    [[-1., -3.], [3., -3.], [6., -1.], [5., 3.], [2., 6.], [-2., 5.], [-4., 1.]];
+
+#[test]
+fn functions_take_their_exact_values() {
+    let third = 1. / 3.;
+    for (knots, ring, t, value) in [
+        (&K2[..], &K2_RING[..], [0.5, 0.], 3. / 4.),
+        (&K2, &K2_RING, [0., 0.], 1. / 2.),
+        (&K2, &K2_RING, [third, third], 4. / 9.),
+        (&K2, &K2_RING, [0.5, 0.5], 1. / 4.),
+        (&K3, &K3_RING, [third, third], 7. / 12.),
+        (&K3, &K3_RING, [0., 0.], 1. / 4.),
+        (&K3, &K3_RING, [0.5, 0.], 7. / 16.),
+        (&K2_GENERIC, &K2_GENERIC_RING, [0., 0.], 2. / 5.),
+        (&K2_GENERIC, &K2_GENERIC_RING, [1., 1.], 210. / 341.),
+        (&K2_GENERIC, &K2_GENERIC_RING, [1.5, 0.5], 113. / 155.),
+        (&CREASE, &CREASE_RING, [0., 0.], 13. / 21.),
+        (&CREASE, &CREASE_RING, [0., 1.], 10. / 21.),
+        (&K3_GENERIC, &K3_GENERIC_RING, [0., 0.], 13. / 56.),
+        (&K3_GENERIC, &K3_GENERIC_RING, [1., 1.], 767_215. / 1_302_336.),
+    ] {
+        let (function, places) = alone(knots, ring);
+        let measured = function.jet(&Site::new(DVec2::from(t)), &places, 0)[0];
+        assert!((measured - value).abs() <= 1e-13, "{knots:?} at {t:?}: {measured} instead of {value}");
+        let kernel = kernel::Kernel::new(knots.len(), std::slice::from_ref(&function), &places);
+        let mut workspace = kernel::Workspace::default();
+        let site = [Site::new(DVec2::from(t))];
+        let fast = kernel.jets(0, &function, &places, &site, 0, &mut workspace).unwrap()[0][0];
+        assert!((fast - value).abs() <= 1e-13, "{knots:?} at {t:?}: {fast} instead of {value}");
+    }
+}
+
+#[test]
+fn gradients_take_their_exact_values() {
+    let third = 1. / 3.;
+    for (knots, ring, t, gradient) in [
+        (&K3[..], &K3_RING[..], [third, third], [0., 0.]),
+        (&K2_GENERIC, &K2_GENERIC_RING, [0., 0.], [1. / 3., 1. / 5.]),
+        (&K3_GENERIC, &K3_GENERIC_RING, [0., 0.], [3. / 14., 9. / 56.]),
+    ] {
+        let (function, places) = alone(knots, ring);
+        let jet = function.jet(&Site::new(DVec2::from(t)), &places, 1);
+        let off = (jet[1] - gradient[0]).hypot(jet[2] - gradient[1]);
+        assert!(off <= 1e-13, "{knots:?} at {t:?}: {jet:?} instead of {gradient:?}");
+    }
+}
+
+#[test]
+fn integrals_are_those_of_the_region() {
+    // b is a spline of degree k on a fine grid: the midpoint rule is off by about h^2
+    for (knots, ring, integral) in [
+        (&K2[..], &K2_RING[..], 5. / 6.),
+        (&K3, &K3_RING, 13. / 20.),
+        (&K2_GENERIC, &K2_GENERIC_RING, 121. / 12.),
+        (&CREASE, &CREASE_RING, 19. / 4.),
+        (&K3_GENERIC, &K3_GENERIC_RING, 127. / 20.),
+    ] {
+        let (function, places) = alone(knots, ring);
+        let around = Domain::around(places.iter().copied());
+        let sum_over = |n: usize| {
+            let step = around.size() / n as f64;
+            let place = |k: usize| around.min + step * (DVec2::new((k / n) as f64, (k % n) as f64) + 0.5);
+            let values = (0..n * n).map(|k| function.jet(&Site::new(place(k)), &places, 0)[0]);
+            step.x * step.y * values.sum::<f64>()
+        };
+        let (coarse, fine) = ((sum_over(60) - integral).abs(), (sum_over(120) - integral).abs());
+        assert!(fine <= 2e-3 * integral && fine <= 0.7 * coarse, "{knots:?}: {coarse:e}, then {fine:e}");
+    }
+}
+
+#[test]
+fn the_edge_form_is_the_face_form() {
+    let mut random = Random::new(11);
+    for (knots, ring) in [(&K2_GENERIC[..], &K2_GENERIC_RING[..]), (&K3_GENERIC, &K3_GENERIC_RING)] {
+        let (function, places) = alone(knots, ring);
+        let k = knots.len();
+        let x = &places[..k];
+        for _ in 0..300 {
+            let site = Site::new(DVec2::new(5.0 * random.signed(), 5.0 * random.signed()));
+            // the fan of the ring around its first knot: any triangulation will do, turned over or not
+            let fan = (1..ring.len() - 1).map(|i| [places[k], places[k + i], places[k + i + 1]]);
+            let each = fan.map(|[a, b, c]| {
+                let all: Vec<DVec2> = x.iter().copied().chain([a, b, c]).collect();
+                signed_area(a, b, c) * simplex_spline(&site, &all)
+            });
+            let faces: f64 = each.sum();
+            let edges = function.jet(&site, &places, 0)[0];
+            // some hundred products, the largest a few units
+            assert!((faces - edges).abs() <= 64.0 * f64::EPSILON, "{site:?}: {faces} {edges}");
+            assert!(edges >= -1e-15, "{site:?}: {edges}");
+        }
+    }
+}
+
+#[test]
+fn three_directional_grids_sum_to_the_exact_fractions() {
+    let (uv, triangles) = three_directional(9);
+    for (degree, sums) in [(2, [3., 5. / 2., 7. / 3., 19. / 8.]), (3, [3. / 2., 5. / 4., 7. / 6., 39. / 32.])]
+    {
+        let options = D1rcOptions::default().with_degree(degree).with_mode(D1rcMode::Paper);
+        let space = space(&uv, &triangles, options, &[]).unwrap();
+        let third = 1. / 3.;
+        for (t, sum) in [[0., 0.], [0.5, 0.], [third, third], [0.25, 0.25]].into_iter().zip(sums) {
+            let t = DVec2::splat(4.0) + DVec2::from(t);
+            let all = (0..space.configurations.len()).map(|f| space.function_jet(f, t, 0).unwrap()[0]);
+            let measured: f64 = all.sum();
+            assert!((measured - sum).abs() <= 1e-13, "degree {degree} at {t}: {measured} instead of {sum}");
+        }
+    }
+}
+
+/// A grid of n by n nodes, one apart, all diagonals falling.
+fn three_directional(n: usize) -> (Vec<DVec2>, Vec<[u32; 3]>) {
+    let uv = (0..n * n).map(|k| DVec2::new((k / n) as f64, (k % n) as f64)).collect();
+    let mut triangles = Vec::new();
+    for k in (0..n * n).filter(|k| k / n + 1 < n && k % n + 1 < n) {
+        let [p, q, r, s] = [k, k + n, k + n + 1, k + 1].map(|k| k as u32);
+        triangles.extend([[p, q, s], [q, r, s]]);
+    }
+    (uv, triangles)
+}
+
+fn space(
+    uv: &[DVec2],
+    triangles: &[[u32; 3]],
+    options: D1rcOptions,
+    sharp: &[[u32; 2]],
+) -> Result<Space, D1rcError> {
+    let (uv, triangles) = (uv.to_vec(), triangles.to_vec());
+    Space::new(Recipe { uv, triangles, options, sharp_edges: sharp.to_vec(), corners: Vec::new() })
+}
+
+/// Parameter meshes of all sorts, by name.
+fn meshes() -> Vec<(&'static str, Vec<DVec2>, Vec<[u32; 3]>)> {
+    let (moved, flipped) = grid([9, 8], 0.3, 3, |_| true);
+    let (even, turned) = grid([8, 8], 0.0, 5, |_| true);
+    let squeezed = moved.iter().map(|p| DVec2::from_angle(0.4).rotate(DVec2::new(p.x, p.y / 20.0))).collect();
+    let (far, holed) = grid([10, 10], 0.2, 9, |p| (p - 0.5).length() > 0.2);
+    let used: Vec<DVec2> = far.iter().map(|p| 1e3 + 7.0 * p).collect();
+    let (uv, triangles) = three_directional(7);
+    let (holed_uv, holed) = compact(&used, &holed);
+    vec![
+        ("moved", moved, flipped.clone()),
+        ("even", even, turned),
+        ("squeezed", squeezed, flipped),
+        ("three directions", uv, triangles),
+        ("holed, far away", holed_uv, holed),
+    ]
+}
+
+/// Without the nodes that no triangle uses.
+fn compact(uv: &[DVec2], triangles: &[[u32; 3]]) -> (Vec<DVec2>, Vec<[u32; 3]>) {
+    let mut used: Vec<u32> = triangles.iter().flatten().copied().collect();
+    used.sort_unstable();
+    used.dedup();
+    let new = |node: u32| used.binary_search(&node).unwrap() as u32;
+    (used.iter().map(|&node| uv[node as usize]).collect(), triangles.iter().map(|t| t.map(new)).collect())
+}
+
+/// Random points of all faces, their corners, and the middles of their sides.
+fn sample(uv: &[DVec2], triangles: &[[u32; 3]]) -> Vec<DVec2> {
+    let mut random = Random::new(2);
+    let mut all = Vec::new();
+    for triangle in triangles {
+        let [a, b, c] = triangle.map(|v| uv[v as usize]);
+        all.extend([a, (a + b) / 2.0, (b + c) / 2.0]);
+        let (s, t) = (random.unit(), random.unit());
+        let (s, t) = if s + t > 1.0 { (1.0 - s, 1.0 - t) } else { (s, t) };
+        all.push(a + s * (b - a) + t * (c - a));
+    }
+    all
+}
+
+#[test]
+fn reproducing_functions_sum_to_one_and_keep_the_plane() {
+    for (name, uv, triangles) in meshes() {
+        let scale = uv.iter().fold(1.0_f64, |most, p| most.max(p.length()));
+        for degree in 1..=3 {
+            for boundary in [Boundary::Phantom, Boundary::Clamped] {
+                let options = D1rcOptions::default().with_degree(degree).with_boundary(boundary);
+                let space = space(&uv, &triangles, options, &[]);
+                let space = space.unwrap_or_else(|e| panic!("{name}, degree {degree}, {boundary:?}: {e}"));
+                let points: Vec<f64> = uv.iter().flat_map(|p| p.to_array()).collect();
+                let surface = D1rcSurface::new(space, 2, points).unwrap();
+                let (mut worst_sum, mut worst) = (0.0_f64, 0.0_f64);
+                for t in sample(&uv, &triangles) {
+                    let shares = surface.space().shares(t).unwrap();
+                    worst_sum = worst_sum.max((shares.iter().map(|s| s.1).sum::<f64>() - 1.0).abs());
+                    let least = shares.iter().fold(0.0_f64, |least, s| least.min(s.1));
+                    assert!(least >= -1e-14, "{name}, degree {degree}, {boundary:?} at {t}: {least:e}");
+                    let mut at = [0.0; 2];
+                    surface.eval_rows(&[t], 0, &mut at);
+                    worst = worst.max((DVec2::from(at) - t).length() / scale);
+                }
+                assert!(worst_sum < 1e-13, "{name}, degree {degree}, {boundary:?}: {worst_sum:e}");
+                assert!(worst < 1e-13, "{name}, degree {degree}, {boundary:?}: {worst:e}");
+            }
+        }
+    }
+}
