@@ -9,6 +9,7 @@ use crate::curve::CurveError;
 use crate::export::ExportError;
 use crate::export::native::LoadError;
 use crate::export::step::StepError;
+use crate::fit::d1rc::D1rcFitError;
 use crate::fit::skin::SkinError;
 use crate::fit::tessellation::FitError;
 use crate::knots::KnotError;
@@ -76,6 +77,9 @@ pub enum Error {
     /// A fit is not possible.
     #[error(transparent)]
     Fit(#[from] FitError),
+    /// A D1RC fit is not possible.
+    #[error(transparent)]
+    D1rcFit(#[from] D1rcFitError),
     /// Rows cannot be skinned.
     #[error(transparent)]
     Skin(#[from] SkinError),
@@ -161,6 +165,7 @@ impl Error {
             Self::Read(error) => (error.kind(), error.index()),
             Self::Parameterize(error) => (error.kind(), error.index()),
             Self::Fit(error) => (error.kind(), error.index()),
+            Self::D1rcFit(error) => (error.kind(), error.index()),
             Self::Skin(error) => (error.kind(), error.index()),
             Self::Knots(error) => (error.kind(), error.index()),
             Self::Curve(error) => (error.kind(), error.index()),
