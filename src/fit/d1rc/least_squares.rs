@@ -109,7 +109,7 @@ fn jump([a, b]: [u32; 2], tips: [u32; 2], uv: &[DVec2]) -> [(u32, f64); 4] {
     [(a, at_a), (b, at_b), (c, at_c), (d, at_d)]
 }
 
-/// The control points, three components each; none if samples and energy leave them undetermined.
+/// The control points, three components each, with an energy and its weight mu W; none if samples and energy leave them undetermined.
 pub fn solve(
     surface: &D1rcSurface,
     samples: &Samples,
@@ -141,8 +141,8 @@ pub fn solve(
     for (value, weight) in samples.values.chunks_exact(3).zip(samples.weights) {
         right.extend(value.iter().map(|x| weight.sqrt() * x));
     }
-    let (energy, mu) = energy;
-    let scale = (mu * samples.weights.iter().sum::<f64>()).sqrt();
+    let (energy, weight) = energy;
+    let scale = weight.sqrt();
     for row in &energy.rows {
         let mut row = row.map(|(node, number)| (node, scale * number));
         row.sort_unstable_by_key(|&(node, _)| node);

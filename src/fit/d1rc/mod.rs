@@ -50,7 +50,8 @@ pub struct D1rcFitOptions<'a> {
     /// Weight of the energy that determines control points without data. Default 1e-5: ten times more flattens, a
     /// hundred times less lets the surface swing where control points outnumber the nodes.
     pub smoothing: f64,
-    /// Sweeps of parameter correction in each round.
+    /// Sweeps in each round: nodes move to their foot points, those with large errors gain weight, and the fit is
+    /// repeated. Default 3.
     pub correction_sweeps: usize,
     /// What to do with parameters that came with the mesh.
     pub regularize: Regularize,
@@ -71,7 +72,7 @@ impl Default for D1rcFitOptions<'_> {
             control_count: 0,
             max_control_count: 100_000,
             smoothing: 1e-5,
-            correction_sweeps: 2,
+            correction_sweeps: 3,
             regularize: Regularize::default(),
             parameterize: ParameterizeOptions::PHT.with_border(Border::Circle),
             weights: None,

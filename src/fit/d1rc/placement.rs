@@ -1,8 +1,9 @@
 //! Where the data lie in the parameter plane of a control mesh.
 //!
 //! The boundary of a coarser mesh cuts corners, so nodes of the boundary go to the nearest place on its boundary, and
-//! so does what lies outside; nodes of sharp edges go to the nearest place on its sharp edges. A control mesh that
-//! was made elsewhere has a plane of its own: there each node gets the parameters of its nearest place in space.
+//! so does what lies outside; nodes of sharp edges go to the nearest place on its sharp edges. There they may slide.
+//! A control mesh that was made elsewhere has a plane of its own: in it each node gets the parameters of its nearest
+//! place in space.
 
 use crate::control::Pool;
 use crate::mesh::Mesh;
@@ -10,38 +11,40 @@ use crate::query::triangles::TriangleTree;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-/// The parameters of nodes over one control mesh.
+/// The parameters of nodes over one control mesh, and the lines on which some of them stay.
 pub struct Placement {
     pub uv: Vec<DVec2>,
-    /// By node: whether it lies on the boundary or a sharp edge and has to stay there.
-    pub is_held: Vec<bool>,
+    /// By node.
+    lines: Vec<Line>,
+    boundary: Vec<[DVec2; 2]>,
+    creases: Vec<[DVec2; 2]>,
+}
+
+/// Where a node stays.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Line {
+    None,
+    Crease,
+    Boundary,
 }
 
 impl Placement {
     /// In the plane that a mesh shares with the control mesh made of it; `sharp` are the sharp edges of both.
     pub fn in_plane(fine: &Mesh, coarse: &Mesh, sharp: (&[[u32; 2]], &[[u32; 2]]), pool: &Pool) -> Self {
-        let [uv, places] = [fine, coarse].map(|mesh| mesh.parameters().unwrap_or_default());
-        let sides = |edges: &mut dyn Iterator<Item = [u32; 2]>| -> Vec<[DVec2; 2]> {
-            edges.map(|edge| edge.map(|node| places[node as usize])).collect()
-        };
-        let boundary = sides(&mut boundary_edges(coarse));
-        let creases = sides(&mut sharp.1.iter().copied());
-        let mut kinds = vec![Kind::Free; uv.len()];
-        sharp.0.iter().flatten().for_each(|&node| kinds[node as usize] = Kind::Crease);
-        fine.loops().iter().flatten().for_each(|&node| kinds[node as usize] = Kind::Boundary);
-        let is_held = kinds.iter().map(|&kind| kind != Kind::Free).collect();
-        let flat = flat(coarse, places);
+        let uv = fine.parameters().unwrap_or_default().to_vec();
+        let mut placement = Self::on_lines(uv, fine, coarse, sharp);
+        let flat = flat(coarse);
         let tree = flat.as_ref().map(TriangleTree::new);
-        let place = |(&uv, kind): (&DVec2, Kind)| match kind {
-            Kind::Boundary => nearest(uv, &boundary),
-            Kind::Crease => nearest(uv, &creases),
-            Kind::Free => {
-                let near = tree.as_ref().and_then(|tree| tree.nearest(uv.extend(0.0)));
-                near.filter(|near| near.distance > 0.0).map_or(uv, |near| near.point.truncate())
-            }
+        let inside = |uv: DVec2| {
+            let near = tree.as_ref().and_then(|tree| tree.nearest(uv.extend(0.0)));
+            near.filter(|near| near.distance > 0.0).map_or(uv, |near| near.point.truncate())
         };
-        let uv = pool.run(|| uv.par_iter().zip(kinds).map(place).collect());
-        Self { uv, is_held }
+        let lines = &placement.lines;
+        pool.run(|| {
+            let free = placement.uv.par_iter_mut().zip(lines).filter(|(_, line)| **line == Line::None);
+            free.for_each(|(uv, _)| *uv = inside(*uv));
+        });
+        placement
     }
 
     /// From nearest places in space.
@@ -55,22 +58,38 @@ impl Placement {
             nodes.iter().zip(shares).map(|(&node, share)| share * places[node]).sum()
         };
         let uv = pool.run(|| mesh.points().par_iter().map(place).collect());
-        let mut is_held = vec![false; mesh.points().len()];
-        mesh.loops().iter().flatten().for_each(|&node| is_held[node as usize] = true);
-        Self { uv, is_held }
+        Self::on_lines(uv, mesh, coarse, (&[], &[]))
+    }
+
+    /// Puts nodes of the boundary and of sharp edges on their lines.
+    fn on_lines(uv: Vec<DVec2>, mesh: &Mesh, coarse: &Mesh, sharp: (&[[u32; 2]], &[[u32; 2]])) -> Self {
+        let places = coarse.parameters().unwrap_or_default();
+        let segment = |edge: [u32; 2]| edge.map(|node| places[node as usize]);
+        let mut lines = vec![Line::None; uv.len()];
+        sharp.0.iter().flatten().for_each(|&node| lines[node as usize] = Line::Crease);
+        mesh.loops().iter().flatten().for_each(|&node| lines[node as usize] = Line::Boundary);
+        let boundary = boundary_edges(coarse).map(segment).collect();
+        let creases = sharp.1.iter().copied().map(segment).collect();
+        let mut placement = Self { uv, lines, boundary, creases };
+        placement.uv =
+            (0..placement.uv.len()).map(|node| placement.settled(node, placement.uv[node])).collect();
+        placement
+    }
+
+    /// Where a node goes that is to move to a place: the nearest one on its line, if it has one.
+    pub fn settled(&self, node: usize, place: DVec2) -> DVec2 {
+        match self.lines[node] {
+            Line::None => place,
+            Line::Crease => nearest(place, &self.creases),
+            Line::Boundary => nearest(place, &self.boundary),
+        }
     }
 }
 
-#[derive(Clone, Copy, PartialEq)]
-enum Kind {
-    Free,
-    Crease,
-    Boundary,
-}
-
 /// A mesh of the parameters.
-fn flat(mesh: &Mesh, uv: &[DVec2]) -> Option<Mesh> {
-    Mesh::new(uv.iter().map(|uv| uv.extend(0.0)).collect(), mesh.triangles().to_vec()).ok()
+fn flat(mesh: &Mesh) -> Option<Mesh> {
+    let places = mesh.parameters()?.iter().map(|uv| uv.extend(0.0));
+    Mesh::new(places.collect(), mesh.triangles().to_vec()).ok()
 }
 
 fn boundary_edges(mesh: &Mesh) -> impl Iterator<Item = [u32; 2]> {

@@ -1,4 +1,4 @@
-//! The rounds of a fit: control mesh, least squares, foot points, measure.
+//! The rounds of a fit: control mesh, then sweeps of least squares, measuring, and foot points.
 
 use super::least_squares::{Energy, Samples, solve};
 use super::placement::Placement;
@@ -27,6 +27,8 @@ const GROWTH: (f64, f64) = (1.4, 4.0);
 const IDLE_ROUNDS: usize = 4;
 /// Smallest share of its area that a triangle of the mesh keeps in the parameter plane when its nodes move.
 const LEAST_AREA: f64 = 0.3;
+/// A sweep multiplies the weight of a node by at most this; more makes the largest error jump from node to node.
+const MOST_STRESS: f64 = 4.0;
 
 /// Where control meshes come from.
 pub enum Source {
@@ -99,6 +101,16 @@ pub struct Problem<'a> {
     bounds: Bounds,
     /// The tolerance in model units, and whether it was raised.
     tolerance: (f64, bool),
+}
+
+/// Gives nodes with more than the usual error more weight in the next sweep.
+///
+/// C. Lawson, "Contributions to the theory of linear least maximum approximation" (1961): least squares whose weights
+/// are multiplied by the errors approach the least largest error, which is what a tolerance bounds.
+fn stress(weights: &mut [f64], errors: &DataErrors) {
+    let factor =
+        |error: f64| if errors.rms > 0.0 { (error / errors.rms).clamp(1.0, MOST_STRESS) } else { 1.0 };
+    weights.iter_mut().zip(&errors.each).for_each(|(weight, &error)| *weight *= factor(error));
 }
 
 /// A surface, measured.
@@ -198,13 +210,20 @@ impl<'a> Problem<'a> {
         watch.check()?;
         let energy = Energy::new(&coarse, coarse.parameters().unwrap_or_default(), &sharp_edges);
         let placement = self.source.place(self.mesh, &coarse, &sharp_edges, pool);
-        let mut uv = placement.uv.clone();
-        self.solve(&mut surface, &uv, &energy, pool, watch)?;
-        for _ in 0..self.options.correction_sweeps {
-            uv = self.foot_points(&surface, &placement, uv, pool);
-            self.solve(&mut surface, &uv, &energy, pool, watch)?;
+        let (mut uv, mut weights) = (placement.uv.clone(), self.weights.clone());
+        let mut best: Option<(D1rcSurface, Vec<DVec2>, DataErrors)> = None;
+        for sweep in 0..=self.options.correction_sweeps {
+            if sweep > 0 {
+                uv = self.foot_points(&surface, &placement, uv, pool);
+            }
+            self.solve(&mut surface, &uv, &weights, &energy, pool, watch)?;
+            let errors = data_errors(&surface, &uv, self.values, pool);
+            stress(&mut weights, &errors);
+            if best.as_ref().is_none_or(|(_, _, best)| errors.max < best.max) {
+                best = Some((surface.clone(), uv.clone(), errors));
+            }
         }
-        let errors = data_errors(&surface, &uv, self.values, pool);
+        let (surface, uv, errors) = best.ok_or(FitError::Singular)?;
         Ok(Round { surface, coarse, sharp_edges, uv, errors })
     }
 
@@ -212,12 +231,14 @@ impl<'a> Problem<'a> {
         &self,
         surface: &mut D1rcSurface,
         uv: &[DVec2],
+        weights: &[f64],
         energy: &Energy,
         pool: &Pool,
         watch: &Watch,
     ) -> Result<(), D1rcFitError> {
-        let samples = Samples { uv, values: &self.samples, weights: &self.weights };
-        let solved = solve(surface, &samples, (energy, self.options.smoothing), pool, watch)?;
+        let samples = Samples { uv, values: &self.samples, weights };
+        let smoothing = self.options.smoothing * self.weights.iter().sum::<f64>();
+        let solved = solve(surface, &samples, (energy, smoothing), pool, watch)?;
         let mut points = solved.ok_or(FitError::Singular)?;
         self.frame.outward(&mut points);
         let vertices: Vec<u32> = (0..surface.space().vertex_count() as u32).collect();
@@ -238,15 +259,14 @@ impl<'a> Problem<'a> {
             DVec2::splat(LONGEST_STEP * (size.x * size.y / surface.coefficient_count() as f64).sqrt());
         let mut moved = uv.clone();
         pool.run(|| {
-            let nodes = moved.par_iter_mut().zip(self.values.par_chunks(3)).zip(&placement.is_held);
-            nodes.with_min_len(256).filter(|(_, is_held)| !**is_held).for_each(|((uv, value), _)| {
+            let nodes = moved.par_iter_mut().zip(self.values.par_chunks(3)).enumerate();
+            nodes.with_min_len(256).for_each(|(node, (uv, value))| {
                 let mut row = [0.0; 9];
                 for _ in 0..STEPS {
                     surface.eval_rows(&[*uv], 1, &mut row);
                     let step = gauss_newton_step(&row, value).clamp(-longest, longest);
-                    if surface.contains(*uv + step) {
-                        *uv += step;
-                    }
+                    let to = placement.settled(node, *uv + step);
+                    *uv = if surface.contains(to) { to } else { *uv };
                 }
             })
         });
