@@ -6,4 +6,4 @@ mod orientation;
 
 pub use bounds::Bounds;
 pub use domain::Domain;
-pub use orientation::{Orientation, is_in_circle, orientation, signed_area};
+pub use orientation::{CANCELLATION, Orientation, is_in_circle, orientation, signed_area};

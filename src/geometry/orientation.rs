@@ -36,7 +36,7 @@ fn coord(p: DVec2) -> robust::Coord<f64> {
 
 /// Where the two products of an area cancel to less than this share, it is computed with twice the digits. Beyond
 /// it the relative error is below 4 EPSILON / share.
-const CANCELLATION: f64 = 1.0 / 16.0;
+pub const CANCELLATION: f64 = 1.0 / 64.0;
 /// The same, after which only the exact sign is left: twice the digits have a relative error of some EPSILON^2.
 const LEAST_SHARE: f64 = 1e-28;
 

@@ -205,7 +205,7 @@ impl Mesh {
         if (node as usize) < count { Ok(()) } else { Err(CutError::NoSuchNode { node, count }) }
     }
 
-    /// The half-edges of a fan, parted at the cut edges.
+    /// The half-edges of a fan, parted at the cut edges; each part begins at a cut or on the boundary.
     pub(crate) fn sectors(&self, start: HalfEdge, cut: &[bool]) -> Vec<Vec<HalfEdge>> {
         let mut sectors: Vec<Vec<HalfEdge>> = vec![Vec::new()];
         for half_edge in self.topology.fan_from(start) {
@@ -217,8 +217,9 @@ impl Mesh {
         // a closed fan goes on from its last sector into the first, unless it begins at a cut
         let is_closed = self.topology.twin(start).is_some();
         if is_closed && !cut[start.index()] && sectors.len() > 1 {
-            let last = sectors.pop().unwrap_or_default();
-            sectors[0].extend(last);
+            let mut last = sectors.pop().unwrap_or_default();
+            last.append(&mut sectors[0]);
+            sectors[0] = last;
         }
         sectors
     }

@@ -137,18 +137,19 @@ fn add_functions<const L: usize>(
     let (space, dim) = (&surface.space, surface.dim);
     let rows = derivative_rows(order);
     sums.fill([[0.0; L]; 6]);
-    space.each_function(face, sites, order, workspace, |function, jets| {
+    for &function in space.regions.functions(face) {
+        let Some(jets) = space.jets(function, sites, order, workspace) else { continue };
         let weight = space.configurations[function as usize].weight;
         let point = &surface.coefficients[function as usize * dim..][..dim];
-        for (sum, x) in sums.iter_mut().zip(point.iter().copied().chain([1.0])) {
-            let factor = weight * x;
-            for (sum, jet) in sum[..rows].iter_mut().zip(jets) {
+        for k in 0..sums.len() {
+            let factor = if k < dim { weight * point[k] } else { weight };
+            for r in 0..rows {
                 for l in 0..L {
-                    sum[l] += factor * jet[l];
+                    sums[k][r][l] += factor * jets[r][l];
                 }
             }
         }
-    });
+    }
 }
 
 /// As many of the points as there is room for.

@@ -76,6 +76,7 @@ impl Frame {
         let mut builder = Builder::new(plane, boundary, degree);
         builder.split_vertices();
         builder.step_back();
+        builder.add_clusters()?;
         builder.add_rings()?;
         Ok(builder.frame)
     }
@@ -191,12 +192,49 @@ impl<'a> Builder<'a> {
     fn cluster_step(&self) -> f64 {
         let clamped = self.sectors.iter().flatten().filter(|sector| sector.is_clamped);
         let faces = clamped.flat_map(|sector| &sector.half_edges).map(|half_edge| half_edge.triangle());
-        let heights = faces.map(|face| {
-            let [a, b, c] = self.plane.mesh.triangles()[face].map(|v| self.plane.places[v as usize]);
-            let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-            (b - a).perp_dot(c - a) / longest
-        });
+        let heights = faces.map(|face| self.height(face));
         CLUSTER / (self.degree + 1) as f64 * heights.fold(f64::INFINITY, f64::min)
+    }
+
+    /// The smallest height of a face.
+    fn height(&self, face: usize) -> f64 {
+        let [a, b, c] = self.plane.mesh.triangles()[face].map(|v| self.plane.places[v as usize]);
+        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+        (b - a).perp_dot(c - a) / longest
+    }
+
+    /// Clones of inner vertices to be interpolated, each in a face of its own beside the vertex.
+    fn add_clusters(&mut self) -> Result<(), D1rcError> {
+        let plane = self.plane;
+        let mut is_taken = vec![false; plane.mesh.triangles().len()];
+        let is_inner = |this: &Self, v: usize| this.sectors[v].is_none() && plane.mesh.is_used(v as u32);
+        let fixed = (0..plane.places.len()).filter(|&v| plane.is_fixed[v] && is_inner(self, v));
+        for vertex in fixed.collect::<Vec<usize>>() {
+            self.frame.is_clamped[vertex] = true;
+            let around: Vec<HalfEdge> =
+                plane.mesh.outgoing(vertex as u32).filter(|h| !is_taken[h.triangle()]).collect();
+            if around.len() < self.degree {
+                return Err(D1rcError::NoRoom { vertex });
+            }
+            for number in 0..self.degree {
+                let half_edge = around[number * around.len() / self.degree];
+                is_taken[half_edge.triangle()] = true;
+                self.add_clone_in(half_edge);
+            }
+        }
+        Ok(())
+    }
+
+    /// A clone of the origin of a half-edge, close to it inside the triangle, which falls into three.
+    fn add_clone_in(&mut self, half_edge: HalfEdge) {
+        let face = half_edge.triangle();
+        let [v, a, b] = [half_edge, half_edge.next(), half_edge.previous()].map(|h| self.corners[h.index()]);
+        let [at, p, q] = [v, a, b].map(|knot| self.frame.link_places[knot as usize]);
+        let clone = self.copy(v, self.frame.places[v as usize]);
+        let inward = (p - at).normalize() + (q - at).normalize();
+        self.frame.link_places[clone as usize] = at + CLUSTER * self.height(face) * inward;
+        self.frame.triangles[face] = [v, a, clone];
+        self.frame.triangles.extend([[a, b, clone], [b, v, clone]]);
     }
 
     fn add_rings(&mut self) -> Result<(), D1rcError> {

@@ -5,29 +5,25 @@
 //! hull of its knots. A form vanishes on its edge (i,j); with the other knots k, l it is
 //! ```text
 //! M_1(t|i,j,k,l) = max(0, min over hull edges of det(i,j,t) / |det(i,j,k) det(i,j,l)|)
-//! M_2(t|X,a,b)   = sum_j lambda_j(t|X) M_1(t|X \ x_j, a, b)                      k = 3
+//! M_2(t|U)         = sum_j lambda_j(t|W) M_1(t|U \ w_j)           k = 3, W the three knots of largest area
 //! ```
 //! which follows from `integral M_1 = 1/6` for both shapes of the hull. It is continuous, so no sides need be taken. Per
 //! function and point there is one area for each pair of knots that share a simplex spline; everything else is
 //! products and comparisons, for several points at once. First and second derivatives come from the same `M`.
 //!
-//! Functions with collinear or equal knots, with an X that is nearly flat, and those of degree 1 go by definition
-//! (`configuration`).
+//! Functions with collinear or equal knots and those of degree 1 go by definition (`configuration`).
 
 use super::configuration::{Configuration, Jet};
-use super::simplex::{Site, barycentric_gradients};
-use crate::geometry::signed_area;
+use super::simplex::{Site, barycentric_gradients, widest_triangle};
+use crate::geometry::{CANCELLATION, signed_area};
 use glam::DVec2;
 use std::ops::Range;
 
 /// Most knots in the edges of a fast function; rings of the printed construction have up to 18.
 const MAX_RING: usize = 24;
+const MAX_KNOTS: usize = 3 + MAX_RING;
 /// Most areas of one function: pairs among X, pairs of X and ring, edges.
 const MAX_AREAS: usize = 3 + 4 * MAX_RING;
-
-/// Least area of X against the squared diagonal of all knots: as many digits are lost as barycentric coordinates
-/// of X are large.
-const FLATTEST: f64 = 1.0 / 256.0;
 
 /// Points that are evaluated together.
 pub const LANES: usize = 4;
@@ -39,7 +35,7 @@ struct Thickness {
     factors: [f64; 4],
 }
 
-/// An edge, and the `M_1` of its knots with all but one of X (degree 3), or with X (degree 2).
+/// An edge, and the `M_1` of its knots and X without one of W (degree 3), or of all (degree 2).
 #[derive(Debug, Clone, Copy)]
 struct Term {
     /// From the first knot of the edge to the second, turned left.
@@ -49,6 +45,16 @@ struct Term {
     /// Its knots.
     ends: [u8; 2],
     thickness: [Thickness; 3],
+    /// Degree 3: the barycentric coordinates that go with them.
+    lambda: [Lambda; 3],
+}
+
+/// A barycentric coordinate of a point in W: an area and its factor.
+#[derive(Debug, Clone, Copy, Default)]
+struct Lambda {
+    area: u8,
+    factor: f64,
+    gradient: DVec2,
 }
 
 /// What is known of a function beforehand.
@@ -59,9 +65,6 @@ struct Piece {
     /// X, then the ring; empty for functions that go by definition.
     knots: Range<u32>,
     terms: Range<u32>,
-    /// One over twice the area of X, and the gradients of its barycentric coordinates.
-    inverse_area: f64,
-    gradients: [DVec2; 3],
 }
 
 /// All functions of a space.
@@ -76,11 +79,14 @@ pub struct Kernel {
 /// Room for the areas of one function.
 pub struct Workspace<const L: usize> {
     areas: [[f64; L]; MAX_AREAS],
+    /// From the points to the knots.
+    x: [[f64; L]; MAX_KNOTS],
+    y: [[f64; L]; MAX_KNOTS],
 }
 
 impl<const L: usize> Default for Workspace<L> {
     fn default() -> Self {
-        Self { areas: [[0.0; L]; MAX_AREAS] }
+        Self { areas: [[0.0; L]; MAX_AREAS], x: [[0.0; L]; MAX_KNOTS], y: [[0.0; L]; MAX_KNOTS] }
     }
 }
 
@@ -102,23 +108,13 @@ impl Kernel {
         let (first_knot, first_term) = (self.knots.len(), self.terms.len());
         let all = || configuration.all_knots().map(|knot| places[knot as usize]);
         let (min, max) = all().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(a, b), p| (a.min(p), b.max(p)));
-        let mut piece =
-            Piece { min, max, knots: 0..0, terms: 0..0, inverse_area: 0.0, gradients: [DVec2::ZERO; 3] };
+        let mut piece = Piece { min, max, knots: 0..0, terms: 0..0 };
         let ring_count = configuration.edges.len();
         if self.degree == 1 || ring_count > MAX_RING {
             return piece;
         }
         let ring: Vec<u32> = configuration.edges.iter().map(|edge| edge[0]).collect();
         let local = Local { degree: self.degree, ring_count, knots: all().collect() };
-        if self.degree == 3 {
-            let x = [0, 1, 2].map(|i| local.knots[i]);
-            let area = signed_area(x[0], x[1], x[2]);
-            if area.abs() < FLATTEST * min.distance_squared(max) {
-                return piece;
-            }
-            piece.inverse_area = 1.0 / area;
-            piece.gradients = barycentric_gradients(x, area);
-        }
         for (number, edge) in configuration.edges.iter().enumerate() {
             let Some(to) = ring.iter().position(|&knot| knot == edge[1]) else { return piece };
             let Some(term) = local.term(number, to) else {
@@ -151,8 +147,14 @@ impl Kernel {
         workspace: &mut Workspace<L>,
     ) -> Option<Jets<L>> {
         let piece = &self.pieces[function as usize];
-        let is_out = |site: &Site| site.t.cmplt(piece.min).any() || site.t.cmpgt(piece.max).any();
-        if sites.iter().all(is_out) {
+        let mut is_out = true;
+        for site in sites {
+            is_out &= site.t.x < piece.min.x
+                || site.t.x > piece.max.x
+                || site.t.y < piece.min.y
+                || site.t.y > piece.max.y;
+        }
+        if is_out {
             return None;
         }
         if !self.is_fast(function, order) {
@@ -198,27 +200,27 @@ impl Kernel {
     ) -> Jets<L> {
         self.areas::<L, 3>(piece, sites, workspace);
         let areas = &workspace.areas;
-        let mut lambda = [[0.0; L]; 3];
-        for j in 0..3 {
-            for l in 0..L {
-                lambda[j][l] = areas[j][l] * piece.inverse_area;
-            }
-        }
         let mut jets = [[0.0; L]; 6];
         for term in &self.terms[piece.terms.start as usize..piece.terms.end as usize] {
-            let splines = [0, 1, 2].map(|j| thickness(&term.thickness[j], areas));
+            let splines = [
+                thickness(&term.thickness[0], areas),
+                thickness(&term.thickness[1], areas),
+                thickness(&term.thickness[2], areas),
+            ];
             let area = &areas[term.area as usize];
+            let [j0, j1, j2] = &term.lambda;
+            let lambda = [&areas[j0.area as usize], &areas[j1.area as usize], &areas[j2.area as usize]];
             for l in 0..L {
-                let spline = lambda[0][l] * splines[0][l]
-                    + (lambda[1][l] * splines[1][l] + lambda[2][l] * splines[2][l]);
+                let spline = j0.factor * lambda[0][l] * splines[0][l]
+                    + (j1.factor * lambda[1][l] * splines[1][l] + j2.factor * lambda[2][l] * splines[2][l]);
                 jets[0][l] += area[l] * spline;
                 if ORDER > 0 {
                     jets[1][l] += 3.0 * term.across.x * spline;
                     jets[2][l] += 3.0 * term.across.y * spline;
                 }
                 if ORDER > 1 {
-                    let [g0, g1, g2] = piece.gradients;
-                    let slope = splines[0][l] * g0 + (splines[1][l] * g1 + splines[2][l] * g2);
+                    let slope = splines[0][l] * j0.gradient
+                        + (splines[1][l] * j1.gradient + splines[2][l] * j2.gradient);
                     jets[3][l] += 6.0 * term.across.x * slope.x;
                     jets[4][l] += 3.0 * (term.across.x * slope.y + term.across.y * slope.x);
                     jets[5][l] += 6.0 * term.across.y * slope.y;
@@ -228,7 +230,7 @@ impl Kernel {
         jets
     }
 
-    /// The areas of all pairs with each point, in the order of [`Local::pair`].
+    /// The areas of all pairs with each point, in the order of [`Local::directed_pair`].
     #[inline(always)]
     fn areas<const L: usize, const K: usize>(
         &self,
@@ -237,44 +239,86 @@ impl Kernel {
         workspace: &mut Workspace<L>,
     ) {
         let knots = &self.knots[piece.knots.start as usize..piece.knots.end as usize];
-        let (x, ring) = knots.split_at(K);
-        let areas = &mut workspace.areas;
-        let mut next = 0;
-        let mut add = |a: DVec2, b: DVec2| {
+        let Workspace { areas, x, y } = workspace;
+        for (k, knot) in knots.iter().enumerate() {
             for l in 0..L {
-                areas[next][l] = signed_area(a, b, sites[l].t);
+                x[k][l] = knot.x - sites[l].t.x;
+                y[k][l] = knot.y - sites[l].t.y;
             }
-            next += 1;
-        };
-        if K == 3 {
-            add(x[1], x[2]);
-            add(x[2], x[0]);
         }
-        add(x[0], x[1]);
-        for &knot in ring {
+        let seen = Seen { knots, sites, x, y };
+        if K == 3 {
+            seen.area(1, 2, &mut areas[0]);
+            seen.area(2, 0, &mut areas[1]);
+            seen.area(0, 1, &mut areas[2]);
+        } else {
+            seen.area(0, 1, &mut areas[0]);
+        }
+        let mut next = if K == 3 { 3 } else { 1 };
+        for ring in K..knots.len() {
             for i in 0..K {
-                add(x[i], knot);
+                seen.area(i, ring, &mut areas[next]);
+                next += 1;
             }
         }
         for term in &self.terms[piece.terms.start as usize..piece.terms.end as usize] {
-            let [a, b] = term.ends.map(|end| knots[end as usize]);
-            add(a, b);
+            seen.area(term.ends[0] as usize, term.ends[1] as usize, &mut areas[next]);
+            next += 1;
         }
+    }
+}
+
+/// The knots of a function as the points see them.
+struct Seen<'a, const L: usize> {
+    knots: &'a [DVec2],
+    sites: &'a [Site; L],
+    x: &'a [[f64; L]; MAX_KNOTS],
+    y: &'a [[f64; L]; MAX_KNOTS],
+}
+
+impl<const L: usize> Seen<'_, L> {
+    /// [`signed_area`] of two knots and each point.
+    #[inline(always)]
+    fn area(&self, a: usize, b: usize, out: &mut [f64; L]) {
+        let mut is_close = false;
+        for l in 0..L {
+            let (left, right) = (self.x[a][l] * self.y[b][l], self.y[a][l] * self.x[b][l]);
+            out[l] = left - right;
+            is_close |= out[l].abs() < CANCELLATION * (left.abs() + right.abs());
+        }
+        if is_close {
+            careful_areas(self.knots[a], self.knots[b], self.sites, out);
+        }
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn careful_areas<const L: usize>(a: DVec2, b: DVec2, sites: &[Site; L], out: &mut [f64; L]) {
+    for (area, site) in out.iter_mut().zip(sites) {
+        *area = signed_area(a, b, site.t);
     }
 }
 
 /// `M_1` from the areas of its hull.
 #[inline(always)]
 fn thickness<const L: usize>(thickness: &Thickness, areas: &[[f64; L]; MAX_AREAS]) -> [f64; L] {
-    let mut least = [f64::INFINITY; L];
-    for form in 0..4 {
+    let mut least = [0.0; L];
+    let first = &areas[thickness.areas[0] as usize];
+    for l in 0..L {
+        least[l] = thickness.factors[0] * first[l];
+    }
+    for form in 1..4 {
         let (area, factor) = (&areas[thickness.areas[form] as usize], thickness.factors[form]);
         for l in 0..L {
             let value = factor * area[l];
             least[l] = if value < least[l] { value } else { least[l] };
         }
     }
-    least.map(|value| if value > 0.0 { value } else { 0.0 })
+    for l in 0..L {
+        least[l] = if least[l] > 0.0 { least[l] } else { 0.0 };
+    }
+    least
 }
 
 #[cold]
@@ -302,16 +346,24 @@ impl Local {
         let ends = [self.degree + number, self.degree + to];
         let [a, b] = ends.map(|end| self.knots[end]);
         let mut thickness = [Thickness::default(); 3];
-        match self.degree {
-            2 => thickness[0] = self.thickness([0, 1, ends[0], ends[1]], number)?,
-            _ => {
-                for j in 0..3 {
-                    thickness[j] = self.thickness([(j + 1) % 3, (j + 2) % 3, ends[0], ends[1]], number)?;
-                }
+        let mut lambda = [Lambda::default(); 3];
+        if self.degree == 2 {
+            thickness[0] = self.thickness([0, 1, ends[0], ends[1]], number)?;
+        } else {
+            let all = [0, 1, 2, ends[0], ends[1]];
+            let (w, area) = widest_triangle(&all.map(|knot| self.knots[knot]))?;
+            let gradients = barycentric_gradients(w.map(|j| self.knots[all[j]]), area);
+            for j in 0..3 {
+                let mut rest = [0; 4];
+                let others = (0..5).filter(|&knot| knot != w[j]).map(|knot| all[knot]);
+                rest.iter_mut().zip(others).for_each(|(place, knot)| *place = knot);
+                thickness[j] = self.thickness(rest, number)?;
+                let (area_of, sign) = self.directed_pair(all[w[(j + 1) % 3]], all[w[(j + 2) % 3]], number);
+                lambda[j] = Lambda { area: area_of, factor: sign / area, gradient: gradients[j] };
             }
         }
         let area = self.edge_area(number);
-        Some(Term { across: (b - a).perp(), area, ends: ends.map(|end| end as u8), thickness })
+        Some(Term { across: (b - a).perp(), area, ends: ends.map(|end| end as u8), thickness, lambda })
     }
 
     fn thickness(&self, of: [usize; 4], edge: usize) -> Option<Thickness> {
@@ -326,8 +378,9 @@ impl Local {
                 return None;
             }
             if (left > 0.0) == (right > 0.0) {
-                hull.areas[count] = self.pair(of[i], of[j], edge);
-                hull.factors[count] = left.signum() / (left * right);
+                let (area, sign) = self.directed_pair(of[i], of[j], edge);
+                hull.areas[count] = area;
+                hull.factors[count] = sign * left.signum() / (left * right);
                 count += 1;
             }
         }
@@ -337,15 +390,19 @@ impl Local {
         hull.factors.iter().all(|factor| factor.is_finite()).then_some(hull)
     }
 
-    /// Where the area of two knots is, the pair directed as in [`Kernel::areas`].
-    fn pair(&self, i: usize, j: usize, edge: usize) -> u8 {
+    /// Where the area of two knots is, one of them in X or both of an edge, and -1 if it is that of the pair turned
+    /// over.
+    fn directed_pair(&self, i: usize, j: usize, edge: usize) -> (u8, f64) {
         let x_count = if self.degree == 3 { 3 } else { 1 };
         match (i < self.degree, j < self.degree) {
-            // the pairs of X by the knot left out, of (j + 1, j + 2)
-            (true, true) if self.degree == 3 => (3 - i - j) as u8,
-            (true, true) => 0,
-            (true, false) => (x_count + self.degree * (j - self.degree) + i) as u8,
-            _ => self.edge_area(edge),
+            // the pairs of X by the knot left out, each (j + 1, j + 2)
+            (true, true) if self.degree == 3 => {
+                ((3 - i - j) as u8, if (i + 1) % 3 == j { 1.0 } else { -1.0 })
+            }
+            (true, true) => (0, 1.0),
+            (true, false) => ((x_count + self.degree * (j - self.degree) + i) as u8, 1.0),
+            (false, true) => (self.directed_pair(j, i, edge).0, -1.0),
+            (false, false) => (self.edge_area(edge), if i == self.degree + edge { 1.0 } else { -1.0 }),
         }
     }
 

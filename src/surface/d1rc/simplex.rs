@@ -68,7 +68,7 @@ pub fn simplex_gradient(site: &Site, knots: &[DVec2]) -> DVec2 {
 }
 
 /// Three knots that span the largest area, and twice that area with its sign; None if all are collinear.
-fn widest_triangle(knots: &[DVec2]) -> Option<([usize; 3], f64)> {
+pub fn widest_triangle(knots: &[DVec2]) -> Option<([usize; 3], f64)> {
     let mut widest = ([0; 3], 0.0_f64);
     for a in 0..knots.len() {
         for b in a + 1..knots.len() {

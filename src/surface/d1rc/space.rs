@@ -3,7 +3,7 @@
 use super::configuration::{Configuration, Jet, mean_row};
 use super::error::D1rcError;
 use super::frame::{self, Boundary, Frame};
-use super::kernel::{Kernel, LANES, Workspace};
+use super::kernel::{Jets, Kernel, Workspace};
 use super::links::{NotSimple, links};
 use super::locate::Locator;
 use super::paper;
@@ -143,15 +143,26 @@ impl Space {
         sites: &[Site; L],
         order: usize,
         workspace: &mut Workspace<L>,
-        mut take: impl FnMut(u32, &[[f64; L]; 6]),
+        mut take: impl FnMut(u32, &Jets<L>),
     ) {
         for &function in self.regions.functions(face) {
-            let configuration = &self.configurations[function as usize];
-            let jets = self.kernel.jets(function, configuration, &self.places, sites, order, workspace);
-            if let Some(jets) = jets {
+            if let Some(jets) = self.jets(function, sites, order, workspace) {
                 take(function, &jets);
             }
         }
+    }
+
+    /// A function at some points, without its weight; None where it is zero at all of them.
+    #[inline(always)]
+    pub fn jets<const L: usize>(
+        &self,
+        function: u32,
+        sites: &[Site; L],
+        order: usize,
+        workspace: &mut Workspace<L>,
+    ) -> Option<Jets<L>> {
+        let configuration = &self.configurations[function as usize];
+        self.kernel.jets(function, configuration, &self.places, sites, order, workspace)
     }
 
     /// The faces of the domain on which a surface is best shown: all, in the mode `Paper` those with inner vertices
@@ -195,9 +206,6 @@ impl Space {
         let (_, site) = self.locator.find(uv)?;
         Some(self.configurations[function].jet(&site, &self.places, order))
     }
-
-    /// Points evaluated together.
-    pub const LANES: usize = LANES;
 }
 
 /// What the two modes make.
