@@ -5,5 +5,6 @@ pub mod deviation;
 pub mod gradient;
 pub mod project;
 pub mod rows;
+mod subdivide;
 pub mod tessellate;
 pub mod triangles;

@@ -1,10 +1,12 @@
 //! Triangle meshes of surfaces, with trims kept.
 //!
-//! A constrained Delaunay triangulation in the parameter plane (stretched so that both parameters count alike
+//! A surface over triangles is divided along with them (`subdivide`). For the others, a
+//! constrained Delaunay triangulation in the parameter plane (stretched so that both parameters count alike
 //! in space) starts from the trims and a grid as coarse as the surface's patches; then the middles of all
 //! edges that are too long or too far from the surface become nodes, until none is left.
 
 use crate::mesh::{Mesh, MeshError};
+use crate::query::subdivide::{Fineness, tessellate_faces};
 use crate::surface::Surface;
 use glam::{DVec2, DVec3};
 use spade::handles::FixedVertexHandle;
@@ -108,6 +110,12 @@ pub fn tessellate(
         if !(value >= 0.0 && value.is_finite()) {
             return Err(TessellateError::Option { option, value });
         }
+    }
+    if let Some(faces) = surface.faces()
+        && (!options.keep_trims || faces.has_own_trims())
+    {
+        let TessellateOptions { chord_tolerance, max_edge_length, max_points, .. } = *options;
+        return tessellate_faces(faces.as_ref(), &Fineness { chord_tolerance, max_edge_length, max_points });
     }
     let mut plane = Plane::new(surface, options)?;
     plane.add_frame()?;
@@ -364,14 +372,14 @@ fn eval(surface: &dyn Surface, uv: DVec2) -> DVec3 {
     DVec3::from_array(point)
 }
 
-fn distance_to_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
+pub(super) fn distance_to_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
     let along = b - a;
     let length_sq = along.length_squared();
     let t = if length_sq > 0.0 { ((p - a).dot(along) / length_sq).clamp(0.0, 1.0) } else { 0.0 };
     p.distance(a + t * along)
 }
 
-fn least_angle([a, b, c]: [DVec3; 3]) -> f64 {
+pub(super) fn least_angle([a, b, c]: [DVec3; 3]) -> f64 {
     (b - a).angle_between(c - a).min((c - b).angle_between(a - b)).min((a - c).angle_between(b - c))
 }
 

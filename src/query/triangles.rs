@@ -5,14 +5,15 @@
 
 use crate::mesh::Mesh;
 use glam::DVec3;
+use std::borrow::Borrow;
 
 /// Triangles of a leaf: below that a box costs more than it saves.
 const LEAF_SIZE: usize = 4;
 
-/// A hierarchy over the triangles of a mesh.
+/// A hierarchy over the triangles of a mesh, its own or borrowed.
 #[derive(Debug, Clone)]
-pub struct TriangleTree<'a> {
-    mesh: &'a Mesh,
+pub struct TriangleTree<M> {
+    mesh: M,
     /// Triangles in the order of the leaves.
     order: Vec<u32>,
     nodes: Vec<Node>,
@@ -40,10 +41,11 @@ pub struct NearestTriangle {
     pub triangle: u32,
 }
 
-impl<'a> TriangleTree<'a> {
+impl<M: Borrow<Mesh>> TriangleTree<M> {
     /// Sorts the triangles.
-    pub fn new(mesh: &'a Mesh) -> Self {
-        let mut tree = Self { mesh, order: (0..mesh.triangles().len() as u32).collect(), nodes: Vec::new() };
+    pub fn new(mesh: M) -> Self {
+        let order = (0..mesh.borrow().triangles().len() as u32).collect();
+        let mut tree = Self { mesh, order, nodes: Vec::new() };
         let middles: Vec<DVec3> =
             (0..tree.order.len()).map(|t| tree.corners(t as u32).iter().sum()).collect();
         if !tree.order.is_empty() {
@@ -53,7 +55,13 @@ impl<'a> TriangleTree<'a> {
     }
 
     fn corners(&self, triangle: u32) -> [DVec3; 3] {
-        self.mesh.triangles()[triangle as usize].map(|node| self.mesh.points()[node as usize])
+        let mesh = self.mesh();
+        mesh.triangles()[triangle as usize].map(|node| mesh.points()[node as usize])
+    }
+
+    /// The mesh.
+    pub fn mesh(&self) -> &Mesh {
+        self.mesh.borrow()
     }
 
     fn add(&mut self, first: usize, count: usize, middles: &[DVec3]) {

@@ -1,6 +1,7 @@
 //! A surface of any family.
 
 use super::Surface;
+use super::d1rc::D1rcSurface;
 use super::pht::PhtSurface;
 use super::tensor::{TensorError, TensorSurface};
 use super::tspline::{TSplineError, TSplineSurface};
@@ -16,6 +17,9 @@ pub enum ConvertError {
         /// The limit.
         limit: usize,
     },
+    /// The surface is not polynomial on rectangles.
+    #[error("a D1RC-spline is no tensor surface: fit one to its tessellation")]
+    NotTensor,
     /// A number of the result would overflow.
     #[error("the tensor surface would not be one: {0}")]
     Tensor(#[from] TensorError),
@@ -29,6 +33,7 @@ impl ConvertError {
     pub fn kind(&self) -> crate::ErrorKind {
         match self {
             Self::TooLarge { .. } => crate::ErrorKind::TooLarge,
+            Self::NotTensor => crate::ErrorKind::WrongKind,
             Self::Tensor(error) => error.kind(),
             Self::TSpline(error) => error.kind(),
         }
@@ -45,6 +50,8 @@ pub enum AnySurface {
     TSpline(TSplineSurface),
     /// Bicubic spline over a hierarchical T-mesh.
     Pht(PhtSurface),
+    /// Spline over a triangular control mesh.
+    D1rc(D1rcSurface),
 }
 
 impl AnySurface {
@@ -54,6 +61,7 @@ impl AnySurface {
             Self::Tensor(surface) => surface,
             Self::Pht(surface) => surface,
             Self::TSpline(surface) => surface,
+            Self::D1rc(surface) => surface,
         }
     }
 
@@ -68,6 +76,7 @@ impl AnySurface {
             },
             Self::Pht(surface) => surface.to_tensor(max_coefficients),
             Self::TSpline(surface) => surface.to_tensor(max_coefficients),
+            Self::D1rc(_) => Err(ConvertError::NotTensor),
         }
     }
 
@@ -77,6 +86,7 @@ impl AnySurface {
             Self::Tensor(surface) => surface,
             Self::Pht(surface) => surface,
             Self::TSpline(surface) => surface,
+            Self::D1rc(surface) => surface,
         }
     }
 }
@@ -96,5 +106,11 @@ impl From<PhtSurface> for AnySurface {
 impl From<TSplineSurface> for AnySurface {
     fn from(surface: TSplineSurface) -> Self {
         Self::TSpline(surface)
+    }
+}
+
+impl From<D1rcSurface> for AnySurface {
+    fn from(surface: D1rcSurface) -> Self {
+        Self::D1rc(surface)
     }
 }

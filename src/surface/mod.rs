@@ -24,6 +24,7 @@ pub use region::{Region, TrimError, Trims};
 
 use crate::bezier::BezierPatch;
 use glam::{DVec2, DVec3};
+use std::sync::Arc;
 
 /// The family of a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -84,6 +85,11 @@ pub trait Surface: Send + Sync {
         None
     }
 
+    /// The triangles in the parameter plane over which the surface is made; None for the other families.
+    fn faces(&self) -> Option<Arc<dyn Faces>> {
+        None
+    }
+
     /// The control points of a surface in space with the lines that join them; None for other dimensions.
     fn control_net(&self) -> Option<ControlNet> {
         None
@@ -118,6 +124,24 @@ pub trait Patches: Send + Sync {
     /// The patch over a parameter pair, in constant or logarithmic time; beyond the domain the one whose
     /// polynomial is continued there.
     fn patch_at(&self, uv: DVec2) -> usize;
+}
+
+/// The view of a surface over triangles in the parameter plane, for those who keep it and divide its faces.
+pub trait Faces: Surface + std::fmt::Debug {
+    /// The places of the corners.
+    fn places(&self) -> &[DVec2];
+
+    /// Three corners each: the faces on which the surface is best shown.
+    fn triangles(&self) -> Vec<[u32; 3]>;
+
+    /// Values at points of one of those faces.
+    fn eval_on_face(&self, face: usize, uv: &[DVec2], out: &mut [f64]);
+
+    /// Whether the trims are the border of those faces.
+    fn has_own_trims(&self) -> bool;
+
+    /// The place of the domain nearest to a parameter pair.
+    fn nearest_in_domain(&self, uv: DVec2) -> DVec2;
 }
 
 /// [`Surface::eval_grid`] for families without a faster way: row by row.

@@ -5,7 +5,7 @@
 //! offset  type          content
 //!  0      8 bytes       "PLANISH" and a zero
 //!  8      u32           version of the format, 1
-//! 12      u32           kind of the surface: 0 tensor, 1 T-spline, 2 PHT-spline
+//! 12      u32           kind of the surface: 0 tensor, 1 T-spline, 2 PHT-spline, 3 D1RC-spline
 //! 16      u64           size of the whole in bytes
 //! 24                    what the family needs, see its module
 //! end-8   u64           CRC-32 (IEEE 802.3) of all bytes before
@@ -13,6 +13,7 @@
 //! Each family has a module of its own here, with its layout, its [`Save`] and `read`.
 
 mod bytes;
+mod d1rc;
 mod pht;
 mod tensor;
 mod tspline;
@@ -78,6 +79,7 @@ const FRAME_SIZE: usize = 24 + 8;
 const TENSOR: u32 = 0;
 const TSPLINE: u32 = 1;
 const PHT: u32 = 2;
+const D1RC: u32 = 3;
 
 /// A surface that the format knows.
 pub trait Save {
@@ -98,6 +100,7 @@ impl AnySurface {
             Self::Tensor(surface) => surface,
             Self::Pht(surface) => surface,
             Self::TSpline(surface) => surface,
+            Self::D1rc(surface) => surface,
         }
     }
 }
@@ -120,6 +123,7 @@ pub fn load(bytes: &[u8]) -> Result<AnySurface, LoadError> {
     let surface = match kind {
         TENSOR => AnySurface::Tensor(tensor::read(&mut reader)?),
         PHT => AnySurface::Pht(pht::read(&mut reader)?),
+        D1RC => AnySurface::D1rc(d1rc::read(&mut reader)?),
         TSPLINE => AnySurface::TSpline(tspline::read(&mut reader)?),
         _ => return Err(reader.wrong(format!("the kind {kind} is unknown"))),
     };

@@ -3,6 +3,7 @@
 use super::*;
 use crate::curve::Curve;
 use crate::knots::KnotVector;
+use crate::surface::d1rc::{D1rcOptions, D1rcSurface};
 use crate::surface::pht::{Cell, PhtSurface, TMesh};
 use crate::surface::tensor::TensorSurface;
 use crate::surface::tspline::TSplineSurface;
@@ -48,9 +49,20 @@ fn pht() -> AnySurface {
     AnySurface::Pht(surface)
 }
 
+fn d1rc() -> AnySurface {
+    let (places, triangles) = crate::samples::grid([4, 4], 0.1, 1, |_| true);
+    let points = places.iter().map(|p| p.extend(p.x * p.y)).collect();
+    let mut mesh = crate::mesh::Mesh::new(points, triangles).unwrap();
+    mesh.set_parameters(places).unwrap();
+    let options = D1rcOptions::default().with_degree(2);
+    let mut surface = D1rcSurface::from_mesh(&mesh, &options, &[[4, 5], [5, 6]], &[10]).unwrap();
+    surface.region_mut().data_box = Some(surface.domain());
+    AnySurface::D1rc(surface)
+}
+
 /// One of each family, with the bytes at which its counts and flags lie.
 fn families() -> Vec<(AnySurface, std::ops::Range<usize>)> {
-    vec![(tensor(), 24..88), (tspline(), 24..56), (pht(), 24..88)]
+    vec![(tensor(), 24..88), (tspline(), 24..56), (pht(), 24..88), (d1rc(), 24..112)]
 }
 
 #[test]

@@ -7,10 +7,13 @@
 //! B-spline surface", Graphical Models 71 (2009), 107-112). Newton's method is used where it cannot fail: on
 //! convex cells; all others are halved. Boundaries, poles, folds and sheets that cross need no care of their own.
 //!
+//! Surfaces over triangles go another way (`faces`).
+//!
 //! With trims the nearest point lies inside them or on them: the lines of the trims are curves on patches and are
 //! searched alike, and minima outside do not count.
 
 mod cells;
+mod faces;
 mod foot;
 mod index;
 mod kernel;
@@ -18,11 +21,13 @@ mod search;
 #[cfg(test)]
 mod tests;
 
+use super::tessellate::TessellateError;
 use crate::control::Pool;
 use crate::geometry::{Bounds, Domain};
 use crate::surface::{Kind, Surface, Trims};
 use cells::{surface_cells, trim_pieces};
-use glam::DVec2;
+use faces::FaceProjector;
+use glam::{DVec2, DVec3};
 use index::Index;
 use rayon::prelude::*;
 use search::{Best, Search, Workspace};
@@ -54,6 +59,9 @@ pub enum ProjectError {
         /// The family.
         kind: Kind,
     },
+    /// The surface has no tessellation to start from.
+    #[error(transparent)]
+    Tessellate(#[from] TessellateError),
     /// Arrays do not fit together.
     #[error("{count} numbers are given for {what}, {expected} are needed")]
     Count {
@@ -90,6 +98,7 @@ impl ProjectError {
         use crate::ErrorKind;
         match self {
             Self::NoPatches { .. } => ErrorKind::WrongKind,
+            Self::Tessellate(error) => error.kind(),
             Self::Count { .. } | Self::MaxDistance { .. } => ErrorKind::InvalidArgument,
             Self::NotFinite { .. } | Self::GuessNotFinite { .. } => ErrorKind::NotFinite,
         }
@@ -114,6 +123,8 @@ pub struct Projector {
     trim_index: Index,
     /// Differences of distance below this do not count: roundoff of the coordinates.
     tolerance: f64,
+    /// Of a surface over triangles, which has no patches; the index is then empty.
+    faces: Option<FaceProjector>,
 }
 
 /// Relative to the surface's size: a cell that cannot hold a place nearer by more than this is not searched.
@@ -125,7 +136,7 @@ impl Projector {
     /// Builds the hierarchy: time and memory are proportional to the number of patches.
     pub fn new(surface: &dyn Surface) -> Result<Self, ProjectError> {
         let Some(patches) = surface.patches() else {
-            return Err(ProjectError::NoPatches { kind: surface.kind() });
+            return Self::of_faces(surface);
         };
         let cells = surface_cells(patches);
         let dim = surface.dim();
@@ -145,7 +156,22 @@ impl Projector {
             index: Index::new(cells),
             trim_index: Index::new(trim_pieces(patches, &trims)),
             trims,
+            faces: None,
             tolerance: DISTANCE_TOLERANCE * bounds.diagonal() + 4.0 * f64::EPSILON * largest,
+        })
+    }
+
+    fn of_faces(surface: &dyn Surface) -> Result<Self, ProjectError> {
+        let faces = surface.faces().filter(|_| surface.dim() == 3);
+        let faces = faces.ok_or(ProjectError::NoPatches { kind: surface.kind() })?;
+        Ok(Self {
+            dim: surface.dim(),
+            domain: surface.domain(),
+            index: Index::new(Vec::new()),
+            trim_index: Index::new(Vec::new()),
+            trims: surface.region().trims.clone(),
+            faces: Some(FaceProjector::new(faces)?),
+            tolerance: 0.0,
         })
     }
 
@@ -230,6 +256,9 @@ impl Projector {
         options: &ProjectOptions,
         workspace: &mut Workspace,
     ) -> (DVec2, f64) {
+        if let Some(faces) = &self.faces {
+            return faces.nearest(DVec3::from_slice(point), guess, options);
+        }
         // a little farther, so that a point right at the limit is found
         let farthest = options.max_distance * (1.0 + 4.0 * f64::EPSILON) + 2.0 * self.tolerance;
         let mut search = Search {

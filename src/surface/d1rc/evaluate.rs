@@ -46,13 +46,13 @@ impl D1rcSurface {
         );
     }
 
-    /// Values and derivatives at points of one face of the domain, as rows.
-    pub fn eval_on_face(&self, face: u32, uv: &[DVec2], order: usize, out: &mut [f64]) {
-        let row = self.dim * derivative_rows(order);
+    /// Values at points of one face of the domain.
+    pub(super) fn eval_on_domain_face(&self, face: u32, uv: &[DVec2], out: &mut [f64]) {
+        let row = self.dim;
         pulp::Arch::new().dispatch(
             #[inline(always)]
             || {
-                let mut batch = Batch::new(self, order);
+                let mut batch = Batch::new(self, 0);
                 for (uv, out) in uv.chunks(LANES).zip(out.chunks_mut(LANES * row)) {
                     let mut sites = [Site::new(DVec2::ZERO); LANES];
                     for (site, &uv) in sites.iter_mut().zip(uv) {

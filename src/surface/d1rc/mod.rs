@@ -39,10 +39,10 @@ pub use options::{D1rcMode, D1rcOptions, SharpRule};
 pub use sharp::sharp_edges;
 pub use space::{Recipe, Space};
 
-use super::{Domain, Kind, Region, Surface};
+use super::{ControlNet, Domain, Faces, Kind, Region, Surface};
 use crate::mesh::Mesh;
 use crate::surface::Trims;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use regions::Lists;
 use std::sync::Arc;
 
@@ -243,8 +243,7 @@ fn check_numbers(rows: &[f64], dim: usize, expected: usize) -> Result<(), D1rcEr
 /// The boundary loops of the faces on which a surface is best shown: those of the domain, in the mode `Paper` those
 /// whose vertices are all inside.
 fn trims(space: &Space) -> Trims {
-    let faces = space.shown_faces();
-    let triangles = faces.iter().map(|&face| space.locator.faces()[face as usize]).collect();
+    let triangles = space.shown.iter().map(|&face| space.locator.faces()[face as usize]).collect();
     let places = space.locator.places();
     let Ok(mesh) = Mesh::new(places.iter().map(|uv| uv.extend(0.0)).collect(), triangles) else {
         return Trims::default(); // no face is shown
@@ -284,5 +283,50 @@ impl Surface for D1rcSurface {
 
     fn eval_rows(&self, uv: &[DVec2], max_derivative: usize, out: &mut [f64]) {
         self.eval_points(uv, max_derivative, out);
+    }
+
+    fn faces(&self) -> Option<Arc<dyn Faces>> {
+        Some(Arc::new(self.clone()))
+    }
+
+    /// The control mesh.
+    fn control_net(&self) -> Option<ControlNet> {
+        if self.dim != 3 {
+            return None;
+        }
+        let sides = |&[a, b, c]: &[u32; 3]| [[a, b], [b, c], [c, a]].map(|[p, q]| [p.min(q), p.max(q)]);
+        let mut edges: Vec<[u32; 2]> = self.space.recipe.triangles.iter().flat_map(sides).collect();
+        edges.sort_unstable();
+        edges.dedup();
+        Some(ControlNet {
+            points: self.control_points.chunks_exact(3).map(DVec3::from_slice).collect(),
+            weights: None,
+            lines: edges.iter().map(|edge| edge.to_vec()).collect(),
+        })
+    }
+}
+
+impl Faces for D1rcSurface {
+    fn places(&self) -> &[DVec2] {
+        self.space.locator.places()
+    }
+
+    fn triangles(&self) -> Vec<[u32; 3]> {
+        self.space.shown.iter().map(|&face| self.space.locator.faces()[face as usize]).collect()
+    }
+
+    fn eval_on_face(&self, face: usize, uv: &[DVec2], out: &mut [f64]) {
+        self.eval_on_domain_face(self.space.shown[face], uv, out);
+    }
+
+    fn has_own_trims(&self) -> bool {
+        self.region.trims == trims(&self.space)
+    }
+
+    fn nearest_in_domain(&self, uv: DVec2) -> DVec2 {
+        if self.contains(uv) || !uv.is_finite() {
+            return uv;
+        }
+        self.space.locator.nearest(uv).map_or(uv, |(_, near)| near)
     }
 }

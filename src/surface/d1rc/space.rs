@@ -52,6 +52,9 @@ pub struct Space {
     pub is_rational: bool,
     /// Smallest sum in the domain; 0 for polynomial surfaces.
     least_sum: f64,
+    /// The faces of the domain on which a surface is best shown: all, in the mode `Paper` those with inner vertices
+    /// only on which there is a surface.
+    pub shown: Vec<u32>,
     /// By vertex: whether its knots are repeated.
     pub is_clamped: Vec<bool>,
     kernel: Kernel,
@@ -91,12 +94,14 @@ impl Space {
             regions,
             is_rational,
             least_sum: 0.0,
+            shown: Vec::new(),
             is_clamped,
             kernel,
         };
         if is_rational {
             space.least_sum = LEAST_SUM * space.usual_sum();
         }
+        space.shown = space.shown_faces();
         Ok(space)
     }
 
@@ -165,9 +170,7 @@ impl Space {
         self.kernel.jets(function, configuration, &self.places, sites, order, workspace)
     }
 
-    /// The faces of the domain on which a surface is best shown: all, in the mode `Paper` those with inner vertices
-    /// only on which there is a surface.
-    pub fn shown_faces(&self) -> Vec<u32> {
+    fn shown_faces(&self) -> Vec<u32> {
         let faces = 0..self.locator.faces().len() as u32;
         if self.recipe.options.mode == D1rcMode::Reproducing {
             return faces.collect();

@@ -1,0 +1,281 @@
+//! Tessellation of surfaces over triangles: all faces divided alike, so that neighbours share their nodes.
+//!
+//! Each side of a face falls into n parts, n doubling until the middles of all short edges, which are nodes of
+//! the next division, are near enough to these edges:
+//! ```text
+//!   c                 node (i,j) of a face: a + i/n (b - a) + j/n (c - a)
+//!   | \               corners are the mesh's; nodes of sides are counted once,
+//!   o---o             from the end with the smaller number
+//!   | \ | \
+//!   a---o---b         n = 2
+//! ```
+
+use super::tessellate::{TessellateError, Tessellation, distance_to_segment, least_angle};
+use crate::mesh::Mesh;
+use crate::surface::Faces;
+use glam::{DVec2, DVec3};
+
+/// Sides are not divided into more parts than this: a kink that no edge follows would go on for ever.
+const MOST_PARTS: usize = 64;
+
+/// When a division is fine enough.
+pub struct Fineness {
+    pub chord_tolerance: f64,
+    /// 0 for no limit.
+    pub max_edge_length: f64,
+    pub max_points: usize,
+}
+
+/// The coarsest division that is fine enough.
+pub fn tessellate_faces(surface: &dyn Faces, fineness: &Fineness) -> Result<Tessellation, TessellateError> {
+    let mut coarse = Division::new(surface, 1, fineness.max_points)?;
+    let diagonal = coarse.diagonal();
+    let tolerance = if fineness.chord_tolerance > 0.0 { fineness.chord_tolerance } else { 1e-3 * diagonal };
+    loop {
+        let fine = Division::new(surface, 2 * coarse.parts, fineness.max_points)?;
+        let (chord_error, longest) = coarse.measure(&fine);
+        let is_short = fineness.max_edge_length == 0.0 || longest <= fineness.max_edge_length;
+        if (chord_error <= tolerance && is_short) || coarse.parts == MOST_PARTS {
+            return coarse.finish(chord_error);
+        }
+        coarse = fine;
+    }
+}
+
+/// A division into `parts` parts a side, as a mesh.
+pub fn subdivided(surface: &dyn Faces, parts: usize, max_points: usize) -> Result<Mesh, TessellateError> {
+    Ok(Division::new(surface, parts.max(1), max_points)?.finish(0.0)?.mesh)
+}
+
+struct Division {
+    parts: usize,
+    /// The nodes of each face, row by row from the side opposite to c: see [`place_in_face`].
+    nodes: Vec<u32>,
+    face_count: usize,
+    uv: Vec<DVec2>,
+    points: Vec<DVec3>,
+}
+
+/// Where node (i,j) stands among those of its face.
+fn place_in_face(parts: usize, i: usize, j: usize) -> usize {
+    j * (parts + 1) - j * j.saturating_sub(1) / 2 + i
+}
+
+impl Division {
+    fn new(surface: &dyn Faces, parts: usize, max_points: usize) -> Result<Self, TessellateError> {
+        let faces = surface.triangles();
+        if faces.is_empty() {
+            return Err(TessellateError::Empty);
+        }
+        let places = surface.places();
+        let sides = Sides::new(&faces);
+        let per_side = parts - 1;
+        let per_face = per_side * parts.saturating_sub(2) / 2;
+        let side_start = places.len();
+        let face_start = side_start + sides.count * per_side;
+        let count = face_start + faces.len() * per_face;
+        if count > max_points {
+            return Err(TessellateError::TooLarge { limit: max_points });
+        }
+        let mut division = Self {
+            parts,
+            nodes: Vec::with_capacity(faces.len() * (parts + 1) * (parts + 2) / 2),
+            face_count: faces.len(),
+            uv: vec![DVec2::NAN; count],
+            points: vec![DVec3::NAN; count],
+        };
+        for (number, face) in faces.iter().enumerate() {
+            let mut inner = face_start + number * per_face;
+            let first = division.nodes.len();
+            for j in 0..=parts {
+                for i in 0..=parts - j {
+                    let k = parts - i - j;
+                    // on side s the distance from its first corner, in parts
+                    let node = match (i, j, k) {
+                        (0, 0, _) => face[0] as usize,
+                        (_, 0, 0) => face[1] as usize,
+                        (0, _, 0) => face[2] as usize,
+                        (_, 0, _) => side_start + sides.node(3 * number, i, parts),
+                        (_, _, 0) => side_start + sides.node(3 * number + 1, j, parts),
+                        (0, _, _) => side_start + sides.node(3 * number + 2, k, parts),
+                        _ => {
+                            inner += 1;
+                            inner - 1
+                        }
+                    };
+                    division.nodes.push(node as u32);
+                }
+            }
+            division.evaluate(surface, number, face, first);
+        }
+        Ok(division)
+    }
+
+    /// The nodes of a face that no face before it had.
+    fn evaluate(&mut self, surface: &dyn Faces, number: usize, face: &[u32; 3], first: usize) {
+        let [a, b, c] = face.map(|corner| surface.places()[corner as usize]);
+        let parts = self.parts as f64;
+        let (mut fresh, mut uv) = (Vec::new(), Vec::new());
+        for j in 0..=self.parts {
+            for i in 0..=self.parts - j {
+                let node = self.nodes[first + place_in_face(self.parts, i, j)] as usize;
+                if self.uv[node].is_nan() {
+                    let (s, t) = (i as f64 / parts, j as f64 / parts);
+                    fresh.push(node);
+                    uv.push(match (i, j) {
+                        (0, 0) => a,
+                        (i, 0) if i == self.parts => b,
+                        (0, j) if j == self.parts => c,
+                        _ => (1.0 - s - t) * a + s * b + t * c,
+                    });
+                }
+            }
+        }
+        let mut rows = vec![0.0; 3 * uv.len()];
+        surface.eval_on_face(number, &uv, &mut rows);
+        for ((&node, uv), row) in fresh.iter().zip(uv).zip(rows.chunks_exact(3)) {
+            self.uv[node] = uv;
+            self.points[node] = DVec3::from_slice(row);
+        }
+    }
+
+    fn node(&self, face: usize, i: usize, j: usize) -> usize {
+        let size = (self.parts + 1) * (self.parts + 2) / 2;
+        self.nodes[face * size + place_in_face(self.parts, i, j)] as usize
+    }
+
+    fn diagonal(&self) -> f64 {
+        let used = self.nodes.iter().map(|&node| self.points[node as usize]);
+        let (min, max) = used.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(a, b), p| (a.min(p), b.max(p)));
+        min.distance(max)
+    }
+
+    /// Largest distance of the middle of an edge, a node of twice as many parts, and the longest edge.
+    fn measure(&self, fine: &Self) -> (f64, f64) {
+        let (mut chord_error, mut longest) = (0.0_f64, 0.0_f64);
+        for face in 0..self.face_count {
+            for j in 0..self.parts {
+                for i in 0..self.parts - j {
+                    let corners = [(i, j), (i + 1, j), (i, j + 1)];
+                    for side in 0..3 {
+                        let ((i0, j0), (i1, j1)) = (corners[side], corners[(side + 1) % 3]);
+                        let [p, q] = [(i0, j0), (i1, j1)].map(|(i, j)| self.points[self.node(face, i, j)]);
+                        let middle = fine.points[fine.node(face, i0 + i1, j0 + j1)];
+                        chord_error = chord_error.max(distance_to_segment(middle, p, q));
+                        longest = longest.max(p.distance(q));
+                    }
+                }
+            }
+        }
+        (chord_error, longest)
+    }
+
+    fn finish(self, chord_error: f64) -> Result<Tessellation, TessellateError> {
+        let mut numbers = vec![u32::MAX; self.points.len()];
+        let (mut points, mut uv, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
+        let mut smallest_angle = f64::INFINITY;
+        for face in 0..self.face_count {
+            for j in 0..self.parts {
+                for i in 0..self.parts - j {
+                    let lower = [(i, j), (i + 1, j), (i, j + 1)];
+                    let upper = [(i + 1, j), (i + 1, j + 1), (i, j + 1)];
+                    let has_upper = i + j + 1 < self.parts;
+                    for corners in std::iter::once(lower).chain(has_upper.then_some(upper)) {
+                        let nodes = corners.map(|(i, j)| self.node(face, i, j));
+                        smallest_angle = smallest_angle.min(least_angle(nodes.map(|node| self.points[node])));
+                        triangles.push(nodes.map(|node| {
+                            if numbers[node] == u32::MAX {
+                                numbers[node] = points.len() as u32;
+                                points.push(self.points[node]);
+                                uv.push(self.uv[node]);
+                            }
+                            numbers[node]
+                        }));
+                    }
+                }
+            }
+        }
+        let mut mesh = Mesh::new(points, triangles)?;
+        mesh.set_parameters(uv)?;
+        Ok(Tessellation { mesh, smallest_angle, chord_error })
+    }
+}
+
+/// The sides of all faces, each counted once.
+struct Sides {
+    /// By three times the face and the corner that a side leaves.
+    numbers: Vec<u32>,
+    /// Whether the side leaves the smaller of its ends.
+    is_forward: Vec<bool>,
+    count: usize,
+}
+
+impl Sides {
+    fn new(faces: &[[u32; 3]]) -> Self {
+        let ends = |&[a, b, c]: &[u32; 3]| [[a, b], [b, c], [c, a]];
+        let all: Vec<[u32; 2]> = faces.iter().flat_map(ends).collect();
+        let mut sorted: Vec<[u32; 2]> = all.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect();
+        sorted.sort_unstable();
+        sorted.dedup();
+        let number = |&[a, b]: &[u32; 2]| sorted.partition_point(|side| *side < [a.min(b), a.max(b)]) as u32;
+        Self {
+            numbers: all.iter().map(number).collect(),
+            is_forward: all.iter().map(|[a, b]| a < b).collect(),
+            count: sorted.len(),
+        }
+    }
+
+    /// The node of a side so many parts from its first corner.
+    fn node(&self, side: usize, from: usize, parts: usize) -> usize {
+        let from = if self.is_forward[side] { from } else { parts - from };
+        self.numbers[side] as usize * (parts - 1) + from - 1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::samples::grid;
+    use crate::surface::Surface;
+    use crate::surface::d1rc::{D1rcOptions, D1rcSurface};
+
+    fn bowl() -> D1rcSurface {
+        let (places, triangles) = grid([6, 5], 0.2, 3, |_| true);
+        let points = places.iter().map(|p| p.extend(p.length_squared())).collect();
+        let mut mesh = Mesh::new(points, triangles).unwrap();
+        mesh.set_parameters(places).unwrap();
+        D1rcSurface::from_mesh(&mesh, &D1rcOptions::default(), &[], &[]).unwrap()
+    }
+
+    #[test]
+    fn divisions_have_the_nodes_of_the_surface_and_no_seams() {
+        let surface = bowl();
+        let faces = surface.faces().unwrap();
+        for parts in [1, 2, 3, 7] {
+            let mesh = subdivided(faces.as_ref(), parts, 1_000_000).unwrap();
+            assert_eq!(mesh.triangles().len(), 40 * parts * parts);
+            assert!(mesh.is_disk() && mesh.loops()[0].len() == 18 * parts, "{parts} parts");
+            let uv = mesh.parameters().unwrap();
+            let mut rows = vec![0.0; 3 * uv.len()];
+            surface.eval_rows(uv, 0, &mut rows);
+            for (row, point) in rows.chunks_exact(3).zip(mesh.points()) {
+                // the same functions from this or that side of an edge
+                assert!(DVec3::from_slice(row).distance(*point) <= 1e-14, "{parts} parts");
+            }
+        }
+    }
+
+    #[test]
+    fn the_chord_tolerance_is_kept() {
+        let surface = bowl();
+        let faces = surface.faces().unwrap();
+        for chord_tolerance in [1e-2, 1e-3, 1e-4] {
+            let fineness = Fineness { chord_tolerance, max_edge_length: 0.0, max_points: 1_000_000 };
+            let tessellation = tessellate_faces(faces.as_ref(), &fineness).unwrap();
+            assert!(tessellation.chord_error <= chord_tolerance, "{}", tessellation.chord_error);
+        }
+        let fineness = Fineness { chord_tolerance: 1e-4, max_edge_length: 0.0, max_points: 100 };
+        let refused = tessellate_faces(faces.as_ref(), &fineness).unwrap_err();
+        assert_eq!(refused, TessellateError::TooLarge { limit: 100 });
+    }
+}
