@@ -31,6 +31,27 @@ FOLLOWS(planish_mesh_repairs, flipped_triangle_count, dropped_parameters);
 FOLLOWS(planish_mesh_repairs, dropped_parameters, reserved);
 LAST(planish_mesh_repairs, reserved);
 
+FIRST(planish_decimate_options);
+FOLLOWS(planish_decimate_options, struct_size, target_count);
+FOLLOWS(planish_decimate_options, target_count, sharp_angle);
+FOLLOWS(planish_decimate_options, sharp_angle, corner_angle);
+FOLLOWS(planish_decimate_options, corner_angle, sharp_edges);
+FOLLOWS(planish_decimate_options, sharp_edges, sharp_edge_count);
+FOLLOWS(planish_decimate_options, sharp_edge_count, out_sharp_edges);
+FOLLOWS(planish_decimate_options, out_sharp_edges, out_sharp_edge_count);
+FOLLOWS(planish_decimate_options, out_sharp_edge_count, progress);
+FOLLOWS(planish_decimate_options, progress, user);
+FOLLOWS(planish_decimate_options, user, keep_map);
+FOLLOWS(planish_decimate_options, keep_map, reserved);
+LAST(planish_decimate_options, reserved);
+
+FIRST(planish_decimate_report);
+FOLLOWS(planish_decimate_report, struct_size, collapse_count);
+FOLLOWS(planish_decimate_report, collapse_count, excess_count);
+FOLLOWS(planish_decimate_report, excess_count, sharp_edge_count);
+FOLLOWS(planish_decimate_report, sharp_edge_count, seconds);
+LAST(planish_decimate_report, seconds);
+
 FIRST(planish_parameterize_options);
 FOLLOWS(planish_parameterize_options, struct_size, node_weights);
 FOLLOWS(planish_parameterize_options, node_weights, progress);

@@ -634,6 +634,65 @@ TEST(MeshCut, OpensAlongThePathThatItFinds) {
   CHECK_EQUAL(count, 77u);
 }
 
+TEST(MeshDecimate, KeepsParametersFieldsAndTopology) {
+  const arrays all = shapes::graph(25, 20, 0.2, 3);
+  const Mesh mesh = make(all);
+  std::vector<double> numbers(500);
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<double>(i);
+  CHECK(planish_mesh_set_parameters(mesh.get(), all.uv.data(), 500) == PLANISH_STATUS_OK);
+  CHECK(planish_mesh_set_field(mesh.get(), "node", numbers.data(), 500) == PLANISH_STATUS_OK);
+  planish_decimate_options options;
+  CHECK(planish_decimate_options_init(&options, sizeof options) == PLANISH_STATUS_OK);
+  options.target_count = 80;
+  planish_mesh *raw = nullptr;
+  auto report = fresh<planish_decimate_report>();
+  CHECK(planish_mesh_decimate(mesh.get(), &options, &raw, &report) == PLANISH_STATUS_OK);
+  const Mesh coarse(raw);
+  CHECK_EQUAL(planish_mesh_point_count(coarse.get()), 80u);
+  CHECK_EQUAL(report.collapse_count, 420u);
+  CHECK_EQUAL(report.excess_count, 0u);
+  CHECK_EQUAL(report.sharp_edge_count, 0u);
+  CHECK_EQUAL(planish_mesh_euler_characteristic(coarse.get()), 1);
+  double kept[80], uv[160];
+  CHECK(planish_mesh_copy_field(coarse.get(), "node", kept, 80) == PLANISH_STATUS_OK);
+  CHECK(planish_mesh_copy_parameters(coarse.get(), uv, 80) == PLANISH_STATUS_OK);
+  for (std::size_t i = 0; i < 80; ++i) CHECK(uv[2 * i] == all.uv[2 * static_cast<std::size_t>(kept[i])]);
+
+  raw = sentinel<planish_mesh>();
+  report = fresh<planish_decimate_report>();
+  const auto null = PLANISH_STATUS_NULL_POINTER, invalid = PLANISH_STATUS_INVALID_ARGUMENT;
+  const auto refuse = [&](const planish_decimate_options &given, planish_status status, int index, const char *word) {
+    CHECK_FAILS(planish_mesh_decimate(mesh.get(), &given, &raw, &report), status, index, word);
+  };
+  planish_decimate_options bad = options;
+  bad.target_count = 2;
+  refuse(bad, invalid, -1, "target_count is 2");
+  bad = options;
+  bad.sharp_angle = -1;
+  refuse(bad, invalid, -1, "sharp_angle is -1");
+  bad = options;
+  bad.keep_map = 2;
+  refuse(bad, invalid, -1, "keep_map is 2");
+  bad = options;
+  bad.reserved = 1;
+  refuse(bad, PLANISH_STATUS_VERSION, -1, "reserved");
+  const std::uint32_t edges[] = {21, 22, 22, 23, 0, 500};
+  bad = options;
+  bad.sharp_edge_count = 3;
+  refuse(bad, null, -1, "sharp_edges is NULL");
+  bad.sharp_edges = edges;
+  refuse(bad, PLANISH_STATUS_INDEX, 2, "node 500");
+  std::uint32_t room[2] = {7, 7};
+  bad.sharp_edge_count = 2;
+  bad.out_sharp_edges = room;
+  refuse(bad, PLANISH_STATUS_BUFFER_TOO_SMALL, -1, "out_sharp_edges has room for 0");
+  CHECK(room[0] == 7 && room[1] == 7);
+  CHECK_FAILS(planish_mesh_decimate(nullptr, &options, &raw, &report), null, -1, "mesh is NULL");
+  CHECK_FAILS(planish_mesh_decimate(mesh.get(), &options, nullptr, &report), null, -1, "out_mesh is NULL");
+  CHECK_FAILS(planish_decimate_options_init(nullptr, sizeof options), null, -1, "options is NULL");
+  CHECK(raw == sentinel<planish_mesh>());
+}
+
 TEST(MeshCut, SplitsComponents) {
   const Mesh mesh = make({0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 0, 0, 6, 0, 0, 5, 1, 0}, {0, 1, 2, 3, 4, 5});
   planish_mesh *raw[2] = {nullptr, nullptr};

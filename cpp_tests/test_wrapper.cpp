@@ -113,6 +113,20 @@ TEST(WrapperMesh, FieldsPathsAndPieces) {
   CHECK_EQUAL(pieces.size(), 2u);
 }
 
+TEST(WrapperMesh, BecomesCoarser) {
+  const planish::mesh mesh = make(shapes::graph(20, 20, 0.2, 1));
+  auto options = planish::defaults<planish_decimate_options>();
+  options.target_count = 60;
+  options.sharp_angle = 0.2;
+  const auto found = mesh.decimate(options);
+  CHECK(found.status == PLANISH_STATUS_OK);
+  CHECK_EQUAL(found.coarse.point_count() + found.report.collapse_count, 400u);
+  CHECK_EQUAL(found.sharp_edges.size(), found.report.sharp_edge_count);
+  for (const auto &edge : found.sharp_edges) CHECK(edge[0] < edge[1] && edge[1] < found.coarse.point_count());
+  const auto error = thrown_by([&] { mesh.decimate(options, [](double, double) { return false; }); });
+  CHECK(error.status() == PLANISH_STATUS_CANCELLED);
+}
+
 TEST(WrapperMesh, ReadsFiles) {
   const char *path = "test_wrapper.off";
   std::ofstream(path) << "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";

@@ -317,6 +317,37 @@ module planish
     integer(c_int32_t) :: index_base = 0 !! Set by calls: 1
   end type
 
+  ! Decimation
+
+  !> How coarse a mesh becomes, and what stays.
+  type, bind(c), public :: planish_decimate_options
+    integer(c_size_t) :: struct_size = 8 * word + 2 * 8 + 2 * 4
+    integer(c_size_t) :: target_count = 1000 !! Nodes that are to be left, at least 3
+    !> Edges whose triangles turn by more than this are sharp, in radians, at most pi; 0 looks for none
+    real(c_double) :: sharp_angle = 0
+    !> Where the boundary or a chain of sharp edges turns by more than this, in radians, at most pi, its node stays
+    real(c_double) :: corner_angle = acos(-1.0_c_double) / 4
+    type(c_ptr) :: sharp_edges = c_null_ptr !! The argument sharp_edges
+    integer(c_size_t) :: sharp_edge_count = 0 !! Set with sharp_edges
+    type(c_ptr) :: out_sharp_edges = c_null_ptr !! The argument coarse_sharp_edges
+    integer(c_size_t) :: out_sharp_edge_count = 0 !! Set with out_sharp_edges
+    type(c_funptr) :: progress = c_null_funptr !! The argument progress
+    type(c_ptr) :: user = c_null_ptr !! Set with progress
+    !> 1 lets no triangle turn over in the parameter plane, if the mesh has parameters; 0 does not look
+    integer(c_int32_t) :: keep_map = 1
+    integer(c_int32_t) :: reserved = 0
+  end type
+
+  !> What was done to make a mesh coarser.
+  type, bind(c), public :: planish_decimate_report
+    integer(c_size_t) :: struct_size = 4 * word + 1 * 8
+    integer(c_size_t) :: collapse_count = 0 !! Edges that were collapsed
+    !> Nodes beyond the target that had to stay, because nothing more can be collapsed
+    integer(c_size_t) :: excess_count = 0
+    integer(c_size_t) :: sharp_edge_count = 0 !! Sharp edges of the new mesh
+    real(c_double) :: seconds = 0 !! Wall time in seconds
+  end type
+
   ! Parameterization
 
   !> How a mesh gets its parameters.
@@ -779,6 +810,7 @@ module planish
     module procedure vtk_options_init, step_options_init, convert_options_init, skin_options_init
     module procedure pht_options_init, pht_convert_options_init, field_options_init, sample_rows_options_init
     module procedure transfer_options_init, interpolate_options_init
+    module procedure decimate_options_init
   end interface
 
   abstract interface
@@ -861,6 +893,7 @@ module planish
     procedure :: cut_along => mesh_cut_along
     procedure :: split_components => mesh_split_components
     procedure :: shortest_path => mesh_shortest_path
+    procedure :: decimate => mesh_decimate
     procedure :: sample_rows => mesh_sample_rows
     procedure :: parameterize => mesh_parameterize
   end type
@@ -1280,6 +1313,25 @@ module planish
       integer(c_int32_t), intent(inout), optional :: out_nodes(*)
       integer(c_size_t), value :: count
       integer(c_size_t), intent(inout) :: out_count
+    end function
+
+    ! Decimation
+
+    integer(c_int) function c_decimate_options_init(options, struct_size) bind(c, name="planish_decimate_options_init")
+      import
+      implicit none
+      type(planish_decimate_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_mesh_decimate( &
+        mesh, options, out_mesh, out_report) bind(c, name="planish_mesh_decimate")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      type(planish_decimate_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_mesh
+      type(planish_decimate_report), intent(inout), optional :: out_report
     end function
 
     ! Parameterization
@@ -2738,6 +2790,11 @@ contains
     call conclude(c_field_options_init(options, c_sizeof(options)))
   end subroutine
 
+  subroutine decimate_options_init(options)
+    type(planish_decimate_options), intent(inout) :: options
+    call conclude(c_decimate_options_init(options, c_sizeof(options)))
+  end subroutine
+
   subroutine sample_rows_options_init(options)
     type(planish_sample_rows_options), intent(inout) :: options
     call conclude(c_sample_rows_options_init(options, c_sizeof(options)))
@@ -3065,6 +3122,54 @@ contains
       allocate (nodes(count))
       status = c_mesh_shortest_path(self%get(), first, last, nodes, count, count)
       nodes = nodes + 1
+    end if
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Makes a mesh of fewer nodes by collapsing edges where that changes the shape least. Parameters and fields go with
+  !> their nodes.
+  !>
+  !> sharp_edges:        further sharp edges(2,n), whose nodes count from 1.
+  !> coarse_sharp_edges: receives the sharp edges(2,n) of the new mesh; its nodes count from 1.
+  subroutine mesh_decimate(self, coarse, options, report, sharp_edges, coarse_sharp_edges, progress, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: self
+    type(planish_mesh_t), intent(inout) :: coarse
+    type(planish_decimate_options), intent(in), optional :: options
+    type(planish_decimate_report), intent(inout), optional :: report
+    integer(c_int32_t), intent(in), optional :: sharp_edges(:, :)
+    integer(c_int32_t), allocatable, intent(inout), optional :: coarse_sharp_edges(:, :)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_decimate_options) :: call_options
+    type(planish_decimate_report) :: found
+    type(listener), target :: user
+    type(c_ptr) :: handle
+    integer(c_int32_t), allocatable, target :: given(:, :), taken(:, :)
+    integer(c_int) :: status
+    if (present(options)) call_options = options
+    if (present(sharp_edges)) then
+      if (refuse_extent(size(sharp_edges, 1, c_size_t), 2_c_size_t, "the first extent of sharp_edges", stat, &
+          errmsg)) return
+      given = sharp_edges - 1
+      call_options%sharp_edges = c_loc(given)
+      call_options%sharp_edge_count = size(given, 2, c_size_t)
+    end if
+    if (present(coarse_sharp_edges)) then
+      allocate (taken(2, self%edge_count()))
+      call_options%out_sharp_edges = c_loc(taken)
+      call_options%out_sharp_edge_count = size(taken, 2, c_size_t)
+    end if
+    if (present(progress)) then
+      user%hear => progress
+      call_options%progress = c_funloc(relay)
+      call_options%user = c_loc(user)
+    end if
+    status = c_mesh_decimate(self%get(), call_options, handle, found)
+    if (status >= 0) then
+      call coarse%take(handle)
+      if (present(report)) report = found
+      if (present(coarse_sharp_edges)) coarse_sharp_edges = taken(:, :found%sharp_edge_count) + 1
     end if
     call conclude(status, stat, errmsg)
   end subroutine

@@ -768,6 +768,89 @@ typedef struct planish_mesh_options {
 typedef int32_t (*planish_progress)(double fraction, double error, void *user);
 
 /**
+ * How coarse a mesh becomes, and what stays. Fill with planish_decimate_options_init(), then change what you need.
+ */
+typedef struct planish_decimate_options {
+    /**
+     * Set by planish_decimate_options_init().
+     */
+    size_t struct_size;
+    /**
+     * Nodes that are to be left, at least 3. Default 1000.
+     */
+    size_t target_count;
+    /**
+     * Edges whose triangles turn by more than this are sharp, in radians, at most pi; 0 (default) looks for none.
+     */
+    double sharp_angle;
+    /**
+     * Where the boundary or a chain of sharp edges turns by more than this, in radians, at most pi, its node
+     * stays. Default a quarter of pi.
+     */
+    double corner_angle;
+    /**
+     * Further sharp edges: two nodes each, counted from 0; NULL (default) for none.
+     */
+    const uint32_t *sharp_edges;
+    /**
+     * Edges in sharp_edges. Default 0.
+     */
+    size_t sharp_edge_count;
+    /**
+     * Receives the sharp edges of the new mesh, two nodes each, counted from 0, the smaller first; or NULL
+     * (default). Written on success only.
+     */
+    uint32_t *out_sharp_edges;
+    /**
+     * Edges that out_sharp_edges has room for; there are at most as many as sharp edges before. Default 0.
+     */
+    size_t out_sharp_edge_count;
+    /**
+     * Hears of the progress and may cancel; NULL (default) for nobody.
+     */
+    planish_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *user;
+    /**
+     * 1 (default) lets no triangle turn over in the parameter plane, if the mesh has parameters; 0 does not look.
+     */
+    uint32_t keep_map;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} planish_decimate_options;
+
+/**
+ * What was done to make a mesh coarser. Set struct_size to sizeof(planish_decimate_report) before the call; the
+ * report is filled as far as that goes, on success only.
+ */
+typedef struct planish_decimate_report {
+    /**
+     * sizeof(planish_decimate_report) as the caller sees it.
+     */
+    size_t struct_size;
+    /**
+     * Edges that were collapsed.
+     */
+    size_t collapse_count;
+    /**
+     * Nodes beyond the target that had to stay, because nothing more can be collapsed.
+     */
+    size_t excess_count;
+    /**
+     * Sharp edges of the new mesh.
+     */
+    size_t sharp_edge_count;
+    /**
+     * Wall time in seconds.
+     */
+    double seconds;
+} planish_decimate_report;
+
+/**
  * How a mesh gets its parameters. Fill with planish_parameterize_options_init(), then change what you need.
  */
 typedef struct planish_parameterize_options {
@@ -2438,6 +2521,42 @@ enum planish_status planish_mesh_shortest_path(const struct planish_mesh *mesh,
                                                uint32_t *out_nodes,
                                                size_t count,
                                                size_t *out_count);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_decimate_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+ */
+PLANISH_API
+enum planish_status planish_decimate_options_init(struct planish_decimate_options *options,
+                                                  size_t struct_size);
+
+/**
+ * Makes a mesh of fewer nodes by collapsing edges where that changes the shape least.
+ *
+ * The nodes left are nodes of the mesh given, with their places, parameters and fields: to know which node each
+ * one was, give the mesh a field of node numbers before. Loops, components and handles stay, sharp edges and the
+ * boundary stay edges and their corners nodes. No triangle turns by more than 60 degrees in one collapse.
+ *
+ * mesh:       not NULL; stays as it is.
+ * options:    NULL for the defaults.
+ * out_mesh:   receives a new mesh; destroy with planish_mesh_free().
+ * out_report: receives what was done; NULL for no report.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_STAGNATED (more nodes than asked for had to stay; out_mesh is there)
+ * or an error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option), PLANISH_STATUS_INDEX (a
+ * sharp edge has a node that does not exist; the index is the edge), PLANISH_STATUS_TOPOLOGY (a sharp edge is no
+ * edge; it is the index), PLANISH_STATUS_DEGENERATE (with keep_map a triangle is flat or turned over in the
+ * parameter plane; it is the index), PLANISH_STATUS_BUFFER_TOO_SMALL (out_sharp_edges), PLANISH_STATUS_TOO_LARGE,
+ * PLANISH_STATUS_VERSION or PLANISH_STATUS_CANCELLED.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_decimate(const struct planish_mesh *mesh,
+                                          const struct planish_decimate_options *options,
+                                          struct planish_mesh **out_mesh,
+                                          struct planish_decimate_report *out_report);
 
 /**
  * Fills options with the defaults, which suit tensor surfaces.

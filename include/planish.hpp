@@ -123,6 +123,9 @@ inline planish_status init(planish_mesh_options &options) {
 inline planish_status init(planish_parameterize_options &options) {
   return planish_parameterize_options_init(&options, sizeof options);
 }
+inline planish_status init(planish_decimate_options &options) {
+  return planish_decimate_options_init(&options, sizeof options);
+}
 inline planish_status init(planish_tensor_options &options) {
   return planish_tensor_options_init(&options, sizeof options);
 }
@@ -271,6 +274,8 @@ struct parameterized {
   /// PLANISH_STATUS_OK or PLANISH_STATUS_FOLDED_PARAMETERS.
   planish_status status;
 };
+
+struct decimated;
 
 /// A triangle mesh. Copies are deep; one that was moved from may only be assigned to or destroyed.
 ///
@@ -431,6 +436,10 @@ class mesh {
     return meshes;
   }
 
+  /// A mesh of fewer nodes of the same shape. Parameters and fields go with their nodes.
+  decimated decimate(planish_decimate_options options = defaults<planish_decimate_options>(),
+                     const progress &hear = {}) const;
+
   /// The nodes of the shortest path along edges, both ends included.
   std::vector<std::uint32_t> shortest_path(std::uint32_t from, std::uint32_t to) const {
     std::size_t count = 0;
@@ -461,6 +470,35 @@ class mesh {
   std::unique_ptr<planish_mesh, detail::destroy> handle_;
   planish_mesh_repairs repairs_ = detail::sized<planish_mesh_repairs>();
 };
+
+/// A mesh of fewer nodes.
+struct decimated {
+  /// The mesh.
+  mesh coarse;
+  /// Its sharp edges, the smaller node first; empty if the options have an array of their own for them.
+  std::vector<std::array<std::uint32_t, 2>> sharp_edges;
+  /// What was done.
+  planish_decimate_report report;
+  /// PLANISH_STATUS_OK or PLANISH_STATUS_STAGNATED.
+  planish_status status;
+};
+
+inline decimated mesh::decimate(planish_decimate_options options, const progress &hear) const {
+  detail::listener listener(hear);
+  listener.attach(options);
+  std::vector<std::array<std::uint32_t, 2>> sharp_edges;
+  if (!options.out_sharp_edges) {
+    sharp_edges.resize(edge_count());
+    options.out_sharp_edges = detail::flat(sharp_edges);
+    options.out_sharp_edge_count = sharp_edges.size();
+  }
+  auto report = detail::sized<planish_decimate_report>();
+  planish_mesh *made = nullptr;
+  const planish_status status = listener.checked(planish_mesh_decimate(get(), &options, &made, &report));
+  mesh coarse(made);
+  sharp_edges.resize(std::min(sharp_edges.size(), report.sharp_edge_count));
+  return {std::move(coarse), std::move(sharp_edges), report, status};
+}
 
 /// Principal curvatures of a surface in a point, and their directions; NaN where there is no normal.
 struct curvature {

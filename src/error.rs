@@ -9,11 +9,12 @@ use crate::curve::CurveError;
 use crate::export::ExportError;
 use crate::export::native::LoadError;
 use crate::export::step::StepError;
+use crate::fit::d1rc::D1rcFitError;
 use crate::fit::field::transfer::TransferError;
 use crate::fit::skin::SkinError;
 use crate::fit::tessellation::FitError;
 use crate::knots::KnotError;
-use crate::mesh::{CutError, MeshError, ReadError};
+use crate::mesh::{CutError, DecimateError, MeshError, ReadError};
 use crate::parameterize::ParameterizeError;
 use crate::query::deviation::DeviationError;
 use crate::query::gradient::GradientError;
@@ -80,6 +81,9 @@ pub enum Error {
     /// Values cannot be carried from mesh to mesh.
     #[error(transparent)]
     Transfer(#[from] TransferError),
+    /// A D1RC fit is not possible.
+    #[error(transparent)]
+    D1rcFit(#[from] D1rcFitError),
     /// Rows cannot be skinned.
     #[error(transparent)]
     Skin(#[from] SkinError),
@@ -140,6 +144,9 @@ pub enum Error {
     /// A mesh cannot be cut as asked.
     #[error(transparent)]
     Cut(#[from] CutError),
+    /// A mesh cannot be made coarser as asked.
+    #[error(transparent)]
+    Decimate(#[from] DecimateError),
     /// The progress callback asked to stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
@@ -163,6 +170,7 @@ impl Error {
             Self::Parameterize(error) => (error.kind(), error.index()),
             Self::Fit(error) => (error.kind(), error.index()),
             Self::Transfer(error) => (error.kind(), error.index()),
+            Self::D1rcFit(error) => (error.kind(), error.index()),
             Self::Skin(error) => (error.kind(), error.index()),
             Self::Knots(error) => (error.kind(), error.index()),
             Self::Curve(error) => (error.kind(), error.index()),
@@ -183,6 +191,7 @@ impl Error {
             Self::Combine(error) => (error.kind(), error.index()),
             Self::Convert(error) => (error.kind(), None),
             Self::Cut(error) => (error.kind(), error.index()),
+            Self::Decimate(error) => (error.kind(), error.index()),
             Self::Cancelled(_) => (ErrorKind::Cancelled, None),
         }
     }

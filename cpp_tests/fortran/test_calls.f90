@@ -43,6 +43,7 @@ program test_calls
   call meshes_count_from_1()
   call meshes_are_repaired()
   call meshes_are_cut()
+  call meshes_become_coarser()
   call fields_have_names()
   call parameters_are_set_and_made()
   call shapes_are_fitted()
@@ -171,6 +172,25 @@ contains
     call check(rest%triangle_count() == mesh%triangle_count() - 1, "remove_triangles")
     call mesh%cut_along([1, 1 + (side + 1)], cut)
     call check(cut%point_count() == mesh%point_count() + 1, "cut_along")
+  end subroutine
+
+  subroutine meshes_become_coarser()
+    type(planish_mesh_t) :: mesh, coarse
+    type(planish_decimate_options) :: options
+    type(planish_decimate_report) :: report
+    integer(int32), allocatable :: sharp_edges(:, :)
+    integer :: stat, i
+    mesh = sheet()
+    options%target_count = 30
+    call mesh%decimate(coarse, options, report, reshape([(i, i + 1, i=1, side - 1)], [2, side - 1]), sharp_edges)
+    call check(coarse%point_count() == 30 .and. report%collapse_count == side**2 - 30, "decimate")
+    call check(coarse%euler_characteristic() == 1 .and. coarse%loop_count() == 1, "still a disk")
+    call check(size(sharp_edges, 2) == 0, "sharp edges on the boundary are the boundary")
+    options%target_count = 3
+    options%keep_map = 0
+    call mesh%decimate(coarse, options, report, stat=stat)
+    call check(stat == PLANISH_STATUS_STAGNATED .or. coarse%point_count() == 3, "as coarse as it gets")
+    call check(coarse%point_count() == 3 + report%excess_count, "excess_count")
   end subroutine
 
   subroutine fields_have_names()

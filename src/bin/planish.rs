@@ -2,6 +2,8 @@
 //!
 //! Exit code 0: done, and the tolerance met; 2: done, but the tolerance not met; 1: any error.
 
+#[path = "planish/decimate.rs"]
+mod decimate;
 #[path = "planish/eval.rs"]
 mod eval;
 #[path = "planish/fit.rs"]
@@ -36,6 +38,8 @@ enum Command {
     Fit(fit::FitArguments),
     /// Skin rows of points by one surface and report how close it came.
     Skin(skin::SkinArguments),
+    /// Make a mesh of fewer nodes by collapsing edges; sharp edges and the boundary stay.
+    Decimate(decimate::DecimateArguments),
     /// Say what a mesh file or a saved surface holds.
     Info(info::InfoArguments),
     /// Evaluate a saved surface.
@@ -88,6 +92,7 @@ fn main() -> ExitCode {
     let outcome = match arguments.command {
         Command::Fit(arguments) => fit::run(&arguments),
         Command::Skin(arguments) => skin::run(&arguments),
+        Command::Decimate(arguments) => decimate::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
         Command::Morph(arguments) => morph::run(&arguments),

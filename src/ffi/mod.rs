@@ -16,6 +16,7 @@
 mod arguments;
 mod curve;
 mod curve_query;
+mod decimate;
 mod export;
 mod field;
 mod guard;
@@ -39,6 +40,7 @@ mod tspline;
 
 pub use curve::*;
 pub use curve_query::*;
+pub use decimate::*;
 pub use export::*;
 pub use field::*;
 pub use mesh::*;

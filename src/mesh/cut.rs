@@ -225,7 +225,7 @@ impl Mesh {
     }
 
     /// The mesh of some triangles and only their nodes.
-    fn compacted(&self, mut triangles: Vec<[u32; 3]>) -> Result<Piece, CutError> {
+    pub(super) fn compacted(&self, mut triangles: Vec<[u32; 3]>) -> Result<Piece, CutError> {
         let mut new = vec![u32::MAX; self.points.len()];
         triangles.iter().flatten().for_each(|&node| new[node as usize] = 0);
         let nodes: Vec<u32> = (0..new.len() as u32).filter(|&node| new[node as usize] == 0).collect();

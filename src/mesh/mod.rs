@@ -1,4 +1,4 @@
-//! Triangle meshes: construction, topology, files, cutting.
+//! Triangle meshes: construction, topology, files, cutting, decimation.
 //!
 //! A [`Mesh`] is manifold and consistently oriented: every edge has one or two triangles, and two run along
 //! it in opposite directions. Its constructor checks that and names what is wrong, so nothing after it asks
@@ -6,6 +6,7 @@
 //! touches itself ([`Mesh::pinched_nodes`]).
 
 mod cut;
+mod decimate;
 mod error;
 mod read;
 #[cfg(test)]
@@ -14,6 +15,7 @@ mod topology;
 mod weld;
 
 pub use cut::{CutError, Piece};
+pub use decimate::{DecimateError, DecimateOptions, DecimateReport, Decimation};
 pub use error::MeshError;
 pub use read::{Format, ReadError, read, read_bytes};
 pub use topology::{HalfEdge, Topology};

@@ -15,7 +15,7 @@ mod data;
 mod global;
 mod hermite_cell;
 mod local;
-mod refine;
+pub(in crate::fit) mod refine;
 #[cfg(test)]
 mod tests;
 

@@ -317,7 +317,7 @@ fn foot_points(data: &Data, surface: &PhtSurface, pool: &Pool) -> Vec<DVec2> {
 }
 
 /// How far the error has come from the first towards the tolerance, on a logarithmic scale.
-fn fraction(first: f64, error: f64, tolerance: f64) -> f64 {
+pub fn fraction(first: f64, error: f64, tolerance: f64) -> f64 {
     let way = (first / tolerance).ln();
     if way > 0.0 { ((first / error.max(tolerance)).ln() / way).clamp(0.0, 1.0) } else { 1.0 }
 }

@@ -10,21 +10,7 @@ pub fn sharp_edges(mesh: &Mesh, angle: f64) -> Result<Vec<[u32; 2]>, D1rcError> 
     if !(0.0..=PI).contains(&angle) {
         return Err(D1rcError::Angle { angle });
     }
-    let normal = |face: usize| {
-        let [a, b, c] = mesh.triangles()[face].map(|vertex| mesh.points()[vertex as usize]);
-        (b - a).cross(c - a)
-    };
-    let mut edges = Vec::new();
-    for half_edge in (0..3 * mesh.triangles().len()).map(|h| HalfEdge::new(h / 3, h % 3)) {
-        let Some(twin) = mesh.topology().twin(half_edge).filter(|twin| *twin > half_edge) else { continue };
-        let (m, n) = (normal(half_edge.triangle()), normal(twin.triangle()));
-        if m.cross(n).length().atan2(m.dot(n)) > angle {
-            let (a, b) = (half_edge.origin(mesh.triangles()), half_edge.target(mesh.triangles()));
-            edges.push([a.min(b), a.max(b)]);
-        }
-    }
-    edges.sort_unstable();
-    Ok(edges)
+    Ok(mesh.sharp_edges(angle))
 }
 
 /// By half-edge: whether it is sharp. Sharp edges on the boundary are none.

@@ -10,6 +10,7 @@ const SOURCES: &[&str] = &[
     "status.rs",
     "progress.rs",
     "mesh.rs",
+    "decimate.rs",
     "parameterize.rs",
     "report.rs",
     "surface.rs",
