@@ -594,7 +594,7 @@ typedef enum planish_far_rule {
 } planish_far_rule;
 
 /**
- * What a STEP file holds of a T-spline.
+ * What a STEP file holds of a T-spline or PHT-spline.
  */
 typedef enum planish_step_form {
     /**
@@ -605,6 +605,11 @@ typedef enum planish_step_form {
      * One face for each span of v, over the knots of four control curves: far fewer control points.
      */
     PLANISH_STEP_FORM_STRIPS = 1,
+    /**
+     * A PHT-spline as a shell of faces that share edges, each over a rectangle of cells whose levels differ by at
+     * most level_spread.
+     */
+    PLANISH_STEP_FORM_PATCHES = 2,
 } planish_step_form;
 
 /**
@@ -1764,7 +1769,7 @@ typedef struct planish_step_report {
      */
     size_t loop_count;
     /**
-     * Edges of all bounds.
+     * Edges; one between two faces counts once.
      */
     size_t edge_count;
     /**
@@ -1772,7 +1777,7 @@ typedef struct planish_step_report {
      */
     size_t face_count;
     /**
-     * Control points of all faces.
+     * Control points of the surfaces of all faces.
      */
     size_t pole_count;
 } planish_step_report;
@@ -1820,13 +1825,15 @@ typedef struct planish_step_options {
      */
     size_t max_coefficients;
     /**
-     * A planish_step_form, what is written of a T-spline; PLANISH_STEP_FORM_TENSOR (default).
+     * A planish_step_form, what is written of a T-spline or PHT-spline; PLANISH_STEP_FORM_TENSOR (default), which
+     * is also taken where the form is of another family.
      */
     uint32_t form;
     /**
-     * 0.
+     * By how much the levels of cells in one face of PLANISH_STEP_FORM_PATCHES may differ. Default 1; more gives
+     * fewer faces with more control points.
      */
-    uint32_t reserved;
+    uint32_t level_spread;
 } planish_step_options;
 
 /**
@@ -3679,9 +3686,11 @@ PLANISH_API enum planish_status planish_step_options_init(struct planish_step_op
 
 /**
  * Writes a surface in space as a STEP file with one face, bounded by the surface's trims or, if it has none, by its
- * domain. A T-spline is written as the same tensor surface, or in strips. P-curves are the trims themselves, of degree 1; curves in space are cubic and follow
- * them over the same parameters within the uncertainty that the file states. The file appears whole or not at
- * all; equal input gives equal bytes.
+ * domain. A T-spline or PHT-spline is written as the same tensor surface, or as a shell of faces that share their
+ * edges: trims are cut where they cross the faces' common sides, and where they run within 1e-7 of the domain's
+ * size beside one they are moved on to it. P-curves are the trims themselves, of degree 1; curves in space are cubic
+ * and follow them over the same parameters within the uncertainty that the file states. The file appears whole or
+ * not at all; equal input gives equal bytes.
  *
  * surface: not NULL, of dimension 3.
  * path:    UTF-8, ends with a NUL; an existing file is replaced.
@@ -4356,7 +4365,8 @@ enum planish_status planish_pht_from_surface(const struct planish_surface *surfa
 
 /**
  * Makes tensor surfaces that together are a PHT-spline exactly. They meet with equal parameters, each over cells
- * whose levels differ by at most sigma: many small ones for 0, one for 20. They have no trims.
+ * whose levels differ by at most sigma: many small ones for 0, one for 20. Each
+ * has its part of the trims; one outside of them has a trim without area.
  *
  * surface:      not NULL.
  * sigma:        levels.
