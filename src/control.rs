@@ -177,9 +177,9 @@ impl<'a> Control<'a> {
         at(self.part, at(self.stage, fraction))
     }
 
-    /// Tells the listener; `fraction` is of the present stage.
+    /// Tells the listener; `fraction` is of the present stage. What was done stays done: it hears of no less than before.
     pub fn report(&mut self, fraction: f64, error: f64) -> Result<(), Cancelled> {
-        self.last = (self.fraction(fraction), error);
+        self.last = (self.fraction(fraction).max(self.last.0), error);
         self.tell()
     }
 

@@ -3,7 +3,7 @@
 use crate::output::{write_png, write_surface};
 use crate::{Failure, Outcome};
 use clap::Args;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use planish::Control;
 use planish::export::picture::{Picture, View};
 use planish::export::step::StepOptions;
@@ -11,6 +11,7 @@ use planish::export::vtk::on_surface;
 use planish::fit::report::{Remarks, Tolerance};
 use planish::fit::tessellation::{Regularize, TensorFit, TensorOptions, fit_field, fit_mesh};
 use planish::mesh::{Mesh, MeshOptions, read};
+use planish::query::tessellate::{TessellateOptions, tessellate};
 use planish::surface::tensor::TensorSurface;
 use planish::surface::{Surface, normal};
 use std::path::{Path, PathBuf};
@@ -64,18 +65,21 @@ pub fn run(arguments: &MorphArguments) -> Result<Outcome, Failure> {
     say("displacement", &way);
 
     let moved = |factor: f64| TensorSurface::combine(&[(1.0, &shape.surface), (factor, &way.surface)]);
-    let nodes = |surface: &TensorSurface| on_surface(surface, &mesh, &shape.parameters);
-    let (first, last) = (moved(arguments.from)?, moved(arguments.to)?);
-    let scene = together(&nodes(&first)?, &nodes(&last)?)?;
-    let view = View::facing(&nodes(&first)?);
-    let lengths: Vec<f64> = ways.chunks(3).map(|way| way.iter().map(|x| x * x).sum::<f64>().sqrt()).collect();
+    let last = moved(arguments.to)?;
+    let triangles = tessellate(&last, &TessellateOptions::default())?.mesh;
+    let uv = triangles.parameters().unwrap_or_default();
+    let at = |surface: &TensorSurface| on_surface(surface, &triangles, uv);
+    let first = at(&moved(arguments.from)?)?;
+    let scene = together(&first, &triangles)?;
+    let view = View::facing(&first);
+    let lengths: Vec<f64> = rows(&way.surface, uv, 0).chunks(3).map(|row| vector(row).length()).collect();
     let most = arguments.from.abs().max(arguments.to.abs()) * lengths.iter().fold(0.0, |a: f64, b| a.max(*b));
     for frame in 0..arguments.frames {
         let share = f64::from(frame) / f64::from(arguments.frames - 1);
         let factor = arguments.from + share * (arguments.to - arguments.from);
         let colors: Vec<f64> = lengths.iter().map(|length| factor.abs() * length).collect();
         let mut picture = Picture::new(1200, 900, &view, &scene);
-        picture.draw_mesh(&nodes(&moved(factor)?)?, Some(&colors), (0.0, most));
+        picture.draw_mesh(&at(&moved(factor)?)?, Some(&colors), (0.0, most));
         picture.draw_scale("displacement", (0.0, most));
         write_png(&picture, &numbered(&arguments.out, frame))?;
     }
@@ -115,13 +119,19 @@ fn displacement(mesh: &Mesh, shape: &TensorFit, names: &[String]) -> Result<Vec<
             Ok(x.iter().zip(y).zip(z).flat_map(|((x, y), z)| [*x, *y, *z]).collect())
         }
         [name] => {
-            let mut rows = vec![0.0; 9 * shape.parameters.len()];
-            shape.surface.eval_rows(&shape.parameters, 1, &mut rows);
+            let rows = rows(&shape.surface, &shape.parameters, 1);
             let normals = rows.chunks_exact(9).map(|row| normal(vector(&row[3..]), vector(&row[6..])));
             Ok(field(name)?.iter().zip(normals).flat_map(|(x, normal)| (*x * normal).to_array()).collect())
         }
         _ => Err(Failure::new("--displacement takes one field or three")),
     }
+}
+
+/// Values of a surface in space and its derivatives up to an order.
+fn rows(surface: &TensorSurface, uv: &[DVec2], order: usize) -> Vec<f64> {
+    let mut rows = vec![0.0; 3 * (order + 1) * (order + 2) / 2 * uv.len()];
+    surface.eval_rows(uv, order, &mut rows);
+    rows
 }
 
 fn vector(numbers: &[f64]) -> DVec3 {

@@ -144,6 +144,52 @@ fn fitters_refuse_by_name() {
 }
 
 #[test]
+fn a_field_on_a_closed_mesh_is_refused_with_what_to_do() {
+    let (closed, values) = (closed_mesh(), [0.0; 6]);
+    let (mut fitter, mut surface): (*mut planish_field_fitter, *mut planish_surface) = (canary(), canary());
+    let to_do = ["closed", "cut it open"];
+    // SAFETY: live handles, and one number a node.
+    unsafe {
+        let status = planish_field_fitter_new(closed.0, null(), &mut fitter);
+        refused(status, planish_status::Topology, -1, &to_do);
+        let status =
+            planish_tensor_fit_field(closed.0, values.as_ptr(), 6, 1, null(), &mut surface, null_mut());
+        refused(status, planish_status::Topology, -1, &to_do);
+    }
+    assert_untouched(&fitter);
+    assert_untouched(&surface);
+}
+
+#[test]
+fn progress_is_heard_with_any_grid_and_cancels() {
+    unsafe extern "C-unwind" fn listen(fraction: f64, _: f64, user: *mut std::ffi::c_void) -> i32 {
+        // SAFETY: the vector given as user.
+        let told = unsafe { &mut *user.cast::<Vec<f64>>() };
+        told.push(fraction);
+        i32::from(told.capacity() == 1)
+    }
+    let sheet = Sheet::new(21);
+    let sample = field(&sheet, 0.0);
+    let fixed = planish_field_options { grid_u: 9, grid_v: 5, ..record() };
+    let found = planish_field_options { sample_values: sample.as_ptr(), sample_dim: 2, ..record() };
+    for options in [fixed, found, record()] {
+        let mut told: Vec<f64> = Vec::with_capacity(1000);
+        let user = (&raw mut told).cast();
+        drop(fitter(&sheet, &planish_field_options { progress: Some(listen), user, ..options }));
+        assert!(told.is_sorted() && told.last() == Some(&1.0), "{told:?}");
+        // no room for a second call: this listener ends the first one
+        let mut first: Vec<f64> = Vec::with_capacity(1);
+        let user = (&raw mut first).cast();
+        let options = planish_field_options { progress: Some(listen), user, ..options };
+        let mut out: *mut planish_field_fitter = canary();
+        // SAFETY: live handles.
+        let status = unsafe { planish_field_fitter_new(sheet.mesh_with_parameters().0, &options, &mut out) };
+        refused(status, planish_status::Cancelled, -1, &["cancelled"]);
+        assert_untouched(&out);
+    }
+}
+
+#[test]
 fn surfaces_are_added_or_refused() {
     let (saddle, other) = (SurfaceHandle::saddle(), SurfaceHandle::other_family());
     let mut out: *mut planish_surface = canary();
