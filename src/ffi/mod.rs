@@ -15,6 +15,7 @@
 #[macro_use]
 mod arguments;
 mod curve;
+mod d1rc;
 mod export;
 mod field;
 mod guard;
@@ -36,6 +37,7 @@ mod tests;
 mod tspline;
 
 pub use curve::*;
+pub use d1rc::*;
 pub use export::*;
 pub use field::*;
 pub use mesh::*;
