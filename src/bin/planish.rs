@@ -2,6 +2,8 @@
 //!
 //! Exit code 0: done, and the tolerance met; 2: done, but the tolerance not met; 1: any error.
 
+#[path = "planish/d1rc.rs"]
+mod d1rc;
 #[path = "planish/eval.rs"]
 mod eval;
 #[path = "planish/fit.rs"]
@@ -34,6 +36,8 @@ enum Command {
     Fit(fit::FitArguments),
     /// Skin rows of points by one surface and report how close it came.
     Skin(skin::SkinArguments),
+    /// Make a smooth surface from a triangular control mesh.
+    D1rc(d1rc::D1rcArguments),
     /// Say what a mesh file or a saved surface holds.
     Info(info::InfoArguments),
     /// Evaluate a saved surface.
@@ -84,6 +88,7 @@ fn main() -> ExitCode {
     let outcome = match arguments.command {
         Command::Fit(arguments) => fit::run(&arguments),
         Command::Skin(arguments) => skin::run(&arguments),
+        Command::D1rc(arguments) => d1rc::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
