@@ -168,6 +168,24 @@ FOLLOWS(planish_pht_options, measure_distance, thread_count);
 FOLLOWS(planish_pht_options, thread_count, reserved);
 LAST(planish_pht_options, reserved);
 
+FIRST(planish_d1rc_options);
+FOLLOWS(planish_d1rc_options, struct_size, sharp_edges);
+FOLLOWS(planish_d1rc_options, sharp_edges, sharp_edge_count);
+FOLLOWS(planish_d1rc_options, sharp_edge_count, corners);
+FOLLOWS(planish_d1rc_options, corners, corner_count);
+FOLLOWS(planish_d1rc_options, corner_count, sharp_angle);
+FOLLOWS(planish_d1rc_options, sharp_angle, sharp_weight);
+FOLLOWS(planish_d1rc_options, sharp_weight, parameterize);
+FOLLOWS(planish_d1rc_options, parameterize, progress);
+FOLLOWS(planish_d1rc_options, progress, user);
+FOLLOWS(planish_d1rc_options, user, degree);
+FOLLOWS(planish_d1rc_options, degree, mode);
+FOLLOWS(planish_d1rc_options, mode, boundary);
+FOLLOWS(planish_d1rc_options, boundary, sharp);
+FOLLOWS(planish_d1rc_options, sharp, thread_count);
+FOLLOWS(planish_d1rc_options, thread_count, reserved);
+LAST(planish_d1rc_options, reserved);
+
 FIRST(planish_pht_convert_options);
 FOLLOWS(planish_pht_convert_options, struct_size, tolerance);
 FOLLOWS(planish_pht_convert_options, tolerance, max_cells);
@@ -229,7 +247,8 @@ FOLLOWS(planish_step_options, schema, unit);
 FOLLOWS(planish_step_options, unit, max_coefficients);
 FOLLOWS(planish_step_options, max_coefficients, form);
 FOLLOWS(planish_step_options, form, reserved);
-LAST(planish_step_options, reserved);
+FOLLOWS(planish_step_options, reserved, tolerance);
+LAST(planish_step_options, tolerance);
 
 FIRST(planish_step_report);
 FOLLOWS(planish_step_report, struct_size, curve_deviation);

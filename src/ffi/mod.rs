@@ -16,6 +16,7 @@
 mod arguments;
 mod curve;
 mod curve_query;
+mod d1rc;
 mod decimate;
 mod export;
 mod field;
@@ -40,6 +41,7 @@ mod tspline;
 
 pub use curve::*;
 pub use curve_query::*;
+pub use d1rc::*;
 pub use decimate::*;
 pub use export::*;
 pub use field::*;

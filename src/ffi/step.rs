@@ -131,11 +131,14 @@ pub struct planish_step_options {
     /// By how much the levels of cells in one face of PLANISH_STEP_FORM_PATCHES may differ. Default 1; more gives
     /// fewer faces with more control points.
     pub level_spread: u32,
+    /// A D1RC-spline is written as a tensor surface fitted within this, in model units, at the nodes of a fine
+    /// tessellation; 0 (default) takes 1e-3 of the diagonal.
+    pub tolerance: f64,
 }
 
-record!(planish_step_options, 72, {
+record!(planish_step_options, 80, {
     struct_size: 0, product: 8, author: 16, organization: 24, timestamp: 32, out_report: 40, schema: 48, unit: 52,
-    max_coefficients: 56, form: 64, level_spread: 68,
+    max_coefficients: 56, form: 64, level_spread: 68, tolerance: 72,
 });
 
 impl Default for planish_step_options {
@@ -152,6 +155,7 @@ impl Default for planish_step_options {
             max_coefficients: StepOptions::default().max_coefficients,
             form: planish_step_form::Tensor as u32,
             level_spread: StepOptions::default().level_spread,
+            tolerance: 0.0,
         }
     }
 }
@@ -176,6 +180,7 @@ impl planish_step_options {
             form: choice(self.form, &[Form::Tensor, Form::Strips, Form::Patches], "form")?,
             level_spread: self.level_spread,
             max_coefficients: self.max_coefficients,
+            tolerance: self.tolerance,
         })
     }
 }
@@ -199,7 +204,7 @@ pub unsafe extern "C" fn planish_step_options_init(
 /// edges: trims are cut where they cross the faces' common sides, and where they run within 1e-7 of the domain's
 /// size beside one they are moved on to it. P-curves are the trims themselves, of degree 1; curves in space are cubic
 /// and follow them over the same parameters within the uncertainty that the file states. The file appears whole or
-/// not at all; equal input gives equal bytes.
+/// not at all; equal input gives equal bytes. A D1RC-spline is written as a tensor surface fitted to it.
 ///
 /// surface: not NULL, of dimension 3.
 /// path:    UTF-8, ends with a NUL; an existing file is replaced.
@@ -207,7 +212,8 @@ pub unsafe extern "C" fn planish_step_options_init(
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension, an
 /// option, a text that is not UTF-8), PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOPOLOGY (trims that cross or
 /// touch, the index is one of them; trims around several pieces; a knot inside the domain that occurs more often
-/// than the degree), PLANISH_STATUS_TOO_LARGE (max_coefficients), PLANISH_STATUS_DEGENERATE (a trim without area, the index; a face without size) or
+/// than the degree), PLANISH_STATUS_TOO_LARGE (max_coefficients, or tolerance is
+/// missed), PLANISH_STATUS_DEGENERATE (a trim without area, the index; a face without size) or
 /// PLANISH_STATUS_FILE.
 #[must_use]
 #[unsafe(no_mangle)]

@@ -95,10 +95,14 @@ pub trait Surface: Send + Sync {
         None
     }
 
-    /// The images of knots in the parameter plane, as straight lines: knot lines, or the edges of a T-mesh. None
-    /// for a family without knots in (u,v).
+    /// Straight lines in the parameter plane that show how the surface is divided: knot lines, or the edges of a
+    /// T-mesh or of a control mesh.
     fn knot_lines(&self) -> Vec<[DVec2; 2]> {
-        self.patches().map_or_else(Vec::new, |patches| sides(patches, self.domain().max))
+        match (self.patches(), self.faces()) {
+            (Some(patches), _) => sides(patches, self.domain().max),
+            (None, Some(faces)) => edges(faces.as_ref()),
+            (None, None) => Vec::new(),
+        }
     }
 
     /// Values at all pairs of `u` and `v`, `v` running fastest.
@@ -147,6 +151,15 @@ fn sides(patches: &dyn Patches, end: DVec2) -> Vec<[DVec2; 2]> {
         }
     }
     sides
+}
+
+/// The edges of all faces, each once.
+fn edges(faces: &dyn Faces) -> Vec<[DVec2; 2]> {
+    let ends = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [c, a]].map(|[p, q]| [p.min(q), p.max(q)]);
+    let mut edges: Vec<[u32; 2]> = faces.triangles().into_iter().flat_map(ends).collect();
+    edges.sort_unstable();
+    edges.dedup();
+    edges.into_iter().map(|ends| ends.map(|corner| faces.places()[corner as usize])).collect()
 }
 
 /// The view of a surface over triangles in the parameter plane, for those who keep it and divide its faces.

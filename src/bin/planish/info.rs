@@ -5,6 +5,7 @@ use crate::{Failure, Outcome};
 use clap::Args;
 use planish::export::native;
 use planish::mesh::{MeshOptions, read};
+use planish::surface::d1rc::D1rcSurface;
 use planish::surface::pht::PhtSurface;
 use planish::surface::tensor::{Axis, TensorSurface};
 use planish::surface::tspline::TSplineSurface;
@@ -77,6 +78,7 @@ fn surface_table(path: &Path, surface: &AnySurface) -> Table {
         AnySurface::Tensor(tensor) => tensor_rows(tensor, &mut table),
         AnySurface::TSpline(tspline) => tspline_rows(tspline, &mut table),
         AnySurface::Pht(pht) => pht_rows(pht, &mut table),
+        AnySurface::D1rc(d1rc) => d1rc_rows(d1rc, &mut table),
     }
     let surface = surface.as_surface();
     let domain = surface.domain();
@@ -103,6 +105,16 @@ fn tspline_rows(surface: &TSplineSurface, table: &mut Table) {
     table.row("kind", "T-spline".to_owned());
     table.row("control curves", format!("{}, of {least} to {most} control points", surface.curves().len()));
     table.row("control points", surface.coefficient_count().to_string());
+}
+
+fn d1rc_rows(d1rc: &D1rcSurface, table: &mut Table) {
+    let space = d1rc.space();
+    table.row("kind", "D1RC-spline".to_owned());
+    table.row("degree", d1rc.degree().to_string());
+    table.row("control points", space.vertex_count().to_string());
+    table.row("faces", space.recipe.triangles.len().to_string());
+    table.row("sharp edges", space.recipe.sharp_edges.len().to_string());
+    table.row("functions", space.configurations.len().to_string());
 }
 
 fn pht_rows(surface: &PhtSurface, table: &mut Table) {
