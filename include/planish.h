@@ -626,6 +626,60 @@ typedef enum planish_unit {
 } planish_unit;
 
 /**
+ * Which functions a D1RC-spline has.
+ */
+typedef enum planish_d1rc_mode {
+    /**
+     * They sum to one and reproduce polynomials, on the whole domain; the surface is polynomial on pieces.
+     */
+    PLANISH_D1RC_MODE_REPRODUCING = 0,
+    /**
+     * As printed (Cao, Zheng, 2016): rational, only inner vertices count, the surface ends before the mesh does.
+     */
+    PLANISH_D1RC_MODE_PAPER = 1,
+} planish_d1rc_mode;
+
+/**
+ * The border of a D1RC-spline of PLANISH_D1RC_MODE_REPRODUCING.
+ */
+typedef enum planish_d1rc_boundary {
+    /**
+     * Smooth everywhere; the border follows the boundary polygon as a B-spline follows its control points.
+     */
+    PLANISH_D1RC_BOUNDARY_PHANTOM = 0,
+    /**
+     * The boundary polygon is interpolated; across the edges that touch it the surface is only continuous.
+     */
+    PLANISH_D1RC_BOUNDARY_CLAMPED = 1,
+    /**
+     * The domain ends some faces before the mesh does.
+     */
+    PLANISH_D1RC_BOUNDARY_OPEN = 2,
+} planish_d1rc_boundary;
+
+/**
+ * What happens at sharp edges of a D1RC-spline.
+ */
+typedef enum planish_d1rc_sharp {
+    /**
+     * PLANISH_D1RC_SHARP_CUT, in PLANISH_D1RC_MODE_PAPER PLANISH_D1RC_SHARP_ADDITIVE.
+     */
+    PLANISH_D1RC_SHARP_AUTOMATIC = 0,
+    /**
+     * The crease is the control polyline, at its full angle. In PLANISH_D1RC_MODE_REPRODUCING only.
+     */
+    PLANISH_D1RC_SHARP_CUT = 1,
+    /**
+     * Functions of the crease, and smooth functions only on their side of it. In PLANISH_D1RC_MODE_PAPER only.
+     */
+    PLANISH_D1RC_SHARP_SECTOR = 2,
+    /**
+     * Functions of the crease beside all smooth ones: a soft crease. The surface is rational then.
+     */
+    PLANISH_D1RC_SHARP_ADDITIVE = 3,
+} planish_d1rc_sharp;
+
+/**
  * A B-spline curve: a map from an interval of parameters u to R^dim. Made by planish_curve_fit(), destroyed by
  * planish_curve_free().
  *
@@ -1664,6 +1718,11 @@ typedef struct planish_step_options {
      * 0.
      */
     uint32_t reserved;
+    /**
+     * A D1RC-spline is written as a tensor surface fitted to it, off by at most this in model units; 0 (default)
+     * takes 1e-3 of the diagonal.
+     */
+    double tolerance;
 } planish_step_options;
 
 /**
@@ -1970,6 +2029,78 @@ typedef struct planish_pht_convert_options {
      */
     uint32_t reserved;
 } planish_pht_convert_options;
+
+/**
+ * Options of D1RC-splines. Fill with planish_d1rc_options_init(), then change what you need.
+ */
+typedef struct planish_d1rc_options {
+    /**
+     * Set by planish_d1rc_options_init().
+     */
+    size_t struct_size;
+    /**
+     * sharp_edge_count pairs of nodes joined by an edge; NULL (default) for none. Edges on the boundary do nothing.
+     */
+    const uint32_t *sharp_edges;
+    /**
+     * Pairs in sharp_edges. Default 0.
+     */
+    size_t sharp_edge_count;
+    /**
+     * corner_count nodes to be interpolated; NULL (default) for none.
+     */
+    const uint32_t *corners;
+    /**
+     * Nodes in corners. Default 0.
+     */
+    size_t corner_count;
+    /**
+     * Edges whose faces meet at more than this angle in radians are sharp as well, up to pi; 0 (default) for none.
+     */
+    double sharp_angle;
+    /**
+     * Weight of the functions that sharp edges and corners add with PLANISH_D1RC_SHARP_SECTOR and
+     * PLANISH_D1RC_SHARP_ADDITIVE, positive. Default 1.
+     */
+    double sharp_weight;
+    /**
+     * How a mesh without parameters gets them; NULL (default) for the defaults. Of this record progress, user and
+     * thread_count are not looked at, and node_weights must be NULL.
+     */
+    const struct planish_parameterize_options *parameterize;
+    /**
+     * Hears of the progress of the parameters and may cancel; NULL (default) for nobody.
+     */
+    planish_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *user;
+    /**
+     * 1, 2 or 3. Default 3.
+     */
+    uint32_t degree;
+    /**
+     * A planish_d1rc_mode. Default PLANISH_D1RC_MODE_REPRODUCING.
+     */
+    uint32_t mode;
+    /**
+     * A planish_d1rc_boundary. Default PLANISH_D1RC_BOUNDARY_PHANTOM.
+     */
+    uint32_t boundary;
+    /**
+     * A planish_d1rc_sharp. Default PLANISH_D1RC_SHARP_AUTOMATIC.
+     */
+    uint32_t sharp;
+    /**
+     * Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+     */
+    uint32_t thread_count;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} planish_d1rc_options;
 
 #ifdef __cplusplus
 extern "C" {
@@ -3348,7 +3479,8 @@ PLANISH_API enum planish_status planish_step_options_init(struct planish_step_op
 
 /**
  * Writes a surface in space as a STEP file with one face, bounded by the surface's trims or, if it has none, by its
- * domain. A T-spline is written as the same tensor surface, or in strips. P-curves are the trims themselves, of degree 1; curves in space are cubic and follow
+ * domain. A T-spline is written as the same tensor surface, or in strips, a
+ * D1RC-spline as a tensor surface fitted to it. P-curves are the trims themselves, of degree 1; curves in space are cubic and follow
  * them over the same parameters within the uncertainty that the file states. The file appears whole or not at
  * all; equal input gives equal bytes.
  *
@@ -3358,7 +3490,8 @@ PLANISH_API enum planish_status planish_step_options_init(struct planish_step_op
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension, an
  * option, a text that is not UTF-8), PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOPOLOGY (trims that cross or
  * touch, the index is one of them; trims around several pieces; a knot inside the domain that occurs more often
- * than the degree), PLANISH_STATUS_TOO_LARGE (max_coefficients), PLANISH_STATUS_DEGENERATE (a trim without area, the index; a face without size) or
+ * than the degree), PLANISH_STATUS_TOO_LARGE (max_coefficients, or tolerance is
+ * missed), PLANISH_STATUS_DEGENERATE (a trim without area, the index; a face without size) or
  * PLANISH_STATUS_FILE.
  */
 PLANISH_API
@@ -4116,6 +4249,213 @@ PLANISH_API
 size_t planish_pht_cell_at(const struct planish_surface *surface,
                            double u,
                            double v);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_d1rc_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+ */
+PLANISH_API
+enum planish_status planish_d1rc_options_init(struct planish_d1rc_options *options,
+                                              size_t struct_size);
+
+/**
+ * Makes a smooth surface from a triangular control mesh: a disk, possibly with holes. Its nodes are the control
+ * points; its parameters the domain, computed if it has none. The boundary loops become the trims.
+ *
+ * control_mesh: not NULL; not kept.
+ * options:      NULL for the defaults.
+ * out_surface:  receives a new surface; destroy with planish_surface_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option),
+ * PLANISH_STATUS_NOT_FINITE (an option), PLANISH_STATUS_INDEX (a node that does not exist; the index is its place
+ * among the edges or corners), PLANISH_STATUS_TOPOLOGY (no disk; a sharp edge that is no edge, the index is its
+ * place; configurations that do not close, the index is the node), PLANISH_STATUS_DEGENERATE (a face turned over
+ * or without area in the parameters, the index is the face; too few faces for the degree; no room for knots beyond
+ * the boundary, the index is the node), or what planish_mesh_parameterize() returns.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_d1rc_new(const struct planish_mesh *control_mesh,
+                                     const struct planish_d1rc_options *options,
+                                     struct planish_surface **out_surface);
+
+/**
+ * The degree of a D1RC-spline; 0 for NULL and for surfaces of other kinds.
+ */
+PLANISH_API uint32_t planish_d1rc_degree(const struct planish_surface *surface);
+
+/**
+ * Gives a D1RC-spline other sharp edges and corners; control points and trims stay.
+ *
+ * surface:      not NULL; changed.
+ * sharp_edges:  edge_count pairs of control points joined by an edge.
+ * edge_count:   may be 0.
+ * corners:      corner_count control points to be interpolated.
+ * corner_count: may be 0.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX,
+ * PLANISH_STATUS_TOPOLOGY or PLANISH_STATUS_DEGENERATE, with the index, as planish_d1rc_new().
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_d1rc_set_sharp_edges(struct planish_surface *surface,
+                                                 const uint32_t *sharp_edges,
+                                                 size_t edge_count,
+                                                 const uint32_t *corners,
+                                                 size_t corner_count);
+
+/**
+ * Copies the sharp edges of a D1RC-spline, those found by their angle included.
+ *
+ * surface:   not NULL.
+ * out_edges: receives pairs of control points; NULL asks how many there are.
+ * count:     pairs that out_edges has room for.
+ * out_count: receives how many there are.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
+ * PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_d1rc_copy_sharp_edges(const struct planish_surface *surface,
+                                                  uint32_t *out_edges,
+                                                  size_t count,
+                                                  size_t *out_count);
+
+/**
+ * Copies the control points of a D1RC-spline, in the order of the nodes of its control mesh.
+ *
+ * surface:    not NULL.
+ * out_points: receives planish_surface_coefficient_count() rows of dim numbers.
+ * count:      rows that out_points has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
+ * PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_d1rc_copy_control_points(const struct planish_surface *surface,
+                                                     double *out_points,
+                                                     size_t count);
+
+/**
+ * Moves control points of a D1RC-spline. Parameters and functions stay, so this takes microseconds a point.
+ *
+ * surface:  not NULL; changed.
+ * vertices: count control points.
+ * count:    may be 0.
+ * points:   count rows of dim numbers.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX or
+ * PLANISH_STATUS_NOT_FINITE (the index is the row).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_d1rc_set_control_points(struct planish_surface *surface,
+                                                    const uint32_t *vertices,
+                                                    size_t count,
+                                                    const double *points);
+
+/**
+ * How often a D1RC-spline is differentiable across edges of its control mesh, for knots in general position: 0 on
+ * creases and on edges that touch repeated knots, else the degree less one.
+ *
+ * surface:    not NULL.
+ * edges:      count pairs of control points joined by an edge.
+ * count:      may be 0.
+ * out_orders: receives count numbers.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX (no such
+ * control point) or PLANISH_STATUS_TOPOLOGY (no edge); the index is the pair.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_d1rc_edge_continuity(const struct planish_surface *surface,
+                                                 const uint32_t *edges,
+                                                 size_t count,
+                                                 uint32_t *out_orders);
+
+/**
+ * Copies the numbers of the faces of the control mesh whose surface moves with a control point, in order.
+ *
+ * surface:   not NULL.
+ * vertex:    below planish_surface_coefficient_count().
+ * out_faces: receives the numbers; NULL asks how many there are.
+ * count:     numbers that out_faces has room for.
+ * out_count: receives how many there are.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX or
+ * PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_d1rc_copy_influence(const struct planish_surface *surface,
+                                                uint32_t vertex,
+                                                uint32_t *out_faces,
+                                                size_t count,
+                                                size_t *out_count);
+
+/**
+ * The share of one control point in the surface at points; those of all control points sum to one.
+ *
+ * surface:    not NULL.
+ * vertex:     below planish_surface_coefficient_count().
+ * uv:         count rows of u, v.
+ * count:      may be 0.
+ * out_values: receives count numbers.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX (vertex),
+ * PLANISH_STATUS_NOT_FINITE or PLANISH_STATUS_OUTSIDE (the index is the point).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_d1rc_blending_values(const struct planish_surface *surface,
+                                                 uint32_t vertex,
+                                                 const double *uv,
+                                                 size_t count,
+                                                 double *out_values);
+
+/**
+ * Number of knots of a D1RC-spline, those beyond its border included; 0 for NULL and for surfaces of other kinds.
+ */
+PLANISH_API
+size_t planish_d1rc_knot_count(const struct planish_surface *surface);
+
+/**
+ * Copies the (u,v) of the knots of a D1RC-spline: first those of the control mesh's nodes.
+ *
+ * surface: not NULL.
+ * out_uv:  receives planish_d1rc_knot_count() rows of u, v.
+ * count:   rows that out_uv has room for.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
+ * PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_d1rc_copy_knots(const struct planish_surface *surface,
+                                            double *out_uv,
+                                            size_t count);
+
+/**
+ * Number of functions of a D1RC-spline; 0 for NULL and for surfaces of other kinds.
+ */
+PLANISH_API size_t planish_d1rc_configuration_count(const struct planish_surface *surface);
+
+/**
+ * Copies what a function of a D1RC-spline is made of: b(t) = sum over the edges (a,b) of det(a,b,t) M(t|X,a,b).
+ *
+ * surface:   not NULL.
+ * index:     below planish_d1rc_configuration_count().
+ * out_knots: receives the knots X, as many as the degree; NULL for none.
+ * out_edges: receives pairs of knots, with X on their left; NULL asks how many there are.
+ * count:     pairs that out_edges has room for.
+ * out_count: receives how many there are.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX or
+ * PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_d1rc_copy_configuration(const struct planish_surface *surface,
+                                                    size_t index,
+                                                    uint32_t *out_knots,
+                                                    uint32_t *out_edges,
+                                                    size_t count,
+                                                    size_t *out_count);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -15,6 +15,7 @@
 #[macro_use]
 mod arguments;
 mod curve;
+mod d1rc;
 mod decimate;
 mod export;
 mod field;
@@ -37,6 +38,7 @@ mod tests;
 mod tspline;
 
 pub use curve::*;
+pub use d1rc::*;
 pub use decimate::*;
 pub use export::*;
 pub use field::*;

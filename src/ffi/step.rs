@@ -126,11 +126,14 @@ pub struct planish_step_options {
     pub form: u32,
     /// 0.
     pub reserved: u32,
+    /// A D1RC-spline is written as a tensor surface fitted to it, off by at most this in model units; 0 (default)
+    /// takes 1e-3 of the diagonal.
+    pub tolerance: f64,
 }
 
-record!(planish_step_options, 72, {
+record!(planish_step_options, 80, {
     struct_size: 0, product: 8, author: 16, organization: 24, timestamp: 32, out_report: 40, schema: 48, unit: 52,
-    max_coefficients: 56, form: 64, reserved: 68,
+    max_coefficients: 56, form: 64, reserved: 68, tolerance: 72,
 });
 
 impl Default for planish_step_options {
@@ -147,6 +150,7 @@ impl Default for planish_step_options {
             max_coefficients: StepOptions::default().max_coefficients,
             form: planish_step_form::Tensor as u32,
             reserved: 0,
+            tolerance: 0.0,
         }
     }
 }
@@ -173,6 +177,7 @@ impl planish_step_options {
             timestamp: or(self.timestamp, "timestamp", defaults.timestamp)?,
             form: choice(self.form, &[Form::Tensor, Form::Strips], "form")?,
             max_coefficients: self.max_coefficients,
+            tolerance: self.tolerance,
         })
     }
 }
@@ -192,7 +197,8 @@ pub unsafe extern "C" fn planish_step_options_init(
 }
 
 /// Writes a surface in space as a STEP file with one face, bounded by the surface's trims or, if it has none, by its
-/// domain. A T-spline is written as the same tensor surface, or in strips. P-curves are the trims themselves, of degree 1; curves in space are cubic and follow
+/// domain. A T-spline is written as the same tensor surface, or in strips, a
+/// D1RC-spline as a tensor surface fitted to it. P-curves are the trims themselves, of degree 1; curves in space are cubic and follow
 /// them over the same parameters within the uncertainty that the file states. The file appears whole or not at
 /// all; equal input gives equal bytes.
 ///
@@ -202,7 +208,8 @@ pub unsafe extern "C" fn planish_step_options_init(
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension, an
 /// option, a text that is not UTF-8), PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOPOLOGY (trims that cross or
 /// touch, the index is one of them; trims around several pieces; a knot inside the domain that occurs more often
-/// than the degree), PLANISH_STATUS_TOO_LARGE (max_coefficients), PLANISH_STATUS_DEGENERATE (a trim without area, the index; a face without size) or
+/// than the degree), PLANISH_STATUS_TOO_LARGE (max_coefficients, or tolerance is
+/// missed), PLANISH_STATUS_DEGENERATE (a trim without area, the index; a face without size) or
 /// PLANISH_STATUS_FILE.
 #[must_use]
 #[unsafe(no_mangle)]

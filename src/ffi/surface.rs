@@ -10,6 +10,7 @@ use super::progress::thread_count;
 use super::report::write_pairs;
 use super::status::query;
 use crate::control::Pool;
+use crate::surface::d1rc::D1rcSurface;
 use crate::surface::evaluate::{
     FLAG_IN_BUFFER, FLAG_NO_NORMAL, FLAG_OUTSIDE_DOMAIN, FLAG_OUTSIDE_TRIMS, Output, OutsideRule, Points,
     Quantity, evaluate,
@@ -118,6 +119,21 @@ impl planish_surface {
         let refused = self.wrong_kind(Kind::Pht);
         match &mut self.0 {
             Family::Any(AnySurface::Pht(pht)) => Ok(pht),
+            _ => Err(refused),
+        }
+    }
+
+    pub(super) fn d1rc(&self) -> Result<&D1rcSurface, ArgumentError> {
+        match &self.0 {
+            Family::Any(AnySurface::D1rc(d1rc)) => Ok(d1rc),
+            _ => Err(self.wrong_kind(Kind::D1rc)),
+        }
+    }
+
+    pub(super) fn d1rc_mut(&mut self) -> Result<&mut D1rcSurface, ArgumentError> {
+        let refused = self.wrong_kind(Kind::D1rc);
+        match &mut self.0 {
+            Family::Any(AnySurface::D1rc(d1rc)) => Ok(d1rc),
             _ => Err(refused),
         }
     }

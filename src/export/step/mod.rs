@@ -1,4 +1,5 @@
-//! STEP files: a tensor surface in space as one trimmed face, a T-spline as one, or as a face for each strip.
+//! STEP files: a tensor surface in space as one trimmed face, a T-spline as one, or as a face for each strip, a
+//! D1RC-spline as a tensor surface fitted to its tessellation.
 //!
 //! ISO 10303-21 (clear text), 10303-42 (geometry and topology), application protocols 214 and 242. The face lies
 //! on a `B_SPLINE_SURFACE_WITH_KNOTS` (rational where the surface has weights) and is bounded by the surface's
@@ -17,9 +18,14 @@ mod part21;
 mod write;
 
 use super::error::{ExportError, write_file};
+use crate::Control;
 use crate::curve::CurveError;
+use crate::fit::report::{Tolerance, ToleranceScale};
+use crate::fit::tessellation::{FitError, Regularize, TensorOptions, fit_mesh};
 use crate::geometry::{Bounds, Domain};
 use crate::knots::KnotError;
+use crate::query::tessellate::{TessellateError, TessellateOptions, tessellate};
+use crate::surface::d1rc::D1rcSurface;
 use crate::surface::tensor::{Axis, TensorError, TensorSurface};
 use crate::surface::{AnySurface, ConvertError, Surface};
 use edges::Boundary;
@@ -78,6 +84,9 @@ pub struct StepOptions<'a> {
     pub form: Form,
     /// Most control points that [`Form::Tensor`] may take.
     pub max_coefficients: usize,
+    /// A D1RC-spline is written as a tensor surface fitted to it, off by at most this in model units; 0 takes 1e-3
+    /// of the diagonal.
+    pub tolerance: f64,
 }
 
 impl Default for StepOptions<'_> {
@@ -91,6 +100,7 @@ impl Default for StepOptions<'_> {
             timestamp: "1970-01-01T00:00:00",
             form: Form::default(),
             max_coefficients: 4_000_000,
+            tolerance: 0.0,
         }
     }
 }
@@ -170,6 +180,22 @@ pub enum StepError {
     /// The part of the surface over its domain is none: numbers overflow.
     #[error("the surface cannot be cut off at its domain: {0}")]
     Tensor(#[from] TensorError),
+    /// The surface has no tessellation to fit to.
+    #[error(transparent)]
+    Tessellate(#[from] TessellateError),
+    /// No tensor surface can be fitted to the surface.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+    /// The tensor surface fitted to it is farther off than allowed.
+    #[error(
+        "the nearest tensor surface is {error} off, {tolerance} is allowed: fit one yourself, or tessellate"
+    )]
+    Tolerance {
+        /// Largest distance measured.
+        error: f64,
+        /// The tolerance.
+        tolerance: f64,
+    },
     /// The surface is no tensor surface of a size that is allowed.
     #[error(transparent)]
     Convert(#[from] ConvertError),
@@ -188,7 +214,10 @@ impl StepError {
         match self {
             Self::Export(error) => error.kind(),
             Self::Convert(error) => error.kind(),
+            Self::Tessellate(error) => error.kind(),
+            Self::Fit(error) => error.kind(),
             Self::TrimmedStrips => ErrorKind::InvalidArgument,
+            Self::Tolerance { .. } => ErrorKind::TooLarge,
             Self::Crossing { .. } | Self::Pieces { .. } | Self::Torn { .. } => ErrorKind::Topology,
             _ => ErrorKind::Degenerate,
         }
@@ -226,8 +255,28 @@ pub fn to_text(surface: &AnySurface, options: &StepOptions) -> Result<(String, S
             let strips = tspline.to_strips().map_err(ConvertError::from)?;
             faces_to_text(&strips.iter().collect::<Vec<_>>(), options)
         }
+        (AnySurface::D1rc(d1rc), _) => faces_to_text(&[&fitted(d1rc, options)?], options),
         _ => faces_to_text(&[&surface.to_tensor(options.max_coefficients)?], options),
     }
+}
+
+/// A tensor surface near a spline over triangles, with its trims.
+fn fitted(surface: &D1rcSurface, options: &StepOptions) -> Result<TensorSurface, StepError> {
+    let mesh =
+        tessellate(surface, &TessellateOptions { keep_trims: true, ..TessellateOptions::default() })?.mesh;
+    let value = if options.tolerance == 0.0 { 1e-3 * mesh.diagonal() } else { options.tolerance };
+    // nodes lie on the surface; between them the fit is as free as the chords are off
+    let fine = TessellateOptions { chord_tolerance: value / 4.0, ..TessellateOptions::default() };
+    let mesh = tessellate(surface, &fine)?.mesh;
+    let fit = TensorOptions {
+        tolerance: Tolerance { value, scale: ToleranceScale::Absolute },
+        max_coefficients: options.max_coefficients.min(TensorOptions::default().max_coefficients),
+        regularize: Regularize::Never,
+        ..TensorOptions::default()
+    };
+    let fit = fit_mesh(&mesh, &fit, &mut Control::default())?;
+    let (error, tolerance) = (fit.report.max_error, value);
+    if error <= tolerance { Ok(fit.surface) } else { Err(StepError::Tolerance { error, tolerance }) }
 }
 
 /// One face for each surface.

@@ -56,7 +56,7 @@ pub enum D1rcError {
         vertex: usize,
     },
     /// The ends of a sharp edge are not joined.
-    #[error("sharp edge {index} joins vertices {} and {}, which have no common edge", vertices[0], vertices[1])]
+    #[error("edge {index} joins vertices {} and {}, which have no common edge", vertices[0], vertices[1])]
     NotAnEdge {
         /// Its place in the list.
         index: usize,
@@ -105,6 +105,22 @@ pub enum D1rcError {
         /// Numbers needed.
         expected: usize,
     },
+    /// The parameters of a point are NaN or infinite.
+    #[error("the parameters of point {index} are not finite")]
+    PointNotFinite {
+        /// The point.
+        index: usize,
+    },
+    /// A point lies outside the domain.
+    #[error("point {index} at ({u}, {v}) lies outside the domain")]
+    Outside {
+        /// The point.
+        index: usize,
+        /// Its u.
+        u: f64,
+        /// Its v.
+        v: f64,
+    },
     /// A number of a control point is NaN or infinite.
     #[error("control point {index} is not finite")]
     NotFinite {
@@ -123,7 +139,8 @@ impl D1rcError {
             Self::Count { .. } => ErrorKind::InvalidArgument,
             Self::Weight { weight: x } | Self::Angle { angle: x } if !x.is_finite() => ErrorKind::NotFinite,
             Self::Weight { .. } | Self::Angle { .. } => ErrorKind::InvalidArgument,
-            Self::NotFinite { .. } => ErrorKind::NotFinite,
+            Self::NotFinite { .. } | Self::PointNotFinite { .. } => ErrorKind::NotFinite,
+            Self::Outside { .. } => ErrorKind::Outside,
             Self::NoSuchVertex { .. } => ErrorKind::Index,
             Self::NotDisk { .. } | Self::NotAnEdge { .. } | Self::NotSimple { .. } => ErrorKind::Topology,
             Self::Folded { .. } | Self::NoArea { .. } => ErrorKind::Degenerate,
@@ -136,9 +153,9 @@ impl D1rcError {
         match *self {
             Self::Folded { face } | Self::NoArea { face } => Some(face),
             Self::NotSimple { vertex } | Self::NoRoom { vertex } => Some(vertex),
-            Self::NotAnEdge { index, .. } | Self::NoSuchVertex { index, .. } | Self::NotFinite { index } => {
-                Some(index)
-            }
+            Self::NotAnEdge { index, .. } | Self::NoSuchVertex { index, .. } => Some(index),
+            Self::NotFinite { index } | Self::PointNotFinite { index } => Some(index),
+            Self::Outside { index, .. } => Some(index),
             _ => None,
         }
     }

@@ -194,7 +194,7 @@ impl D1rcSurface {
         });
     }
 
-    /// The blending weight of one vertex at points; NaN outside the domain.
+    /// The blending weight of one vertex at points of the domain.
     pub fn blending_values(&self, vertex: u32, uv: &[DVec2]) -> Result<Vec<f64>, D1rcError> {
         let functions = self.functions_of(vertex)?;
         let part = |&(function, share): &(u32, f64)| {
@@ -203,23 +203,40 @@ impl D1rcSurface {
             let at = row.binary_search_by_key(&vertex, |&(vertex, _)| vertex).ok()?;
             Some(share * row[at].1)
         };
-        let value = |&uv: &DVec2| self.space.shares(uv).map_or(f64::NAN, |s| s.iter().filter_map(part).sum());
-        Ok(uv.iter().map(value).collect())
+        let value = |(index, &uv): (usize, &DVec2)| match self.space.shares(uv) {
+            Some(shares) => Ok(shares.iter().filter_map(part).sum()),
+            None if uv.is_finite() => Err(D1rcError::Outside { index, u: uv.x, v: uv.y }),
+            None => Err(D1rcError::PointNotFinite { index }),
+        };
+        uv.iter().enumerate().map(value).collect()
     }
 
-    /// How often the surface is differentiable across an edge of the control mesh, for knots in general position: 0
+    /// How often the surface is differentiable across edges of the control mesh, for knots in general position: 0
     /// on creases and on edges that touch a repeated knot, else the degree less one.
-    pub fn edge_continuity(&self, index: usize, edge: [u32; 2]) -> Result<usize, D1rcError> {
-        check_vertices("an end of edge", &edge, self.space.vertex_count())?;
+    pub fn edge_continuity(&self, edges: &[[u32; 2]]) -> Result<Vec<usize>, D1rcError> {
         let recipe = &self.space.recipe;
-        let is = |a: [u32; 2]| a == edge || a == [edge[1], edge[0]];
-        let mut sides = recipe.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
-        if !sides.any(is) {
-            return Err(D1rcError::NotAnEdge { index, vertices: edge });
-        }
-        let is_sharp = recipe.sharp_edges.iter().any(|&sharp| is(sharp));
-        let is_clamped = edge.iter().any(|&end| self.space.is_clamped[end as usize]);
-        Ok(if is_sharp || is_clamped { 0 } else { self.degree() - 1 })
+        let sorted = |edges: &mut dyn Iterator<Item = [u32; 2]>| {
+            let mut all: Vec<[u32; 2]> = edges.map(|[a, b]| [a.min(b), a.max(b)]).collect();
+            all.sort_unstable();
+            all
+        };
+        let sides = |&[a, b, c]: &[u32; 3]| [[a, b], [b, c], [c, a]];
+        let sides = sorted(&mut recipe.triangles.iter().flat_map(sides));
+        let sharp = sorted(&mut recipe.sharp_edges.iter().copied());
+        let order = |(index, &vertices): (usize, &[u32; 2])| {
+            let count = self.space.vertex_count();
+            if let Some(&vertex) = vertices.iter().find(|&&vertex| vertex as usize >= count) {
+                return Err(D1rcError::NoSuchVertex { what: "an end of edge", index, vertex, count });
+            }
+            let edge = [vertices[0].min(vertices[1]), vertices[0].max(vertices[1])];
+            if sides.binary_search(&edge).is_err() {
+                return Err(D1rcError::NotAnEdge { index, vertices });
+            }
+            let is_sharp = sharp.binary_search(&edge).is_ok();
+            let is_clamped = edge.iter().any(|&end| self.space.is_clamped[end as usize]);
+            Ok(if is_sharp || is_clamped { 0 } else { self.degree() - 1 })
+        };
+        edges.iter().enumerate().map(order).collect()
     }
 }
 

@@ -25,6 +25,7 @@ const SOURCES: &[&str] = &[
     "tspline.rs",
     "pht.rs",
     "pht_parts.rs",
+    "d1rc.rs",
 ];
 
 fn main() -> ExitCode {
