@@ -122,3 +122,23 @@ fn all_sharp_edges_of_the_pieces_of_fandisk_stay() {
         }
     }
 }
+
+#[test]
+fn a_fit_of_a_piece_of_fandisk_keeps_its_creases() {
+    let Some(path) = common::shared_data("fandisk_closed_6k.off") else { return };
+    let piece = &halves(&mesh(&path), 1)[1].mesh;
+    let angle = 40_f64.to_radians();
+    let fit = |sharp_angle| {
+        let options = D1rcFitOptions { control_count: 900, sharp_angle, ..D1rcFitOptions::default() };
+        fit_mesh(piece, &options, &mut Control::default()).unwrap()
+    };
+    let (sharp, smooth) = (fit(Some(angle)), fit(None));
+    let (_, long) = chains(piece, &piece.sharp_edges(angle));
+    let (_, short) = chains(&sharp.control_mesh, &sharp.sharp_edges);
+    assert!(short <= long && short >= 0.98 * long, "{short} of {long} is left");
+    let relative = |fit: &D1rcFit| {
+        (fit.report.max_error / fit.report.diagonal, fit.report.rms_error / fit.report.diagonal)
+    };
+    eprintln!("sharp {:.2e?}, smooth {:.2e?}", relative(&sharp), relative(&smooth));
+    assert!(sharp.report.rms_error <= 0.5 * smooth.report.rms_error);
+}

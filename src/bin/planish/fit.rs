@@ -4,13 +4,14 @@ use crate::output::{self, Fit, Table};
 use crate::{Failure, Outcome};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
-use planish::Control;
 use planish::export::step::{Form, StepOptions, Unit};
+use planish::fit::d1rc::{self, D1rcFitOptions};
 use planish::fit::pht::{self, PhtOptions};
 use planish::fit::report::{FitReport, Remarks, StopReason, Tolerance, ToleranceScale};
-use planish::fit::tessellation::{self, Ends, FitError, Method, Regularize, TensorOptions};
+use planish::fit::tessellation::{self, Ends, Method, Regularize, TensorOptions};
 use planish::mesh::{Mesh, MeshOptions, MeshRepairs, read};
 use planish::parameterize::{Border, ParameterizeOptions};
+use planish::{Control, Error};
 use serde_json::json;
 use std::io::IsTerminal;
 use std::ops::ControlFlow;
@@ -66,6 +67,12 @@ pub struct FitArguments {
     /// Use the equations of Dannenhoffer and Haimes instead of least squares.
     #[arg(long)]
     ferguson: bool,
+    /// Edges whose triangles turn by more than this stay sharp (d1rc).
+    #[arg(long, value_name = "DEGREES")]
+    sharp_angle: Option<f64>,
+    /// Vertices of the control mesh (d1rc); as many as the tolerance takes if it is left out.
+    #[arg(long, value_name = "N")]
+    control: Option<usize>,
     /// Sweeps of parameter correction on each grid, or in each round; the default depends on the family.
     #[arg(long, value_name = "N")]
     sweeps: Option<usize>,
@@ -94,12 +101,14 @@ enum BorderName {
     Arc,
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
 enum FamilyName {
     /// One grid of knots: what every CAD system edits.
     Tensor,
     /// Cells as small as the shape asks, place by place.
     Pht,
+    /// A triangular control mesh, which may have sharp edges.
+    D1rc,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -156,7 +165,7 @@ pub fn run(arguments: &FitArguments) -> Result<Outcome, Failure> {
     Ok(if is_met { Outcome::Done } else { Outcome::ToleranceNotMet })
 }
 
-fn fit_by_family(mesh: &Mesh, arguments: &FitArguments, control: &mut Control) -> Result<Fit, FitError> {
+fn fit_by_family(mesh: &Mesh, arguments: &FitArguments, control: &mut Control) -> Result<Fit, Error> {
     match arguments.family {
         FamilyName::Tensor => {
             let fit = tessellation::fit_mesh(mesh, &tensor_options(arguments), control)?;
@@ -165,6 +174,11 @@ fn fit_by_family(mesh: &Mesh, arguments: &FitArguments, control: &mut Control) -
         }
         FamilyName::Pht => {
             let fit = pht::fit_mesh(mesh, &pht_options(arguments), control)?;
+            let (report, parameters, errors) = (fit.report, fit.parameters, fit.errors);
+            Ok(Fit { surface: fit.surface.into(), report, parameters, errors })
+        }
+        FamilyName::D1rc => {
+            let fit = d1rc::fit_mesh(mesh, &d1rc_options(arguments), control)?;
             let (report, parameters, errors) = (fit.report, fit.parameters, fit.errors);
             Ok(Fit { surface: fit.surface.into(), report, parameters, errors })
         }
@@ -212,6 +226,22 @@ fn pht_options(arguments: &FitArguments) -> PhtOptions<'static> {
     }
 }
 
+fn d1rc_options(arguments: &FitArguments) -> D1rcFitOptions<'static> {
+    let defaults = D1rcFitOptions::default();
+    let is_asked = !matches!(arguments.border, BorderName::Auto);
+    let map =
+        if is_asked { defaults.parameterize.with_border(border(arguments)) } else { defaults.parameterize };
+    D1rcFitOptions {
+        tolerance: tolerance(arguments),
+        smoothing: if arguments.smoothing > 0.0 { arguments.smoothing } else { defaults.smoothing },
+        sharp_angle: arguments.sharp_angle.map(f64::to_radians),
+        control_count: arguments.control.unwrap_or(defaults.control_count),
+        correction_sweeps: arguments.sweeps.unwrap_or(defaults.correction_sweeps),
+        parameterize: map,
+        ..defaults
+    }
+}
+
 /// Fits with a bar on a terminal, silently elsewhere.
 fn fit_with_bar(mesh: &Mesh, arguments: &FitArguments) -> Result<Fit, Failure> {
     const STEPS: f64 = 1000.0;
@@ -247,6 +277,7 @@ fn table(arguments: &FitArguments, mesh: &Mesh, repairs: &MeshRepairs, report: &
     table.row("map", format!("stretch {:.3}, {} flipped triangles", report.stretch, report.flipped_count));
     let grid = match report.cell_count {
         0 => format!("{} x {} knots", report.grid_u, report.grid_v),
+        faces if arguments.family == FamilyName::D1rc => format!("control mesh of {faces} faces"),
         cells => format!("{cells} cells down to level {}", report.deepest_level),
     };
     table.row("surface", format!("{grid}, {} coefficients", report.coefficient_count));
