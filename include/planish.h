@@ -645,6 +645,60 @@ typedef enum planish_unit {
 } planish_unit;
 
 /**
+ * Which functions a D1RC-spline has.
+ */
+typedef enum planish_d1rc_mode {
+    /**
+     * They sum to one and reproduce polynomials, on the whole domain; the surface is polynomial on pieces.
+     */
+    PLANISH_D1RC_MODE_REPRODUCING = 0,
+    /**
+     * As printed (Cao, Zheng, 2016): rational, only inner vertices count, the surface ends before the mesh does.
+     */
+    PLANISH_D1RC_MODE_PAPER = 1,
+} planish_d1rc_mode;
+
+/**
+ * The border of a D1RC-spline of PLANISH_D1RC_MODE_REPRODUCING.
+ */
+typedef enum planish_d1rc_boundary {
+    /**
+     * Smooth everywhere; the border follows the boundary polygon as a B-spline follows its control points.
+     */
+    PLANISH_D1RC_BOUNDARY_PHANTOM = 0,
+    /**
+     * The boundary polygon is interpolated; across the edges that touch it the surface is only continuous.
+     */
+    PLANISH_D1RC_BOUNDARY_CLAMPED = 1,
+    /**
+     * The domain ends some faces before the mesh does.
+     */
+    PLANISH_D1RC_BOUNDARY_OPEN = 2,
+} planish_d1rc_boundary;
+
+/**
+ * What happens at sharp edges of a D1RC-spline.
+ */
+typedef enum planish_d1rc_sharp {
+    /**
+     * PLANISH_D1RC_SHARP_CUT, in PLANISH_D1RC_MODE_PAPER PLANISH_D1RC_SHARP_ADDITIVE.
+     */
+    PLANISH_D1RC_SHARP_AUTOMATIC = 0,
+    /**
+     * The crease is the control polyline, at its full angle. In PLANISH_D1RC_MODE_REPRODUCING only.
+     */
+    PLANISH_D1RC_SHARP_CUT = 1,
+    /**
+     * Functions of the crease, and smooth functions only on their side of it. In PLANISH_D1RC_MODE_PAPER only.
+     */
+    PLANISH_D1RC_SHARP_SECTOR = 2,
+    /**
+     * Functions of the crease beside all smooth ones: a soft crease. The surface is rational then.
+     */
+    PLANISH_D1RC_SHARP_ADDITIVE = 3,
+} planish_d1rc_sharp;
+
+/**
  * A B-spline curve: a map from an interval of parameters u to R^dim. Made by planish_curve_fit(),
  * planish_curve_interpolate(), planish_curve_new() or planish_curve_load(), destroyed by planish_curve_free().
  *
@@ -1834,6 +1888,11 @@ typedef struct planish_step_options {
      * fewer faces with more control points.
      */
     uint32_t level_spread;
+    /**
+     * A D1RC-spline is written as a tensor surface fitted within this, in model units, at the nodes of a fine
+     * tessellation; 0 (default) takes 1e-3 of the diagonal.
+     */
+    double tolerance;
 } planish_step_options;
 
 /**
@@ -3762,7 +3821,7 @@ PLANISH_API enum planish_status planish_step_options_init(struct planish_step_op
  * edges: trims are cut where they cross the faces' common sides, and where they run within 1e-7 of the domain's
  * size beside one they are moved on to it. P-curves are the trims themselves, of degree 1; curves in space are cubic
  * and follow them over the same parameters within the uncertainty that the file states. The file appears whole or
- * not at all; equal input gives equal bytes.
+ * not at all; equal input gives equal bytes. A D1RC-spline is written as a tensor surface fitted to it.
  *
  * surface: not NULL, of dimension 3.
  * path:    UTF-8, ends with a NUL; an existing file is replaced.
