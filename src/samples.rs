@@ -351,6 +351,34 @@ pub fn ridged_sheet(seed: u64) -> Result<Mesh, MeshError> {
     mesh_over(grid([200, 200], 0.3, seed, |_| true), |uv| (surface(uv), uv))
 }
 
+/// A coarse plane control mesh with one node raised in its middle: its surface is that node's blending function.
+pub fn hat(seed: u64) -> Result<Mesh, MeshError> {
+    const COUNT: usize = 11;
+    let (places, triangles) = grid([COUNT, COUNT], 0.3, seed, |_| true);
+    let middle = places[COUNT * COUNT / 2];
+    let height = move |uv: DVec2| if uv == middle { 0.4 } else { 0.0 };
+    mesh_over((places, triangles), |uv| (uv.extend(height(uv)), uv))
+}
+
+/// A coarse control mesh of a roof: its halves meet at a ridge of edges at 60 degrees.
+pub fn roof(seed: u64) -> Result<Mesh, MeshError> {
+    let fall = (PI / 6.0).tan();
+    let half = |side: f64, seed: u64| {
+        let (places, triangles) = grid([7, 11], 0.25, seed, |_| true);
+        (places.into_iter().map(|p| DVec2::new(side * p.x, p.y)).collect::<Vec<_>>(), triangles)
+    };
+    let (mut places, mut triangles) = half(1.0, seed);
+    let (left, mirrored) = half(-1.0, seed.wrapping_add(1));
+    // both halves have the nodes of the ridge, at u = 0, first and in the same order
+    let ridge = left.iter().filter(|p| p.x == 0.0).count() as u32;
+    let shift = places.len() as u32 - ridge;
+    let number = |node: u32| if node < ridge { node } else { node + shift };
+    triangles.extend(mirrored.into_iter().map(|[a, b, c]| [number(a), number(c), number(b)]));
+    places.extend(left.into_iter().skip(ridge as usize));
+    let height = |p: DVec2| -fall * p.x.abs() + 0.15 * p.x * p.x * (5.0 * p.y).sin();
+    mesh_over((places, triangles), |uv| (uv.extend(height(uv)), uv))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -365,6 +393,8 @@ mod tests {
             (sphere_with_holes(5000, 5), 3, 5000..5500),
             (fuselage_panel(1), 3, 5000..6600),
             (ridged_sheet(1), 0, 40_000..40_001),
+            (hat(1), 0, 121..122),
+            (roof(1), 0, 143..144),
             (cylinder_patch(4321, 1), 0, 4321..4322),
         ] {
             let mesh = mesh.unwrap();

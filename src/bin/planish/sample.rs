@@ -36,6 +36,10 @@ enum Shape {
     Planar,
     /// A warped sheet with two narrow ridges and twelve bumps.
     RidgedSheet,
+    /// A plane control mesh with one node raised: a blending function of `planish d1rc`.
+    Hat,
+    /// A control mesh with a sharp ridge.
+    Roof,
     /// Rows of points round a dustpan.
     DustpanRows,
     /// Rows of points along waves of unlike length.
@@ -54,6 +58,8 @@ pub fn run(arguments: &SampleArguments) -> Result<Outcome, Failure> {
         Shape::CurvedNotch => samples::curved_notch(seed),
         Shape::Planar => samples::planar(seed),
         Shape::RidgedSheet => samples::ridged_sheet(seed),
+        Shape::Hat => samples::hat(seed),
+        Shape::Roof => samples::roof(seed),
         Shape::DustpanRows => return write_rows(&samples::rows::dustpan(), false, &arguments.out),
         Shape::WaveRows => return write_rows(&samples::rows::wave(), false, &arguments.out),
         Shape::HeadRows => return write_rows(&samples::rows::head(), true, &arguments.out),
