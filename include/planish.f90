@@ -11,9 +11,9 @@
 !>     call planish_tensor_fit(mesh, surface, options, report)
 !>     call surface%eval(uv, points)                          ! uv(2,n), points(3,n)
 !>
-!> Names. planish_mesh_x, planish_surface_x, planish_curve_x, planish_field_fitter_x and planish_transfer_x of C are
-!> mesh%x, surface%x, curve%x, fitter%x and transfer%x; calls that make or use one family keep their names. What planish.h says of a call holds;
-!> here stands what is different.
+!> Names. planish_mesh_x, planish_surface_x, planish_curve_x, planish_field_fitter_x and planish_transfer_x of C
+!> are mesh%x, surface%x, curve%x, fitter%x and transfer%x; calls that make or use one family keep their names.
+!> What planish.h says of a call holds; here stands what is different.
 !>
 !> Arrays are Fortran's way round: a row of C is a column, so points are (3,n) and parameters (2,n). Whole arrays go
 !> in without copies; of a section such as points(1:2,:) the compiler makes one. Where C has a stride, it is the first
@@ -21,18 +21,19 @@
 !> from the arguments. Counts that come back are integer(c_size_t).
 !>
 !> Indices count from 1: nodes, triangles, loops, trims, patches, control curves and their knots, cells, vertices,
-!> worst_index, farthest_index, twisted_row, corners, planish_error_index(). Only the sentences of planish_error_message() and the
-!> addresses of cells count as C does, from 0: the halves of cell i of a level are 2 i and 2 i + 1 of the next.
+!> worst_index, farthest_index, twisted_row, corners, planish_error_index(). Only the sentences of
+!> planish_error_message() and the addresses of cells count as C does, from 0: the halves of cell i of a level are
+!> 2 i and 2 i + 1 of the next.
 !>
 !> Errors. Calls end with (..., stat, errmsg), both optional. stat receives a PLANISH_STATUS: negative is an error
 !> and nothing has been changed, positive a success with a remark. errmsg receives the sentence of an error, else it
 !> stays as it is. Without stat an error stops the program with the sentence.
 !>
-!> Handles free themselves, and `=` makes a deep copy; fitters and transfers have no copies, and `=` between them stops the
-!> program.
-!> gfortran 12 has bugs about that which no module can mend: a type of yours that has a handle as a component must not
-!> be assigned with `=`, nor handles allocated with `source=` or gathered as [a, b], nor overlapping sections of an
-!> array of handles assigned to each other. Function results are safe, and so are arrays assigned one by one.
+!> Handles free themselves, and `=` makes a deep copy; fitters and transfers have no copies, and `=` between them
+!> stops the program. gfortran 12 has bugs about that which no module can mend: a type of yours that has a handle
+!> as a component must not be assigned with `=`, nor handles allocated with `source=` or gathered as [a, b], nor
+!> overlapping sections of an array of handles assigned to each other. Function results are safe, and so are arrays
+!> assigned one by one.
 module planish
   use, intrinsic :: iso_c_binding
   implicit none

@@ -930,10 +930,11 @@ class curve {
   feet project(const values<double> &points,
                const planish_project_options &options = defaults<planish_project_options>()) const {
     detail::check_rows(points.count(), points.count() / dim(), dim());
-    feet feet{std::vector<double>(points.count() / dim()), std::vector<double>(points.count() / dim())};
-    detail::checked(planish_curve_project(get(), points.data(), feet.u.size(), &options, feet.u.data(),
-                                          feet.distances.data()));
-    return feet;
+    const std::size_t count = points.count() / dim();
+    feet found{std::vector<double>(count), std::vector<double>(count)};
+    detail::checked(planish_curve_project(get(), points.data(), count, &options, found.u.data(),
+                                          found.distances.data()));
+    return found;
   }
 
   /// Everything the curve is, as bytes that curve::load() takes.

@@ -45,13 +45,13 @@ pub fn interpolate(dim: usize, u: &[f64], points: &[f64], ends: EndRule) -> Resu
     }
     match ends {
         EndRule::Slopes { begin, end } if begin.len() != dim || end.len() != dim => {
-            return Err(CurveError::SlopeCount { count: begin.len() + end.len(), expected: 2 * dim });
+            Err(CurveError::SlopeCount { count: begin.len() + end.len(), expected: 2 * dim })
         }
         EndRule::Slopes { begin, end } if begin.iter().chain(end).any(|x| !x.is_finite()) => {
-            return Err(CurveError::SlopesNotFinite);
+            Err(CurveError::SlopesNotFinite)
         }
         EndRule::Periodic if points.get(..dim) != points.get(points.len().saturating_sub(dim)..) => {
-            return Err(CurveError::NotClosed);
+            Err(CurveError::NotClosed)
         }
         _ => Interpolant::new(dim, u.to_vec(), points.to_vec(), ends)?.to_curve(),
     }

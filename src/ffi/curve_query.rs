@@ -98,7 +98,7 @@ pub unsafe extern "C" fn planish_curve_project(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_curve_save_size(curve: *const planish_curve) -> usize {
     // SAFETY: the caller's promise.
-    unsafe { query_curve(curve, |curve| native::save_size(curve)) }
+    unsafe { query_curve(curve, native::save_size) }
 }
 
 /// Writes everything a curve is into a buffer, to the bit. The layout is documented in docs/format.md; it is the same

@@ -92,10 +92,19 @@ pub fn run(arguments: &MorphArguments) -> Result<Outcome, Failure> {
 
 fn say(what: &str, fit: &TensorFit) {
     let report = &fit.report;
-    println!(
+    print!(
         "{what}: {} x {} knots, max error {:.2e} of {:.2e} allowed",
         report.grid_u, report.grid_v, report.max_error, report.tolerance
     );
+    for (remark, words) in [
+        (Remarks::ROUGH_BETWEEN_NODES, "rough between the nodes"),
+        (Remarks::SEGMENTATION_ADVISED, "cut it into several charts"),
+    ] {
+        if report.remarks.has(remark) {
+            print!(", {words}");
+        }
+    }
+    println!();
 }
 
 fn opened(mesh: Mesh, cut: &[u32]) -> Result<Mesh, Failure> {

@@ -10,8 +10,8 @@ use crate::query::project::ProjectError;
 pub enum TransferError {
     /// A target lies too far from the source.
     #[error(
-        "target {index} is {distance} away from the source's surface, the limit is {limit}: raise max_distance, or keep \
-         far targets"
+        "target {index} is {distance} away from the source's surface, the limit is {limit}: raise max_distance, or \
+         keep far targets"
     )]
     Far {
         /// The target.

@@ -130,7 +130,7 @@ impl Transfer {
             control.within(0.5, 1.0, |control| project(&shape, targets, control))?;
         let is_far = |&distance: &f64| distance > limit;
         if options.far == FarRule::Refuse
-            && let Some(index) = distances.iter().position(|distance| is_far(distance))
+            && let Some(index) = distances.iter().position(&is_far)
         {
             return Err(TransferError::Far { index, distance: distances[index], limit });
         }
