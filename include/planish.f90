@@ -245,6 +245,30 @@ module planish
   !> A weighted cubic fit around each vertex: no system to solve, for very large data
   integer(c_int32_t), parameter, public :: PLANISH_PHT_ESTIMATOR_LOCAL_CUBIC = 2
 
+  !> Which functions a D1RC-spline has.
+  !> They sum to one and reproduce polynomials, on the whole domain; the surface is polynomial on pieces
+  integer(c_int32_t), parameter, public :: PLANISH_D1RC_MODE_REPRODUCING = 0
+  !> As printed (Cao, Zheng, 2016): rational, only inner vertices count, the surface ends before the mesh does
+  integer(c_int32_t), parameter, public :: PLANISH_D1RC_MODE_PAPER = 1
+
+  !> The border of a D1RC-spline of PLANISH_D1RC_MODE_REPRODUCING.
+  !> Smooth everywhere; the border follows the boundary polygon as a B-spline follows its control points
+  integer(c_int32_t), parameter, public :: PLANISH_D1RC_BOUNDARY_PHANTOM = 0
+  !> The boundary polygon is interpolated; across the edges that touch it the surface is only continuous
+  integer(c_int32_t), parameter, public :: PLANISH_D1RC_BOUNDARY_CLAMPED = 1
+  !> The domain ends some faces before the mesh does
+  integer(c_int32_t), parameter, public :: PLANISH_D1RC_BOUNDARY_OPEN = 2
+
+  !> What happens at sharp edges of a D1RC-spline.
+  !> PLANISH_D1RC_SHARP_CUT, in PLANISH_D1RC_MODE_PAPER PLANISH_D1RC_SHARP_ADDITIVE
+  integer(c_int32_t), parameter, public :: PLANISH_D1RC_SHARP_AUTOMATIC = 0
+  !> The crease is the control polyline, at its full angle. In PLANISH_D1RC_MODE_REPRODUCING only
+  integer(c_int32_t), parameter, public :: PLANISH_D1RC_SHARP_CUT = 1
+  !> Functions of the crease, and smooth functions only on their side of it. In PLANISH_D1RC_MODE_PAPER only
+  integer(c_int32_t), parameter, public :: PLANISH_D1RC_SHARP_SECTOR = 2
+  !> Functions of the crease beside all smooth ones: a soft crease. The surface is rational then
+  integer(c_int32_t), parameter, public :: PLANISH_D1RC_SHARP_ADDITIVE = 3
+
   !> Which basis functions control points of a PHT-spline belong to.
   !> Of the cells at the birth of a vertex (Deng et al., 2008): independent of later splits
   integer(c_int32_t), parameter, public :: PLANISH_PHT_BASIS_CANONICAL = 0
@@ -666,6 +690,46 @@ module planish
     integer(c_int32_t) :: end = 0 !! A planish_row_source: what end_index counts
   end type
 
+  ! D1RC-spline
+
+  !> Options of D1RC-splines and of fits by them.
+  type, bind(c), public :: planish_d1rc_options
+    integer(c_size_t) :: struct_size = 14 * word + 4 * 8 + 8 * 4
+    type(c_ptr) :: sharp_edges = c_null_ptr !! The argument sharp_edges
+    integer(c_size_t) :: sharp_edge_count = 0 !! Set with sharp_edges
+    type(c_ptr) :: corners = c_null_ptr !! The argument corners
+    integer(c_size_t) :: corner_count = 0 !! Set with corners
+    !> Edges whose faces meet at more than this angle in radians are sharp as well, up to pi; 0 for none
+    real(c_double) :: sharp_angle = 0
+    !> Weight of the functions that sharp edges and corners add with PLANISH_D1RC_SHARP_SECTOR and
+    !> PLANISH_D1RC_SHARP_ADDITIVE, positive
+    real(c_double) :: sharp_weight = 1
+    type(c_ptr) :: parameterize = c_null_ptr !! The argument parameterize
+    type(c_funptr) :: progress = c_null_funptr !! The argument progress
+    type(c_ptr) :: user = c_null_ptr !! Set with progress
+    !> Fits only: the largest error allowed at the nodes, positive, measured in tolerance_scale
+    real(c_double) :: tolerance = 1e-3_c_double
+    !> Fits only: weight of the energy that determines control points without data, positive
+    real(c_double) :: smoothing = 1e-5_c_double
+    type(c_ptr) :: control_mesh = c_null_ptr !! The argument control_mesh
+    type(c_ptr) :: weights = c_null_ptr !! The argument weights
+    type(c_ptr) :: out_parameters = c_null_ptr !! The argument parameters
+    type(c_ptr) :: out_errors = c_null_ptr !! The argument errors
+    !> Fits only: vertices of the control mesh that is made, at least 3; 0 for as many as the tolerance takes
+    integer(c_size_t) :: control_count = 0
+    !> Fits only: most vertices of a control mesh that is made, at least 3
+    integer(c_size_t) :: max_control_count = 100000
+    integer(c_int32_t) :: degree = 3 !! 1, 2 or 3
+    integer(c_int32_t) :: mode = 0 !! A planish_d1rc_mode
+    integer(c_int32_t) :: boundary = 0 !! A planish_d1rc_boundary
+    integer(c_int32_t) :: sharp = 0 !! A planish_d1rc_sharp
+    integer(c_int32_t) :: tolerance_scale = 0 !! Fits only: a planish_tolerance_scale
+    !> Fits only: sweeps in each round in which nodes move to their foot points and those with large errors gain weight
+    integer(c_int32_t) :: correction_sweeps = 3
+    integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 for all cores
+    integer(c_int32_t) :: reserved = 0
+  end type
+
   ! PHT-spline
 
   !> Options of PHT fits. A datum is a node of the mesh, or a point; a sample is a datum, or the middle of a triangle.
@@ -740,7 +804,7 @@ module planish
     module procedure tessellate_options_init, project_options_init, deviation_options_init
     module procedure vtk_options_init, step_options_init, convert_options_init, skin_options_init
     module procedure pht_options_init, pht_convert_options_init, field_options_init, sample_rows_options_init
-    module procedure decimate_options_init
+    module procedure decimate_options_init, d1rc_options_init
   end interface
 
   abstract interface
@@ -954,6 +1018,7 @@ module planish
   public :: planish_tspline_curve_count, planish_tspline_clone_curve
   public :: planish_tspline_knot_count, planish_tspline_copy_knots
   public :: planish_tspline_insert_knot_u, planish_tspline_insert_knot_v, planish_tspline_remove_knot_u
+  public :: planish_d1rc_fit
   public :: planish_pht_fit, planish_pht_fit_points, planish_pht_fit_field, planish_pht_new
   public :: planish_pht_split, planish_pht_merge, planish_pht_simplify, planish_pht_refine_region
   public :: planish_pht_from_surface, planish_pht_to_tensor_patches, planish_pht_stitch
@@ -1910,6 +1975,24 @@ module planish
       integer(c_size_t), intent(inout) :: out_point_count
     end function
 
+    ! D1RC-spline
+
+    integer(c_int) function c_d1rc_options_init(options, struct_size) bind(c, name="planish_d1rc_options_init")
+      import
+      implicit none
+      type(planish_d1rc_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_d1rc_fit(mesh, options, out_surface, out_report) bind(c, name="planish_d1rc_fit")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      type(planish_d1rc_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+      type(planish_fit_report), intent(inout), optional :: out_report
+    end function
+
     ! PHT-spline
 
     integer(c_int) function c_pht_options_init(options, struct_size) bind(c, name="planish_pht_options_init")
@@ -2483,6 +2566,11 @@ contains
   subroutine skin_options_init(options)
     type(planish_skin_options), intent(inout) :: options
     call conclude(c_skin_options_init(options, c_sizeof(options)))
+  end subroutine
+
+  subroutine d1rc_options_init(options)
+    type(planish_d1rc_options), intent(inout) :: options
+    call conclude(c_d1rc_options_init(options, c_sizeof(options)))
   end subroutine
 
   subroutine pht_options_init(options)
@@ -4284,6 +4372,59 @@ contains
         stat, errmsg)) return
     call conclude(c_tspline_remove_knot_u(surface%get(), curve - 1_c_size_t, knot - 1_c_size_t, tolerance, error), &
         stat, errmsg)
+  end subroutine
+
+  ! ---------------------------------------------------------------------------------------------------------
+  ! D1RC-spline
+  ! ---------------------------------------------------------------------------------------------------------
+
+  !> Fits a D1RC-spline to the shape of a mesh.
+  !>
+  !> control_mesh: the control mesh to use as it is, in place of the mesh with fewer nodes.
+  !> sharp_edges:  (2,n), nodes of the control mesh if it is given, else of the mesh; they count from 1.
+  !> The other arguments are those of planish_tensor_fit().
+  subroutine planish_d1rc_fit( &
+      mesh, surface, options, report, control_mesh, sharp_edges, parameterize, weights, parameters, errors, progress, &
+      stat, errmsg)
+    class(planish_mesh_t), intent(in) :: mesh
+    class(planish_surface_t), intent(inout) :: surface
+    type(planish_d1rc_options), intent(in), optional :: options
+    type(planish_fit_report), intent(inout), optional :: report
+    class(planish_mesh_t), intent(in), optional :: control_mesh
+    integer(c_int32_t), intent(in), optional :: sharp_edges(:, :)
+    type(planish_parameterize_options), intent(in), optional :: parameterize
+    real(c_double), intent(in), optional, target, contiguous :: weights(:)
+    real(c_double), intent(inout), optional, target, contiguous :: parameters(:, :), errors(:)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_d1rc_options) :: call_options
+    type(planish_tensor_options) :: data
+    type(planish_parameterize_options), target :: map
+    type(listener), target :: user
+    integer(c_int32_t), allocatable, target :: edges(:, :)
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    if (present(options)) call_options = options
+    if (refuse_data(data, map, user, mesh%point_count(), parameterize, weights, parameters, errors, progress, &
+        stat, errmsg)) return
+    call_options%parameterize = data%parameterize
+    call_options%weights = data%weights
+    call_options%progress = data%progress
+    call_options%user = data%user
+    call_options%out_parameters = data%out_parameters
+    call_options%out_errors = data%out_errors
+    if (present(control_mesh)) call_options%control_mesh = control_mesh%get()
+    if (present(sharp_edges)) then
+      if (refuse_extent(size(sharp_edges, 1, c_size_t), 2_c_size_t, "the first extent of sharp_edges", stat, &
+          errmsg)) return
+      edges = sharp_edges - 1
+      call_options%sharp_edges = c_loc(edges)
+      call_options%sharp_edge_count = size(edges, 2, c_size_t)
+    end if
+    status = c_d1rc_fit(mesh%get(), call_options, handle, report)
+    if (status >= 0) call surface%take(handle)
+    call conclude_fit(status, report, stat, errmsg)
   end subroutine
 
   ! ---------------------------------------------------------------------------------------------------------

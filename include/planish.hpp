@@ -141,6 +141,9 @@ inline planish_status init(planish_pht_options &options) {
 inline planish_status init(planish_pht_convert_options &options) {
   return planish_pht_convert_options_init(&options, sizeof options);
 }
+inline planish_status init(planish_d1rc_options &options) {
+  return planish_d1rc_options_init(&options, sizeof options);
+}
 inline planish_status init(planish_eval_options &options) {
   return planish_eval_options_init(&options, sizeof options);
 }
@@ -992,6 +995,15 @@ inline fitted tensor_fit_field(const mesh &mesh, const values<double> &values, s
   detail::check_rows(values.count(), mesh.point_count(), dim);
   return detail::fit(options, hear, [&](const planish_tensor_options *given, auto out, auto report) {
     return planish_tensor_fit_field(mesh.get(), values.data(), mesh.point_count(), dim, given, out, report);
+  });
+}
+
+/// Fits a D1RC-spline to the shape of a mesh: a triangular control mesh, sharp edges kept. A mesh without parameters
+/// is parameterized first.
+inline fitted d1rc_fit(const mesh &mesh, const planish_d1rc_options &options = defaults<planish_d1rc_options>(),
+                       const progress &hear = {}) {
+  return detail::fit(options, hear, [&](const planish_d1rc_options *given, auto out, auto report) {
+    return planish_d1rc_fit(mesh.get(), given, out, report);
   });
 }
 

@@ -16,6 +16,7 @@
 mod arguments;
 mod curve;
 mod d1rc;
+mod d1rc_fit;
 mod decimate;
 mod export;
 mod field;
@@ -39,6 +40,7 @@ mod tspline;
 
 pub use curve::*;
 pub use d1rc::*;
+pub use d1rc_fit::*;
 pub use decimate::*;
 pub use export::*;
 pub use field::*;

@@ -5,6 +5,7 @@ use crate::{Failure, Outcome};
 use clap::Args;
 use planish::export::native;
 use planish::mesh::{MeshOptions, read};
+use planish::surface::d1rc::D1rcSurface;
 use planish::surface::pht::PhtSurface;
 use planish::surface::tensor::{Axis, TensorSurface};
 use planish::surface::tspline::TSplineSurface;
@@ -77,6 +78,7 @@ fn surface_table(path: &Path, surface: &AnySurface) -> Table {
         AnySurface::Tensor(tensor) => tensor_rows(tensor, &mut table),
         AnySurface::TSpline(tspline) => tspline_rows(tspline, &mut table),
         AnySurface::Pht(pht) => pht_rows(pht, &mut table),
+        AnySurface::D1rc(d1rc) => d1rc_rows(d1rc, &mut table),
     }
     let surface = surface.as_surface();
     let domain = surface.domain();
@@ -112,4 +114,13 @@ fn pht_rows(surface: &PhtSurface, table: &mut Table) {
     table.row("cells", format!("{} down to level {deepest}", mesh.leaf_count()));
     table.row("control points", surface.coefficient_count().to_string());
     table.row("weights", if surface.is_rational() { "yes" } else { "no" }.to_owned());
+}
+
+fn d1rc_rows(surface: &D1rcSurface, table: &mut Table) {
+    let recipe = &surface.space().recipe;
+    table.row("kind", "D1RC-spline".to_owned());
+    table.row("degree", surface.degree().to_string());
+    let (vertices, faces) = (surface.coefficient_count(), recipe.triangles.len());
+    table.row("control mesh", format!("{vertices} vertices, {faces} faces"));
+    table.row("sharp edges", recipe.sharp_edges.len().to_string());
 }
