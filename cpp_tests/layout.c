@@ -257,7 +257,8 @@ FOLLOWS(planish_step_options, schema, unit);
 FOLLOWS(planish_step_options, unit, max_coefficients);
 FOLLOWS(planish_step_options, max_coefficients, form);
 FOLLOWS(planish_step_options, form, reserved);
-LAST(planish_step_options, reserved);
+FOLLOWS(planish_step_options, reserved, tolerance);
+LAST(planish_step_options, tolerance);
 
 FIRST(planish_step_report);
 FOLLOWS(planish_step_report, struct_size, curve_deviation);

@@ -237,14 +237,6 @@ module planish
   integer(c_int32_t), parameter, public :: PLANISH_ROW_SOURCE_LOOP = 0 !! A boundary loop
   integer(c_int32_t), parameter, public :: PLANISH_ROW_SOURCE_NODE = 1 !! A node
 
-  !> How the control points of a PHT-spline are estimated.
-  !> Least squares over all data with a weak bending energy: fewest coefficients
-  integer(c_int32_t), parameter, public :: PLANISH_PHT_ESTIMATOR_GLOBAL = 0
-  !> A quadratic fit around each datum, interpolated linearly (Deng et al., 2008): for comparison
-  integer(c_int32_t), parameter, public :: PLANISH_PHT_ESTIMATOR_LOCAL_QUADRATIC = 1
-  !> A weighted cubic fit around each vertex: no system to solve, for very large data
-  integer(c_int32_t), parameter, public :: PLANISH_PHT_ESTIMATOR_LOCAL_CUBIC = 2
-
   !> Which functions a D1RC-spline has.
   !> They sum to one and reproduce polynomials, on the whole domain; the surface is polynomial on pieces
   integer(c_int32_t), parameter, public :: PLANISH_D1RC_MODE_REPRODUCING = 0
@@ -262,12 +254,20 @@ module planish
   !> What happens at sharp edges of a D1RC-spline.
   !> PLANISH_D1RC_SHARP_CUT, in PLANISH_D1RC_MODE_PAPER PLANISH_D1RC_SHARP_ADDITIVE
   integer(c_int32_t), parameter, public :: PLANISH_D1RC_SHARP_AUTOMATIC = 0
-  !> The crease is the control polyline, at its full angle. In PLANISH_D1RC_MODE_REPRODUCING only
+  !> The crease is the control polyline, at its full angle; in PLANISH_D1RC_MODE_REPRODUCING only
   integer(c_int32_t), parameter, public :: PLANISH_D1RC_SHARP_CUT = 1
-  !> Functions of the crease, and smooth functions only on their side of it. In PLANISH_D1RC_MODE_PAPER only
+  !> Functions of the crease, and smooth functions only on their side of it; in PLANISH_D1RC_MODE_PAPER only
   integer(c_int32_t), parameter, public :: PLANISH_D1RC_SHARP_SECTOR = 2
-  !> Functions of the crease beside all smooth ones: a soft crease. The surface is rational then
+  !> Functions of the crease beside all smooth ones: a soft crease; the surface is rational then
   integer(c_int32_t), parameter, public :: PLANISH_D1RC_SHARP_ADDITIVE = 3
+
+  !> How the control points of a PHT-spline are estimated.
+  !> Least squares over all data with a weak bending energy: fewest coefficients
+  integer(c_int32_t), parameter, public :: PLANISH_PHT_ESTIMATOR_GLOBAL = 0
+  !> A quadratic fit around each datum, interpolated linearly (Deng et al., 2008): for comparison
+  integer(c_int32_t), parameter, public :: PLANISH_PHT_ESTIMATOR_LOCAL_QUADRATIC = 1
+  !> A weighted cubic fit around each vertex: no system to solve, for very large data
+  integer(c_int32_t), parameter, public :: PLANISH_PHT_ESTIMATOR_LOCAL_CUBIC = 2
 
   !> Which basis functions control points of a PHT-spline belong to.
   !> Of the cells at the birth of a vertex (Deng et al., 2008): independent of later splits
@@ -604,7 +604,7 @@ module planish
 
   !> What a STEP file says beside the shape.
   type, bind(c), public :: planish_step_options
-    integer(c_size_t) :: struct_size = 7 * word + 4 * 4
+    integer(c_size_t) :: struct_size = 7 * word + 1 * 8 + 4 * 4
     type(c_ptr) :: product = c_null_ptr !! The argument product
     type(c_ptr) :: author = c_null_ptr !! The argument author
     type(c_ptr) :: organization = c_null_ptr !! The argument organization
@@ -615,6 +615,9 @@ module planish
     integer(c_size_t) :: max_coefficients = 4000000 !! Most control points of PLANISH_STEP_FORM_TENSOR
     integer(c_int32_t) :: form = 0 !! A planish_step_form, what is written of a T-spline
     integer(c_int32_t) :: reserved = 0
+    !> A D1RC-spline is written as a tensor surface fitted to it, off by at most this in model units; 0 takes 1e-3 of
+    !> the diagonal
+    real(c_double) :: tolerance = 0
   end type
 
   ! T-spline
@@ -1026,6 +1029,10 @@ module planish
   public :: planish_pht_copy_cells, planish_pht_copy_vertices, planish_pht_copy_hanging, planish_pht_copy_neighbours
   public :: planish_pht_copy_data, planish_pht_set_data, planish_pht_copy_control_points
   public :: planish_pht_set_control_points, planish_pht_copy_extraction, planish_pht_cell_at
+  public :: planish_d1rc_new, planish_d1rc_degree, planish_d1rc_set_sharp_edges, planish_d1rc_copy_sharp_edges
+  public :: planish_d1rc_copy_control_points, planish_d1rc_set_control_points, planish_d1rc_edge_continuity
+  public :: planish_d1rc_copy_influence, planish_d1rc_blending_values, planish_d1rc_knot_count
+  public :: planish_d1rc_copy_knots, planish_d1rc_configuration_count, planish_d1rc_copy_configuration
 
   ! ---------------------------------------------------------------------------------------------------------
   ! The functions of planish.h, in its order. NULL is an absent argument. A new one wants its interface here, its
@@ -1975,24 +1982,6 @@ module planish
       integer(c_size_t), intent(inout) :: out_point_count
     end function
 
-    ! D1RC-spline
-
-    integer(c_int) function c_d1rc_options_init(options, struct_size) bind(c, name="planish_d1rc_options_init")
-      import
-      implicit none
-      type(planish_d1rc_options), intent(inout) :: options
-      integer(c_size_t), value :: struct_size
-    end function
-
-    integer(c_int) function c_d1rc_fit(mesh, options, out_surface, out_report) bind(c, name="planish_d1rc_fit")
-      import
-      implicit none
-      type(c_ptr), value :: mesh
-      type(planish_d1rc_options), intent(in), optional :: options
-      type(c_ptr), intent(inout) :: out_surface
-      type(planish_fit_report), intent(inout), optional :: out_report
-    end function
-
     ! PHT-spline
 
     integer(c_int) function c_pht_options_init(options, struct_size) bind(c, name="planish_pht_options_init")
@@ -2240,6 +2229,143 @@ module planish
       implicit none
       type(c_ptr), value :: surface
       real(c_double), value :: u, v
+    end function
+
+    ! D1RC-spline
+
+    integer(c_int) function c_d1rc_options_init(options, struct_size) bind(c, name="planish_d1rc_options_init")
+      import
+      implicit none
+      type(planish_d1rc_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_d1rc_fit(mesh, options, out_surface, out_report) bind(c, name="planish_d1rc_fit")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      type(planish_d1rc_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+      type(planish_fit_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_d1rc_new(control_mesh, options, out_surface) bind(c, name="planish_d1rc_new")
+      import
+      implicit none
+      type(c_ptr), value :: control_mesh
+      type(planish_d1rc_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+    end function
+
+    pure integer(c_int32_t) function c_d1rc_degree(surface) bind(c, name="planish_d1rc_degree")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    integer(c_int) function c_d1rc_set_sharp_edges( &
+        surface, sharp_edges, edge_count, corners, corner_count) bind(c, name="planish_d1rc_set_sharp_edges")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), intent(in) :: sharp_edges(*)
+      integer(c_size_t), value :: edge_count
+      integer(c_int32_t), intent(in), optional :: corners(*)
+      integer(c_size_t), value :: corner_count
+    end function
+
+    integer(c_int) function c_d1rc_copy_sharp_edges( &
+        surface, out_edges, count, out_count) bind(c, name="planish_d1rc_copy_sharp_edges")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), intent(inout), optional :: out_edges(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), intent(inout) :: out_count
+    end function
+
+    integer(c_int) function c_d1rc_copy_control_points( &
+        surface, out_points, count) bind(c, name="planish_d1rc_copy_control_points")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(inout) :: out_points(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_d1rc_set_control_points( &
+        surface, vertices, count, points) bind(c, name="planish_d1rc_set_control_points")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), intent(in) :: vertices(*)
+      integer(c_size_t), value :: count
+      real(c_double), intent(in) :: points(*)
+    end function
+
+    integer(c_int) function c_d1rc_edge_continuity( &
+        surface, edges, count, out_orders) bind(c, name="planish_d1rc_edge_continuity")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), intent(in) :: edges(*)
+      integer(c_size_t), value :: count
+      integer(c_int32_t), intent(inout) :: out_orders(*)
+    end function
+
+    integer(c_int) function c_d1rc_copy_influence( &
+        surface, vertex, out_faces, count, out_count) bind(c, name="planish_d1rc_copy_influence")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), value :: vertex
+      integer(c_int32_t), intent(inout), optional :: out_faces(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), intent(inout) :: out_count
+    end function
+
+    integer(c_int) function c_d1rc_blending_values( &
+        surface, vertex, uv, count, out_values) bind(c, name="planish_d1rc_blending_values")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), value :: vertex
+      real(c_double), intent(in) :: uv(*)
+      integer(c_size_t), value :: count
+      real(c_double), intent(inout) :: out_values(*)
+    end function
+
+    pure integer(c_size_t) function c_d1rc_knot_count(surface) bind(c, name="planish_d1rc_knot_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    integer(c_int) function c_d1rc_copy_knots(surface, out_uv, count) bind(c, name="planish_d1rc_copy_knots")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(inout) :: out_uv(*)
+      integer(c_size_t), value :: count
+    end function
+
+    pure integer(c_size_t) function c_d1rc_configuration_count( &
+        surface) bind(c, name="planish_d1rc_configuration_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    integer(c_int) function c_d1rc_copy_configuration( &
+        surface, index, out_knots, out_edges, count, out_count) bind(c, name="planish_d1rc_copy_configuration")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_size_t), value :: index
+      integer(c_int32_t), intent(inout), optional :: out_knots(*)
+      integer(c_int32_t), intent(inout), optional :: out_edges(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), intent(inout) :: out_count
     end function
 
     ! Field fitter
@@ -4888,6 +5014,225 @@ contains
     cell = 0
     if (planish_pht_cell_count(surface) > 0) cell = int(c_pht_cell_at(surface%get(), u, v)) + 1
   end function
+
+  ! ---------------------------------------------------------------------------------------------------------
+  ! D1RC-spline
+  ! ---------------------------------------------------------------------------------------------------------
+
+  !> Makes a smooth surface from a triangular control mesh: a disk, possibly with holes. Its nodes are the control
+  !> points; its parameters the domain, computed if it has none.
+  !>
+  !> sharp_edges: (2,n), nodes joined by edges; nodes count from 1.
+  !> corners:     nodes to be interpolated.
+  subroutine planish_d1rc_new( &
+      mesh, surface, options, sharp_edges, corners, parameterize, progress, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: mesh
+    class(planish_surface_t), intent(inout) :: surface
+    type(planish_d1rc_options), intent(in), optional :: options
+    integer(c_int32_t), intent(in), optional :: sharp_edges(:, :), corners(:)
+    type(planish_parameterize_options), intent(in), optional :: parameterize
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_d1rc_options) :: call_options
+    type(planish_parameterize_options), target :: map
+    type(listener), target :: user
+    integer(c_int32_t), allocatable, target :: edges(:, :), fixed(:)
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    if (present(options)) call_options = options
+    if (present(sharp_edges)) then
+      if (refuse_pairs(sharp_edges, "sharp_edges", stat, errmsg)) return
+      edges = sharp_edges - 1
+      call_options%sharp_edges = c_loc(edges)
+      call_options%sharp_edge_count = size(edges, 2, c_size_t)
+    end if
+    if (present(corners)) then
+      if (refuse(any(corners < 1), PLANISH_STATUS_INDEX, "corners count from 1", stat, errmsg)) return
+      fixed = corners - 1
+      call_options%corners = c_loc(fixed)
+      call_options%corner_count = size(fixed, kind=c_size_t)
+    end if
+    if (present(parameterize)) then
+      map = counted_from_0(parameterize)
+      call_options%parameterize = c_loc(map)
+    end if
+    if (present(progress)) then
+      user%hear => progress
+      call_options%progress = c_funloc(relay)
+      call_options%user = c_loc(user)
+    end if
+    status = c_d1rc_new(mesh%get(), call_options, handle)
+    if (status >= 0) call surface%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Whether pairs(2,n) are none, or count from 0.
+  logical function refuse_pairs(pairs, name, stat, errmsg) result(refused)
+    integer(c_int32_t), intent(in) :: pairs(:, :)
+    character(*), intent(in) :: name
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    refused = refuse_extent(size(pairs, 1, c_size_t), 2_c_size_t, "the first extent of " // name, stat, errmsg)
+    if (.not. refused) refused = refuse(any(pairs < 1), PLANISH_STATUS_INDEX, name // " count from 1", stat, errmsg)
+  end function
+
+  !> The degree; 0 for surfaces of other kinds.
+  pure integer function planish_d1rc_degree(surface) result(degree)
+    class(planish_surface_t), intent(in) :: surface
+    degree = int(c_d1rc_degree(surface%get()))
+  end function
+
+  !> Replaces the sharp edges, sharp_edges(2,n), and the corners; control points count from 1.
+  subroutine planish_d1rc_set_sharp_edges(surface, sharp_edges, corners, stat, errmsg)
+    class(planish_surface_t), intent(inout) :: surface
+    integer(c_int32_t), intent(in) :: sharp_edges(:, :)
+    integer(c_int32_t), intent(in), optional :: corners(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t), allocatable :: fixed(:)
+    if (refuse_pairs(sharp_edges, "sharp_edges", stat, errmsg)) return
+    allocate (fixed(0))
+    if (present(corners)) then
+      if (refuse(any(corners < 1), PLANISH_STATUS_INDEX, "corners count from 1", stat, errmsg)) return
+      fixed = corners - 1
+    end if
+    call conclude(c_d1rc_set_sharp_edges(surface%get(), sharp_edges - 1, size(sharp_edges, 2, c_size_t), fixed, &
+        size(fixed, kind=c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> The sharp edges, sharp_edges(2,n), those found by their angle included; control points count from 1.
+  subroutine planish_d1rc_copy_sharp_edges(surface, sharp_edges, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    integer(c_int32_t), allocatable, intent(inout) :: sharp_edges(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t), allocatable :: found(:, :)
+    integer(c_size_t) :: count
+    integer(c_int) :: status
+    status = c_d1rc_copy_sharp_edges(surface%get(), count=0_c_size_t, out_count=count)
+    if (status >= 0) then
+      allocate (found(2, count))
+      status = c_d1rc_copy_sharp_edges(surface%get(), found, count, count)
+      sharp_edges = found + 1
+    end if
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> points(dim,n) of the control points in the order of the control mesh: n at least coefficient_count().
+  subroutine planish_d1rc_copy_control_points(surface, points, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    real(c_double), intent(inout), contiguous :: points(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_dim(surface%dim(), size(points, 1, c_size_t), "points", stat, errmsg)) return
+    call conclude(c_d1rc_copy_control_points(surface%get(), points, size(points, 2, c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> Moves control points, which count from 1, to points(dim,n).
+  subroutine planish_d1rc_set_control_points(surface, vertices, points, stat, errmsg)
+    class(planish_surface_t), intent(inout) :: surface
+    integer(c_int32_t), intent(in) :: vertices(:)
+    real(c_double), intent(in), contiguous :: points(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_dim(surface%dim(), size(points, 1, c_size_t), "points", stat, errmsg)) return
+    if (refuse_extent(size(points, 2, c_size_t), size(vertices, kind=c_size_t), "the second extent of points", &
+        stat, errmsg)) return
+    if (refuse(any(vertices < 1), PLANISH_STATUS_INDEX, "vertices count from 1", stat, errmsg)) return
+    call conclude(c_d1rc_set_control_points(surface%get(), vertices - 1, size(vertices, kind=c_size_t), points), &
+        stat, errmsg)
+  end subroutine
+
+  !> How often the surface is differentiable across edges(2,n), for knots in general position: orders(n).
+  subroutine planish_d1rc_edge_continuity(surface, edges, orders, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    integer(c_int32_t), intent(in) :: edges(:, :)
+    integer(c_int32_t), intent(inout), contiguous :: orders(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_pairs(edges, "edges", stat, errmsg)) return
+    if (refuse_short(size(orders, kind=c_size_t), size(edges, 2, c_size_t), "orders", stat, errmsg)) return
+    call conclude(c_d1rc_edge_continuity(surface%get(), edges - 1, size(edges, 2, c_size_t), orders), stat, errmsg)
+  end subroutine
+
+  !> The faces of the control mesh whose surface moves with a control point; all count from 1.
+  subroutine planish_d1rc_copy_influence(surface, vertex, faces, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    integer, intent(in) :: vertex
+    integer(c_int32_t), allocatable, intent(inout) :: faces(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t), allocatable :: found(:)
+    integer(c_size_t) :: count
+    integer(c_int) :: status
+    if (refuse(vertex < 1, PLANISH_STATUS_INDEX, "vertices count from 1", stat, errmsg)) return
+    status = c_d1rc_copy_influence(surface%get(), vertex - 1_c_int32_t, count=0_c_size_t, out_count=count)
+    if (status >= 0) then
+      allocate (found(count))
+      status = c_d1rc_copy_influence(surface%get(), vertex - 1_c_int32_t, found, count, count)
+      faces = found + 1
+    end if
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> The share of one control point, counted from 1, at uv(2,n): values(n).
+  subroutine planish_d1rc_blending_values(surface, vertex, uv, values, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    integer, intent(in) :: vertex
+    real(c_double), intent(in), contiguous :: uv(:, :)
+    real(c_double), intent(inout), contiguous :: values(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse(vertex < 1, PLANISH_STATUS_INDEX, "vertices count from 1", stat, errmsg)) return
+    if (refuse_extent(size(uv, 1, c_size_t), 2_c_size_t, "the first extent of uv", stat, errmsg)) return
+    if (refuse_short(size(values, kind=c_size_t), size(uv, 2, c_size_t), "values", stat, errmsg)) return
+    call conclude(c_d1rc_blending_values(surface%get(), vertex - 1_c_int32_t, uv, size(uv, 2, c_size_t), values), &
+        stat, errmsg)
+  end subroutine
+
+  !> Number of knots, those beyond the border included; 0 for surfaces of other kinds.
+  pure integer(c_size_t) function planish_d1rc_knot_count(surface) result(count)
+    class(planish_surface_t), intent(in) :: surface
+    count = c_d1rc_knot_count(surface%get())
+  end function
+
+  !> uv(2,n) of the knots, first those of the control mesh: n at least planish_d1rc_knot_count().
+  subroutine planish_d1rc_copy_knots(surface, uv, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    real(c_double), intent(inout), contiguous :: uv(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_extent(size(uv, 1, c_size_t), 2_c_size_t, "the first extent of uv", stat, errmsg)) return
+    call conclude(c_d1rc_copy_knots(surface%get(), uv, size(uv, 2, c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> Number of functions; 0 for surfaces of other kinds.
+  pure integer(c_size_t) function planish_d1rc_configuration_count(surface) result(count)
+    class(planish_surface_t), intent(in) :: surface
+    count = c_d1rc_configuration_count(surface%get())
+  end function
+
+  !> What a function is made of: knots(degree) and edges(2,n) around them; functions and knots count from 1.
+  subroutine planish_d1rc_copy_configuration(surface, index, knots, edges, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surface
+    integer, intent(in) :: index
+    integer(c_int32_t), allocatable, intent(inout) :: knots(:), edges(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t), allocatable :: found(:), around(:, :)
+    integer(c_size_t) :: count
+    integer(c_int) :: status
+    if (refuse(index < 1, PLANISH_STATUS_INDEX, "configurations count from 1", stat, errmsg)) return
+    status = c_d1rc_copy_configuration(surface%get(), index - 1_c_size_t, count=0_c_size_t, out_count=count)
+    if (status >= 0) then
+      allocate (found(planish_d1rc_degree(surface)), around(2, count))
+      status = c_d1rc_copy_configuration(surface%get(), index - 1_c_size_t, found, around, count, count)
+      knots = found + 1
+      edges = around + 1
+    end if
+    call conclude(status, stat, errmsg)
+  end subroutine
 
   ! ---------------------------------------------------------------------------------------------------------
   ! Field fitter

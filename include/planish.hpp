@@ -138,11 +138,11 @@ inline planish_status init(planish_skin_options &options) {
 inline planish_status init(planish_pht_options &options) {
   return planish_pht_options_init(&options, sizeof options);
 }
-inline planish_status init(planish_pht_convert_options &options) {
-  return planish_pht_convert_options_init(&options, sizeof options);
-}
 inline planish_status init(planish_d1rc_options &options) {
   return planish_d1rc_options_init(&options, sizeof options);
+}
+inline planish_status init(planish_pht_convert_options &options) {
+  return planish_pht_convert_options_init(&options, sizeof options);
 }
 inline planish_status init(planish_eval_options &options) {
   return planish_eval_options_init(&options, sizeof options);
@@ -1063,6 +1063,23 @@ inline void pht_stitch(surface &first, planish_border_side first_side, surface &
   detail::checked(planish_pht_stitch(first.get(), first_side, second.get(), second_side, is_reversed ? 1 : 0));
 }
 
+/// An edge of a control mesh, by its ends.
+using edge = std::array<std::uint32_t, 2>;
+
+/// Makes a smooth surface from a triangular control mesh: a disk, possibly with holes. The edges in `sharp_edges` stay
+/// sharp, the nodes in `corners` are interpolated.
+inline surface d1rc_new(const mesh &control_mesh,
+                        planish_d1rc_options options = defaults<planish_d1rc_options>(),
+                        const std::vector<edge> &sharp_edges = {}, const std::vector<std::uint32_t> &corners = {}) {
+  if (!sharp_edges.empty()) options.sharp_edges = sharp_edges.front().data();
+  if (!sharp_edges.empty()) options.sharp_edge_count = sharp_edges.size();
+  if (!corners.empty()) options.corners = corners.data();
+  if (!corners.empty()) options.corner_count = corners.size();
+  planish_surface *made = nullptr;
+  detail::checked(planish_d1rc_new(control_mesh.get(), &options, &made));
+  return surface(made);
+}
+
 /// Fits a cubic curve to rows of `dim` numbers at parameters in any order.
 inline fitted_curve curve_fit(const values<double> &u, const values<double> &values, std::size_t dim,
                               const planish_tensor_options &options = defaults<planish_tensor_options>(),
@@ -1073,6 +1090,97 @@ inline fitted_curve curve_fit(const values<double> &u, const values<double> &val
         return planish_curve_fit(u.data(), values.data(), u.count(), dim, given, out, report);
       });
 }
+
+/// A D1RC-spline, seen as one: control points and sharp edges. It must not outlive its surface.
+class d1rc {
+ public:
+  /// Throws if the surface is of another family.
+  explicit d1rc(surface &of) : surface_(of.get()) {
+    if (planish_surface_kind(surface_) != PLANISH_KIND_D1RC) {
+      throw error(PLANISH_STATUS_WRONG_KIND, "the surface is no D1RC-spline", -1);
+    }
+  }
+
+  /// Its degree.
+  std::uint32_t degree() const noexcept { return planish_d1rc_degree(surface_); }
+  /// Number of knots, those beyond the border included.
+  std::size_t knot_count() const noexcept { return planish_d1rc_knot_count(surface_); }
+  /// Number of functions.
+  std::size_t configuration_count() const noexcept { return planish_d1rc_configuration_count(surface_); }
+
+  /// The control points in the order of the control mesh.
+  std::vector<double> control_points() const {
+    const std::size_t count = planish_surface_coefficient_count(surface_);
+    std::vector<double> points(count * planish_surface_dim(surface_));
+    detail::checked(planish_d1rc_copy_control_points(surface_, points.data(), count));
+    return points;
+  }
+
+  /// Moves control points to rows of `points`.
+  void set_control_points(const std::vector<std::uint32_t> &vertices, const std::vector<double> &points) {
+    detail::check_rows(points.size(), vertices.size(), planish_surface_dim(surface_));
+    detail::checked(planish_d1rc_set_control_points(surface_, vertices.data(), vertices.size(), points.data()));
+  }
+
+  /// The sharp edges.
+  std::vector<edge> sharp_edges() const {
+    std::size_t count = 0;
+    detail::checked(planish_d1rc_copy_sharp_edges(surface_, nullptr, 0, &count));
+    std::vector<edge> edges(count);
+    detail::checked(planish_d1rc_copy_sharp_edges(surface_, detail::flat(edges), count, &count));
+    return edges;
+  }
+
+  /// Replaces the sharp edges and the corners.
+  void set_sharp_edges(const std::vector<edge> &edges, const std::vector<std::uint32_t> &corners = {}) {
+    detail::checked(planish_d1rc_set_sharp_edges(surface_, edges.empty() ? nullptr : edges.front().data(),
+                                                 edges.size(), corners.data(), corners.size()));
+  }
+
+  /// How often the surface is differentiable across edges, for knots in general position.
+  std::vector<std::uint32_t> edge_continuity(const std::vector<edge> &edges) const {
+    std::vector<std::uint32_t> orders(edges.size());
+    detail::checked(planish_d1rc_edge_continuity(surface_, edges.empty() ? nullptr : edges.front().data(),
+                                                 edges.size(), orders.data()));
+    return orders;
+  }
+
+  /// The faces of the control mesh whose surface moves with a control point.
+  std::vector<std::uint32_t> influence(std::uint32_t vertex) const {
+    std::size_t count = 0;
+    detail::checked(planish_d1rc_copy_influence(surface_, vertex, nullptr, 0, &count));
+    std::vector<std::uint32_t> faces(count);
+    detail::checked(planish_d1rc_copy_influence(surface_, vertex, faces.data(), count, &count));
+    return faces;
+  }
+
+  /// The share of one control point at points.
+  std::vector<double> blending_values(std::uint32_t vertex, const rows<double, 2> &uv) const {
+    std::vector<double> values(uv.count());
+    detail::checked(planish_d1rc_blending_values(surface_, vertex, uv.data(), uv.count(), values.data()));
+    return values;
+  }
+
+  /// The (u,v) of the knots, first those of the control mesh.
+  std::vector<point2> knots() const {
+    std::vector<point2> uv(knot_count());
+    detail::checked(planish_d1rc_copy_knots(surface_, detail::flat(uv), uv.size()));
+    return uv;
+  }
+
+  /// The knots X of a function, and the edges around them.
+  std::pair<std::vector<std::uint32_t>, std::vector<edge>> configuration(std::size_t index) const {
+    std::size_t count = 0;
+    detail::checked(planish_d1rc_copy_configuration(surface_, index, nullptr, nullptr, 0, &count));
+    std::pair<std::vector<std::uint32_t>, std::vector<edge>> made(degree(), count);
+    detail::checked(planish_d1rc_copy_configuration(surface_, index, made.first.data(), detail::flat(made.second),
+                                                    count, &count));
+    return made;
+  }
+
+ private:
+  planish_surface *surface_;
+};
 
 /// A PHT-spline, seen as one: cells, vertices and what can be done with them. It must not outlive its surface.
 class pht {

@@ -2,6 +2,8 @@
 //!
 //! Exit code 0: done, and the tolerance met; 2: done, but the tolerance not met; 1: any error.
 
+#[path = "planish/d1rc.rs"]
+mod d1rc;
 #[path = "planish/decimate.rs"]
 mod decimate;
 #[path = "planish/eval.rs"]
@@ -38,6 +40,8 @@ enum Command {
     Skin(skin::SkinArguments),
     /// Make a mesh of fewer nodes by collapsing edges; sharp edges and the boundary stay.
     Decimate(decimate::DecimateArguments),
+    /// Make a smooth surface from a triangular control mesh.
+    D1rc(d1rc::D1rcArguments),
     /// Say what a mesh file or a saved surface holds.
     Info(info::InfoArguments),
     /// Evaluate a saved surface.
@@ -89,6 +93,7 @@ fn main() -> ExitCode {
         Command::Fit(arguments) => fit::run(&arguments),
         Command::Skin(arguments) => skin::run(&arguments),
         Command::Decimate(arguments) => decimate::run(&arguments),
+        Command::D1rc(arguments) => d1rc::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),

@@ -88,7 +88,7 @@ fn shape(
 /// The lower sides of all patches, and the upper ones at the end of the domain.
 fn draw_knot_lines(surface: &dyn Surface, picture: &mut Picture) {
     let Some(patches) = surface.patches() else {
-        return;
+        return draw_faces(surface, picture);
     };
     let end = surface.domain().max;
     for index in 0..patches.patch_count() {
@@ -103,6 +103,21 @@ fn draw_knot_lines(surface: &dyn Surface, picture: &mut Picture) {
         if part.max.y == end.y {
             draw_side(surface, upper_left, part.max, picture);
         }
+    }
+}
+
+/// The sides of the faces over which a surface without patches is made.
+fn draw_faces(surface: &dyn Surface, picture: &mut Picture) {
+    let Some(faces) = surface.faces() else {
+        return;
+    };
+    let ends = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [c, a]].map(|[p, q]| [p.min(q), p.max(q)]);
+    let mut sides: Vec<[u32; 2]> = faces.triangles().into_iter().flat_map(ends).collect();
+    sides.sort_unstable();
+    sides.dedup();
+    for side in sides {
+        let [from, to] = side.map(|corner| faces.places()[corner as usize]);
+        draw_side(surface, from, to, picture);
     }
 }
 

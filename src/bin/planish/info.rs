@@ -107,6 +107,16 @@ fn tspline_rows(surface: &TSplineSurface, table: &mut Table) {
     table.row("control points", surface.coefficient_count().to_string());
 }
 
+fn d1rc_rows(d1rc: &D1rcSurface, table: &mut Table) {
+    let space = d1rc.space();
+    table.row("kind", "D1RC-spline".to_owned());
+    table.row("degree", d1rc.degree().to_string());
+    table.row("control points", space.vertex_count().to_string());
+    table.row("faces", space.recipe.triangles.len().to_string());
+    table.row("sharp edges", space.recipe.sharp_edges.len().to_string());
+    table.row("functions", space.configurations.len().to_string());
+}
+
 fn pht_rows(surface: &PhtSurface, table: &mut Table) {
     let mesh = surface.mesh();
     let deepest = mesh.leaves().map(|leaf| mesh.cell(leaf).level).max().unwrap_or(0);
@@ -114,13 +124,4 @@ fn pht_rows(surface: &PhtSurface, table: &mut Table) {
     table.row("cells", format!("{} down to level {deepest}", mesh.leaf_count()));
     table.row("control points", surface.coefficient_count().to_string());
     table.row("weights", if surface.is_rational() { "yes" } else { "no" }.to_owned());
-}
-
-fn d1rc_rows(surface: &D1rcSurface, table: &mut Table) {
-    let recipe = &surface.space().recipe;
-    table.row("kind", "D1RC-spline".to_owned());
-    table.row("degree", surface.degree().to_string());
-    let (vertices, faces) = (surface.coefficient_count(), recipe.triangles.len());
-    table.row("control mesh", format!("{vertices} vertices, {faces} faces"));
-    table.row("sharp edges", recipe.sharp_edges.len().to_string());
 }

@@ -2,6 +2,7 @@
 
 use crate::Failure;
 use glam::DVec2;
+use planish::Control;
 use planish::export::picture::{Picture, View};
 use planish::export::step::{self, StepOptions};
 use planish::export::{native, obj, vtk};
@@ -100,7 +101,10 @@ pub fn write_surface(surface: &AnySurface, path: &Path, step: &StepOptions) -> R
         }
         "vtu" => match surface.as_surface().patches() {
             Some(patches) => vtk::write_patches(patches, path)?,
-            None => return Err(Failure::new("this family of surface has no patches for .vtu")),
+            None => {
+                let options = vtk::SurfaceOptions::default();
+                vtk::write_surface(surface.as_surface(), &options, path, Control::default().pool())?;
+            }
         },
         "obj" => obj::write(&tessellate(surface.as_surface(), &TessellateOptions::default())?.mesh, path)?,
         _ => native::save_file(surface.as_saved(), path)?,

@@ -1,6 +1,7 @@
 //! The contract from the caller's side: statuses, sentences, indices, and what stays untouched.
 
 mod curves;
+mod d1rc;
 mod d1rc_fits;
 mod decimations;
 mod fields;
