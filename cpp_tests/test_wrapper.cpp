@@ -127,6 +127,19 @@ TEST(WrapperMesh, BecomesCoarser) {
   CHECK(error.status() == PLANISH_STATUS_CANCELLED);
 }
 
+TEST(WrapperD1rc, FitsAMesh) {
+  const planish::mesh mesh = make(shapes::graph(20, 20, 0.2, 1));
+  auto options = planish::defaults<planish_d1rc_options>();
+  options.tolerance = 5e-2;
+  const auto found = planish::d1rc_fit(mesh, options);
+  CHECK(found.status == PLANISH_STATUS_OK);
+  CHECK(found.report.max_error <= found.report.tolerance);
+  CHECK(found.surface.kind() == PLANISH_KIND_D1RC);
+  const planish::mesh coarse = mesh.decimate().coarse;
+  options.control_mesh = coarse.get();
+  CHECK_EQUAL(planish::d1rc_fit(mesh, options).report.coefficient_count, coarse.point_count());
+}
+
 TEST(WrapperMesh, ReadsFiles) {
   const char *path = "test_wrapper.off";
   std::ofstream(path) << "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";

@@ -702,6 +702,46 @@ module planish
     integer(c_int32_t) :: end = 0 !! A planish_row_source: what end_index counts
   end type
 
+  ! D1RC-spline
+
+  !> Options of D1RC-splines and of fits by them.
+  type, bind(c), public :: planish_d1rc_options
+    integer(c_size_t) :: struct_size = 14 * word + 4 * 8 + 8 * 4
+    type(c_ptr) :: sharp_edges = c_null_ptr !! The argument sharp_edges
+    integer(c_size_t) :: sharp_edge_count = 0 !! Set with sharp_edges
+    type(c_ptr) :: corners = c_null_ptr !! The argument corners
+    integer(c_size_t) :: corner_count = 0 !! Set with corners
+    !> Edges whose faces meet at more than this angle in radians are sharp as well, up to pi; 0 for none
+    real(c_double) :: sharp_angle = 0
+    !> Weight of the functions that sharp edges and corners add with PLANISH_D1RC_SHARP_SECTOR and
+    !> PLANISH_D1RC_SHARP_ADDITIVE, positive
+    real(c_double) :: sharp_weight = 1
+    type(c_ptr) :: parameterize = c_null_ptr !! The argument parameterize
+    type(c_funptr) :: progress = c_null_funptr !! The argument progress
+    type(c_ptr) :: user = c_null_ptr !! Set with progress
+    !> Fits only: the largest error allowed at the nodes, positive, measured in tolerance_scale
+    real(c_double) :: tolerance = 1e-3_c_double
+    !> Fits only: weight of the energy that determines control points without data, positive
+    real(c_double) :: smoothing = 1e-5_c_double
+    type(c_ptr) :: control_mesh = c_null_ptr !! The argument control_mesh
+    type(c_ptr) :: weights = c_null_ptr !! The argument weights
+    type(c_ptr) :: out_parameters = c_null_ptr !! The argument parameters
+    type(c_ptr) :: out_errors = c_null_ptr !! The argument errors
+    !> Fits only: vertices of the control mesh that is made, at least 3; 0 for as many as the tolerance takes
+    integer(c_size_t) :: control_count = 0
+    !> Fits only: most vertices of a control mesh that is made, at least 3
+    integer(c_size_t) :: max_control_count = 100000
+    integer(c_int32_t) :: degree = 3 !! 1, 2 or 3
+    integer(c_int32_t) :: mode = 0 !! A planish_d1rc_mode
+    integer(c_int32_t) :: boundary = 0 !! A planish_d1rc_boundary
+    integer(c_int32_t) :: sharp = 0 !! A planish_d1rc_sharp
+    integer(c_int32_t) :: tolerance_scale = 0 !! Fits only: a planish_tolerance_scale
+    !> Fits only: sweeps in each round in which nodes move to their foot points and those with large errors gain weight
+    integer(c_int32_t) :: correction_sweeps = 3
+    integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 for all cores
+    integer(c_int32_t) :: reserved = 0
+  end type
+
   ! PHT-spline
 
   !> Options of PHT fits. A datum is a node of the mesh, or a point; a sample is a datum, or the middle of a triangle.
@@ -728,29 +768,6 @@ module planish
     !> Sweeps of parameter correction in each round of the fit of a shape
     integer(c_int32_t) :: correction_sweeps = 1
     integer(c_int32_t) :: measure_distance = 0 !! 1 measures the closest-point distance of the nodes for the report
-    integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 for all cores
-    integer(c_int32_t) :: reserved = 0
-  end type
-
-  !> How a D1RC-spline is made.
-  type, bind(c), public :: planish_d1rc_options
-    integer(c_size_t) :: struct_size = 8 * word + 2 * 8 + 6 * 4
-    type(c_ptr) :: sharp_edges = c_null_ptr !! The argument sharp_edges
-    integer(c_size_t) :: sharp_edge_count = 0 !! Set with sharp_edges
-    type(c_ptr) :: corners = c_null_ptr !! The argument corners
-    integer(c_size_t) :: corner_count = 0 !! Set with corners
-    !> Edges whose faces meet at more than this angle in radians are sharp as well, up to pi; 0 for none
-    real(c_double) :: sharp_angle = 0
-    !> Weight of the functions that sharp edges and corners add with PLANISH_D1RC_SHARP_SECTOR and
-    !> PLANISH_D1RC_SHARP_ADDITIVE, positive
-    real(c_double) :: sharp_weight = 1
-    type(c_ptr) :: parameterize = c_null_ptr !! The argument parameterize
-    type(c_funptr) :: progress = c_null_funptr !! The argument progress
-    type(c_ptr) :: user = c_null_ptr !! Set with progress
-    integer(c_int32_t) :: degree = 3 !! 1, 2 or 3
-    integer(c_int32_t) :: mode = 0 !! A planish_d1rc_mode
-    integer(c_int32_t) :: boundary = 0 !! A planish_d1rc_boundary
-    integer(c_int32_t) :: sharp = 0 !! A planish_d1rc_sharp
     integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 for all cores
     integer(c_int32_t) :: reserved = 0
   end type
@@ -1117,6 +1134,7 @@ module planish
   public :: planish_tspline_curve_count, planish_tspline_clone_curve
   public :: planish_tspline_knot_count, planish_tspline_copy_knots
   public :: planish_tspline_insert_knot_u, planish_tspline_insert_knot_v, planish_tspline_remove_knot_u
+  public :: planish_d1rc_fit
   public :: planish_pht_fit, planish_pht_fit_points, planish_pht_fit_field, planish_pht_new
   public :: planish_pht_split, planish_pht_merge, planish_pht_simplify, planish_pht_refine_region
   public :: planish_pht_from_surface, planish_pht_to_tensor_patches, planish_pht_stitch
@@ -2413,6 +2431,15 @@ module planish
       implicit none
       type(planish_d1rc_options), intent(inout) :: options
       integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_d1rc_fit(mesh, options, out_surface, out_report) bind(c, name="planish_d1rc_fit")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      type(planish_d1rc_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+      type(planish_fit_report), intent(inout), optional :: out_report
     end function
 
     integer(c_int) function c_d1rc_new(control_mesh, options, out_surface) bind(c, name="planish_d1rc_new")
@@ -4911,6 +4938,59 @@ contains
         stat, errmsg)) return
     call conclude(c_tspline_remove_knot_u(surface%get(), curve - 1_c_size_t, knot - 1_c_size_t, tolerance, error), &
         stat, errmsg)
+  end subroutine
+
+  ! ---------------------------------------------------------------------------------------------------------
+  ! D1RC-spline
+  ! ---------------------------------------------------------------------------------------------------------
+
+  !> Fits a D1RC-spline to the shape of a mesh.
+  !>
+  !> control_mesh: the control mesh to use as it is, in place of the mesh with fewer nodes.
+  !> sharp_edges:  (2,n), nodes of the control mesh if it is given, else of the mesh; they count from 1.
+  !> The other arguments are those of planish_tensor_fit().
+  subroutine planish_d1rc_fit( &
+      mesh, surface, options, report, control_mesh, sharp_edges, parameterize, weights, parameters, errors, progress, &
+      stat, errmsg)
+    class(planish_mesh_t), intent(in) :: mesh
+    class(planish_surface_t), intent(inout) :: surface
+    type(planish_d1rc_options), intent(in), optional :: options
+    type(planish_fit_report), intent(inout), optional :: report
+    class(planish_mesh_t), intent(in), optional :: control_mesh
+    integer(c_int32_t), intent(in), optional :: sharp_edges(:, :)
+    type(planish_parameterize_options), intent(in), optional :: parameterize
+    real(c_double), intent(in), optional, target, contiguous :: weights(:)
+    real(c_double), intent(inout), optional, target, contiguous :: parameters(:, :), errors(:)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_d1rc_options) :: call_options
+    type(planish_tensor_options) :: data
+    type(planish_parameterize_options), target :: map
+    type(listener), target :: user
+    integer(c_int32_t), allocatable, target :: edges(:, :)
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    if (present(options)) call_options = options
+    if (refuse_data(data, map, user, mesh%point_count(), parameterize, weights, parameters, errors, progress, &
+        stat, errmsg)) return
+    call_options%parameterize = data%parameterize
+    call_options%weights = data%weights
+    call_options%progress = data%progress
+    call_options%user = data%user
+    call_options%out_parameters = data%out_parameters
+    call_options%out_errors = data%out_errors
+    if (present(control_mesh)) call_options%control_mesh = control_mesh%get()
+    if (present(sharp_edges)) then
+      if (refuse_extent(size(sharp_edges, 1, c_size_t), 2_c_size_t, "the first extent of sharp_edges", stat, &
+          errmsg)) return
+      edges = sharp_edges - 1
+      call_options%sharp_edges = c_loc(edges)
+      call_options%sharp_edge_count = size(edges, 2, c_size_t)
+    end if
+    status = c_d1rc_fit(mesh%get(), call_options, handle, report)
+    if (status >= 0) call surface%take(handle)
+    call conclude_fit(status, report, stat, errmsg)
   end subroutine
 
   ! ---------------------------------------------------------------------------------------------------------

@@ -2225,7 +2225,7 @@ typedef struct planish_pht_convert_options {
 } planish_pht_convert_options;
 
 /**
- * Options of D1RC-splines. Fill with planish_d1rc_options_init(), then change what you need.
+ * Options of D1RC-splines and of fits by them. Fill with planish_d1rc_options_init(), then change what you need.
  */
 typedef struct planish_d1rc_options {
     /**
@@ -2271,6 +2271,42 @@ typedef struct planish_d1rc_options {
      */
     void *user;
     /**
+     * Fits only: the largest error allowed at the nodes, positive, measured in tolerance_scale. Default 1e-3.
+     */
+    double tolerance;
+    /**
+     * Fits only: weight of the energy that determines control points without data, positive. Default 1e-5.
+     */
+    double smoothing;
+    /**
+     * Fits only: the control mesh to use as it is; NULL (default) for the mesh itself with fewer nodes, its boundary
+     * and sharp edges kept.
+     */
+    const struct planish_mesh *control_mesh;
+    /**
+     * Fits only: a positive weight for each node; NULL (default) for all 1.
+     */
+    const double *weights;
+    /**
+     * Fits only: receives the (u,v) at which the error of each node is measured: two numbers for each node, or NULL
+     * (default). Written on success only.
+     */
+    double *out_parameters;
+    /**
+     * Fits only: receives the error of each node in model units: one number for each node, or NULL (default).
+     * Written on success only.
+     */
+    double *out_errors;
+    /**
+     * Fits only: vertices of the control mesh that is made, at least 3; 0 (default) for as many as the tolerance
+     * takes.
+     */
+    size_t control_count;
+    /**
+     * Fits only: most vertices of a control mesh that is made, at least 3. Default 100000.
+     */
+    size_t max_control_count;
+    /**
      * 1, 2 or 3. Default 3.
      */
     uint32_t degree;
@@ -2286,6 +2322,15 @@ typedef struct planish_d1rc_options {
      * A planish_d1rc_sharp. Default PLANISH_D1RC_SHARP_AUTOMATIC.
      */
     uint32_t sharp;
+    /**
+     * Fits only: a planish_tolerance_scale. Default PLANISH_TOLERANCE_SCALE_RELATIVE.
+     */
+    uint32_t tolerance_scale;
+    /**
+     * Fits only: sweeps in each round in which nodes move to their foot points and those with large errors gain
+     * weight. Default 3.
+     */
+    uint32_t correction_sweeps;
     /**
      * Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
      */
@@ -4934,6 +4979,32 @@ enum planish_status planish_d1rc_copy_configuration(const struct planish_surface
                                                     uint32_t *out_edges,
                                                     size_t count,
                                                     size_t *out_count);
+
+/**
+ * Fits a D1RC-spline to the shape of a mesh within a tolerance: control points by least squares over a control mesh
+ * that is given, or that grows until the tolerance is met. Nodes beyond the edges of the control mesh, which cuts
+ * corners of the boundary, are measured at the nearest place on it.
+ *
+ * mesh:        a disk, possibly with holes; parameterized first if it has no parameters and no control mesh is
+ *              given.
+ * options:     NULL for the defaults; corners must be NULL. sharp_edges and sharp_angle are those of the control
+ *              mesh if it is given, else of the mesh, and all of them stay sharp. parameterize NULL means a circle
+ *              with one stretch step.
+ * out_surface: receives a new surface; destroy with planish_surface_free().
+ * out_report:  receives what the fit did and how good it is; NULL for no report. cell_count is that of the faces.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_FOLDED_PARAMETERS, PLANISH_STATUS_TOLERANCE_NOT_MET or
+ * PLANISH_STATUS_STAGNATED (the best surface found is there), or an error: PLANISH_STATUS_NULL_POINTER,
+ * PLANISH_STATUS_INVALID_ARGUMENT (an option), PLANISH_STATUS_INDEX and PLANISH_STATUS_TOPOLOGY (sharp edges; the
+ * index is the edge), PLANISH_STATUS_DEGENERATE (a triangle is flat or turned over in the parameters; it is the
+ * index), PLANISH_STATUS_SINGULAR, PLANISH_STATUS_VERSION, PLANISH_STATUS_CANCELLED, or what
+ * planish_mesh_parameterize() and planish_d1rc_new() return.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_d1rc_fit(const struct planish_mesh *mesh,
+                                     const struct planish_d1rc_options *options,
+                                     struct planish_surface **out_surface,
+                                     struct planish_fit_report *out_report);
 
 #ifdef __cplusplus
 }  // extern "C"

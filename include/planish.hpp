@@ -1057,6 +1057,15 @@ inline fitted tensor_fit_field(const mesh &mesh, const values<double> &values, s
   });
 }
 
+/// Fits a D1RC-spline to the shape of a mesh: a triangular control mesh, sharp edges kept. A mesh without parameters
+/// is parameterized first.
+inline fitted d1rc_fit(const mesh &mesh, const planish_d1rc_options &options = defaults<planish_d1rc_options>(),
+                       const progress &hear = {}) {
+  return detail::fit(options, hear, [&](const planish_d1rc_options *given, auto out, auto report) {
+    return planish_d1rc_fit(mesh.get(), given, out, report);
+  });
+}
+
 /// Fits a PHT-spline to the shape of a mesh: cells as small as the shape asks. A mesh without parameters is
 /// parameterized first.
 inline fitted pht_fit(const mesh &mesh, const planish_pht_options &options = defaults<planish_pht_options>(),

@@ -139,6 +139,6 @@ fn a_fit_of_a_piece_of_fandisk_keeps_its_creases() {
     let relative = |fit: &D1rcFit| {
         (fit.report.max_error / fit.report.diagonal, fit.report.rms_error / fit.report.diagonal)
     };
-    eprintln!("sharp {:.2e?}, smooth {:.2e?}", relative(&sharp), relative(&smooth));
+    eprintln!("sharp {:?}, smooth {:?}", relative(&sharp), relative(&smooth));
     assert!(sharp.report.rms_error <= 0.5 * smooth.report.rms_error);
 }

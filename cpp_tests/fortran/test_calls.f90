@@ -44,6 +44,7 @@ program test_calls
   call meshes_are_repaired()
   call meshes_are_cut()
   call meshes_become_coarser()
+  call meshes_are_fitted_by_d1rc_splines()
   call fields_have_names()
   call parameters_are_set_and_made()
   call shapes_are_fitted()
@@ -191,6 +192,28 @@ contains
     call mesh%decimate(coarse, options, report, stat=stat)
     call check(stat == PLANISH_STATUS_STAGNATED .or. coarse%point_count() == 3, "as coarse as it gets")
     call check(coarse%point_count() == 3 + report%excess_count, "excess_count")
+  end subroutine
+
+  subroutine meshes_are_fitted_by_d1rc_splines()
+    type(planish_mesh_t) :: mesh
+    type(planish_surface_t) :: surface
+    type(planish_d1rc_options) :: options
+    type(planish_fit_report) :: report
+    real(real64) :: errors(side**2)
+    integer(int32) :: ridge(2, side - 1)
+    integer :: stat, i
+    mesh = sheet()
+    options%control_count = 40
+    options%tolerance = 1e-1_real64
+    call planish_d1rc_fit(mesh, surface, options, report, errors=errors)
+    call check(report%coefficient_count == 40 .and. maxval(errors) <= report%tolerance, "planish_d1rc_fit")
+    ! a row of edges across the sheet
+    ridge = reshape([(4 * side + i, 4 * side + i + 1, i=1, side - 1)], shape(ridge))
+    call planish_d1rc_fit(mesh, surface, options, report, sharp_edges=ridge, stat=stat)
+    call check(stat == PLANISH_STATUS_OK .and. surface%kind() == PLANISH_KIND_D1RC, "with a ridge")
+    call planish_d1rc_fit(mesh, surface, options, report, control_mesh=mesh)
+    call check(report%coefficient_count == side**2, "with a control mesh")
+    call surface%free()
   end subroutine
 
   subroutine fields_have_names()

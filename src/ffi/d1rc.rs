@@ -8,7 +8,9 @@ use super::guard::guard;
 use super::mesh::planish_mesh;
 use super::progress::with_control;
 use super::surface::{planish_surface, query_surface};
-use super::{planish_parameterize_options, planish_progress, planish_status};
+use super::{planish_parameterize_options, planish_progress, planish_status, planish_tolerance_scale};
+use crate::fit::d1rc::D1rcFitOptions;
+
 use crate::parameterize::{ParameterizeOptions, parameterize};
 use crate::surface::d1rc::{Boundary, D1rcMode, D1rcOptions, D1rcSurface, SharpRule, sharp_edges};
 use glam::DVec2;
@@ -50,7 +52,7 @@ pub enum planish_d1rc_sharp {
     Additive = 3,
 }
 
-/// Options of D1RC-splines. Fill with planish_d1rc_options_init(), then change what you need.
+/// Options of D1RC-splines and of fits by them. Fill with planish_d1rc_options_init(), then change what you need.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct planish_d1rc_options {
@@ -76,6 +78,26 @@ pub struct planish_d1rc_options {
     pub progress: planish_progress,
     /// Handed to progress as it is.
     pub user: *mut c_void,
+    /// Fits only: the largest error allowed at the nodes, positive, measured in tolerance_scale. Default 1e-3.
+    pub tolerance: f64,
+    /// Fits only: weight of the energy that determines control points without data, positive. Default 1e-5.
+    pub smoothing: f64,
+    /// Fits only: the control mesh to use as it is; NULL (default) for the mesh itself with fewer nodes, its boundary
+    /// and sharp edges kept.
+    pub control_mesh: *const planish_mesh,
+    /// Fits only: a positive weight for each node; NULL (default) for all 1.
+    pub weights: *const f64,
+    /// Fits only: receives the (u,v) at which the error of each node is measured: two numbers for each node, or NULL
+    /// (default). Written on success only.
+    pub out_parameters: *mut f64,
+    /// Fits only: receives the error of each node in model units: one number for each node, or NULL (default).
+    /// Written on success only.
+    pub out_errors: *mut f64,
+    /// Fits only: vertices of the control mesh that is made, at least 3; 0 (default) for as many as the tolerance
+    /// takes.
+    pub control_count: usize,
+    /// Fits only: most vertices of a control mesh that is made, at least 3. Default 100000.
+    pub max_control_count: usize,
     /// 1, 2 or 3. Default 3.
     pub degree: u32,
     /// A planish_d1rc_mode. Default PLANISH_D1RC_MODE_REPRODUCING.
@@ -84,21 +106,28 @@ pub struct planish_d1rc_options {
     pub boundary: u32,
     /// A planish_d1rc_sharp. Default PLANISH_D1RC_SHARP_AUTOMATIC.
     pub sharp: u32,
+    /// Fits only: a planish_tolerance_scale. Default PLANISH_TOLERANCE_SCALE_RELATIVE.
+    pub tolerance_scale: u32,
+    /// Fits only: sweeps in each round in which nodes move to their foot points and those with large errors gain
+    /// weight. Default 3.
+    pub correction_sweeps: u32,
     /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
     pub thread_count: u32,
     /// 0.
     pub reserved: u32,
 }
 
-record!(planish_d1rc_options, 104, {
+record!(planish_d1rc_options, 176, {
     struct_size: 0, sharp_edges: 8, sharp_edge_count: 16, corners: 24, corner_count: 32, sharp_angle: 40,
-    sharp_weight: 48, parameterize: 56, progress: 64, user: 72, degree: 80, mode: 84, boundary: 88, sharp: 92,
-    thread_count: 96, reserved: 100,
+    sharp_weight: 48, parameterize: 56, progress: 64, user: 72, tolerance: 80, smoothing: 88, control_mesh: 96,
+    weights: 104, out_parameters: 112, out_errors: 120, control_count: 128, max_control_count: 136, degree: 144,
+    mode: 148, boundary: 152, sharp: 156, tolerance_scale: 160, correction_sweeps: 164, thread_count: 168,
+    reserved: 172,
 });
 
 impl Default for planish_d1rc_options {
     fn default() -> Self {
-        let core = D1rcOptions::default();
+        let (core, fit) = (D1rcOptions::default(), D1rcFitOptions::default());
         Self {
             struct_size: size_of::<Self>(),
             sharp_edges: std::ptr::null(),
@@ -110,10 +139,20 @@ impl Default for planish_d1rc_options {
             parameterize: std::ptr::null(),
             progress: None,
             user: std::ptr::null_mut(),
+            tolerance: fit.tolerance.value,
+            smoothing: fit.smoothing,
+            control_mesh: std::ptr::null(),
+            weights: std::ptr::null(),
+            out_parameters: std::ptr::null_mut(),
+            out_errors: std::ptr::null_mut(),
+            control_count: fit.control_count,
+            max_control_count: fit.max_control_count,
             degree: core.degree as u32,
             mode: planish_d1rc_mode::Reproducing as u32,
             boundary: planish_d1rc_boundary::Phantom as u32,
             sharp: planish_d1rc_sharp::Automatic as u32,
+            tolerance_scale: planish_tolerance_scale::Relative as u32,
+            correction_sweeps: fit.correction_sweeps as u32,
             thread_count: 0,
             reserved: 0,
         }
@@ -121,7 +160,7 @@ impl Default for planish_d1rc_options {
 }
 
 impl planish_d1rc_options {
-    fn to_core(self) -> Result<D1rcOptions, ArgumentError> {
+    pub(super) fn to_core(self) -> Result<D1rcOptions, ArgumentError> {
         if self.reserved != 0 {
             return Err(ArgumentError::Reserved { record: Self::NAME, given: self.reserved });
         }
@@ -138,7 +177,7 @@ impl planish_d1rc_options {
 
     /// # Safety
     /// The record is NULL or as the header says.
-    unsafe fn map(&self) -> Result<ParameterizeOptions, ArgumentError> {
+    pub(super) unsafe fn map(&self) -> Result<ParameterizeOptions, ArgumentError> {
         // SAFETY: the caller's promise; NULL gives the defaults.
         let given = unsafe { options(self.parameterize) }?;
         match given.node_weights.is_null() {
@@ -152,7 +191,11 @@ impl planish_d1rc_options {
 ///
 /// # Safety
 /// `at` is NULL or points to `count` pairs.
-unsafe fn edges(at: *const u32, count: usize, name: &'static str) -> Result<Vec<[u32; 2]>, ArgumentError> {
+pub(super) unsafe fn edges(
+    at: *const u32,
+    count: usize,
+    name: &'static str,
+) -> Result<Vec<[u32; 2]>, ArgumentError> {
     // SAFETY: the caller's promise.
     unsafe { copy_rows(at, count, 2, name, |pair: [u32; 2]| pair) }
 }

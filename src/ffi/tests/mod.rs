@@ -2,6 +2,7 @@
 
 mod curves;
 mod d1rc;
+mod d1rc_fits;
 mod decimations;
 mod fields;
 mod fits;

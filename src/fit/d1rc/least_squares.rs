@@ -10,7 +10,7 @@
 
 use crate::control::{Cancelled, Pool, Watch};
 use crate::linalg::SymbolicCholesky;
-use crate::mesh::Mesh;
+use crate::mesh::{HalfEdge, Mesh};
 use crate::surface::d1rc::D1rcSurface;
 use glam::DVec2;
 use rayon::prelude::*;
@@ -73,14 +73,15 @@ impl Energy {
             (b - a).perp_dot(c - a)
         };
         let whole: f64 = (0..triangles.len()).map(double_area).sum();
-        let half_edges =
-            (0..triangles.len()).flat_map(|t| [0, 1, 2].map(|c| crate::mesh::HalfEdge::new(t, c)));
+        let ordered = |&[a, b]: &[u32; 2]| [a.min(b), a.max(b)];
+        let mut sharp: Vec<[u32; 2]> = sharp_edges.iter().map(ordered).collect();
+        sharp.sort_unstable();
+        let half_edges = (0..triangles.len()).flat_map(|t| [0, 1, 2].map(|c| HalfEdge::new(t, c)));
         let inner = half_edges.filter_map(|edge| Some((edge, topology.twin(edge)?))).filter(|(e, f)| e < f);
         let rows = inner.map(|(edge, twin)| {
             let ends = [edge.origin(triangles), edge.target(triangles)];
             let tips = [edge, twin].map(|side| side.previous().origin(triangles));
-            let is_sharp = sharp_edges.iter().any(|&[a, b]| ends == [a, b] || ends == [b, a]);
-            let share: f64 = if is_sharp { SHARP_SHARE } else { 1.0 };
+            let share: f64 = if sharp.binary_search(&ordered(&ends)).is_ok() { SHARP_SHARE } else { 1.0 };
             let areas = double_area(edge.triangle()) + double_area(twin.triangle());
             let scale = (0.5 * share / whole).sqrt() * areas;
             jump(ends, tips, uv).map(|(node, number)| (node, scale * number))
@@ -109,7 +110,8 @@ fn jump([a, b]: [u32; 2], tips: [u32; 2], uv: &[DVec2]) -> [(u32, f64); 4] {
     [(a, at_a), (b, at_b), (c, at_c), (d, at_d)]
 }
 
-/// The control points, three components each, with an energy and its weight mu W; none if samples and energy leave them undetermined.
+/// The control points, three components each, with an energy and its weight mu W; none if samples and energy leave
+/// them undetermined.
 pub fn solve(
     surface: &D1rcSurface,
     samples: &Samples,

@@ -28,6 +28,7 @@ const SOURCES: &[&str] = &[
     "pht.rs",
     "pht_parts.rs",
     "d1rc.rs",
+    "d1rc_fit.rs",
 ];
 
 fn main() -> ExitCode {
