@@ -256,8 +256,8 @@ FOLLOWS(planish_step_options, out_report, schema);
 FOLLOWS(planish_step_options, schema, unit);
 FOLLOWS(planish_step_options, unit, max_coefficients);
 FOLLOWS(planish_step_options, max_coefficients, form);
-FOLLOWS(planish_step_options, form, reserved);
-FOLLOWS(planish_step_options, reserved, tolerance);
+FOLLOWS(planish_step_options, form, level_spread);
+FOLLOWS(planish_step_options, level_spread, tolerance);
 LAST(planish_step_options, tolerance);
 
 FIRST(planish_step_report);
