@@ -52,9 +52,9 @@ fn control_mesh() -> Mesh {
 fn random_points(surface: &D1rcSurface) -> Vec<DVec2> {
     let mut random = Random::new(5);
     let domain = surface.domain();
-    let mut next = || domain.min + domain.size() * DVec2::new(random.unit(), random.unit());
+    let next = || domain.min + domain.size() * DVec2::new(random.unit(), random.unit());
     let trims = &surface.region().trims;
-    std::iter::repeat_with(|| next())
+    std::iter::repeat_with(next)
         .filter(|&uv| trims.contains(uv) && surface.contains(uv))
         .take(POINTS)
         .collect()
@@ -118,7 +118,7 @@ fn run(mesh: &Mesh, options: &D1rcOptions) {
         "{:12} {:>6} {:>9} {:>9.1} {:>12.0} {:>12.0} {:>12.0} {:>9.2}  ({} faces)",
         format!("{:?}", options.mode),
         options.degree,
-        surface.space().configurations.len(),
+        surface.space().configurations().len(),
         1e3 * build,
         POINTS as f64 / values,
         POINTS as f64 / tangents,

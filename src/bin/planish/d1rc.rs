@@ -109,6 +109,6 @@ fn table(arguments: &D1rcArguments, mesh: &Mesh, sharp: &[[u32; 2]], surface: &D
     table.row("faces", mesh.triangles().len().to_string());
     table.row("sharp edges", sharp.len().to_string());
     table.row("degree", surface.degree().to_string());
-    table.row("functions", surface.space().configurations.len().to_string());
+    table.row("functions", surface.space().configurations().len().to_string());
     table
 }

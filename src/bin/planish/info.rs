@@ -112,9 +112,9 @@ fn d1rc_rows(d1rc: &D1rcSurface, table: &mut Table) {
     table.row("kind", "D1RC-spline".to_owned());
     table.row("degree", d1rc.degree().to_string());
     table.row("control points", space.vertex_count().to_string());
-    table.row("faces", space.recipe.triangles.len().to_string());
-    table.row("sharp edges", space.recipe.sharp_edges.len().to_string());
-    table.row("functions", space.configurations.len().to_string());
+    table.row("faces", space.recipe().triangles.len().to_string());
+    table.row("sharp edges", space.recipe().sharp_edges.len().to_string());
+    table.row("functions", space.configurations().len().to_string());
 }
 
 fn pht_rows(surface: &PhtSurface, table: &mut Table) {

@@ -37,26 +37,26 @@ pub struct Recipe {
 #[derive(Debug, Clone)]
 pub struct Space {
     /// What it is made of.
-    pub recipe: Recipe,
+    pub(crate) recipe: Recipe,
     /// The places of all knots; the first are those of the vertices.
-    pub places: Vec<DVec2>,
+    pub(crate) places: Vec<DVec2>,
     /// The functions that are not zero everywhere on the domain.
-    pub configurations: Vec<Configuration>,
+    pub(crate) configurations: Vec<Configuration>,
     /// The faces of the domain. An edge of a crease that no other touches is halved, and its faces with it.
-    pub locator: Locator,
+    pub(crate) locator: Locator,
     /// By face of the domain, the face of the mesh that it is a part of.
-    pub parents: Vec<u32>,
+    pub(crate) parents: Vec<u32>,
     /// Where the functions are not zero.
-    pub regions: Regions,
+    pub(crate) regions: Regions,
     /// Whether values are divided by the sum of the functions.
-    pub is_rational: bool,
+    pub(crate) is_rational: bool,
     /// Smallest sum in the domain; 0 for polynomial surfaces.
     least_sum: f64,
     /// The faces of the domain on which a surface is best shown: all, in the mode `Paper` those with inner vertices
     /// only on which there is a surface.
-    pub shown: Vec<u32>,
+    pub(crate) shown: Vec<u32>,
     /// By vertex: whether its knots are repeated.
-    pub is_clamped: Vec<bool>,
+    pub(crate) is_clamped: Vec<bool>,
     kernel: Kernel,
 }
 
@@ -105,6 +105,21 @@ impl Space {
         Ok(space)
     }
 
+    /// What it is made of.
+    pub fn recipe(&self) -> &Recipe {
+        &self.recipe
+    }
+
+    /// The functions that are not zero everywhere on the domain.
+    pub fn configurations(&self) -> &[Configuration] {
+        &self.configurations
+    }
+
+    /// The places of all knots; the first are those of the vertices.
+    pub fn knots(&self) -> &[DVec2] {
+        &self.places
+    }
+
     /// The degree.
     pub fn degree(&self) -> usize {
         self.recipe.options.degree
@@ -116,7 +131,7 @@ impl Space {
     }
 
     /// The face of the domain that holds a point, and the side from which limits are taken there.
-    pub fn find(&self, uv: DVec2) -> Option<(u32, Site)> {
+    pub(super) fn find(&self, uv: DVec2) -> Option<(u32, Site)> {
         let found = self.locator.find(uv)?;
         (!self.is_rational || self.sum_at(found) > self.least_sum).then_some(found)
     }
@@ -142,7 +157,7 @@ impl Space {
     /// Hands over the functions that may not be zero on a face with their jets at some of its points, up to the
     /// derivatives of `order`. Weights are not in them.
     #[inline(always)]
-    pub fn each_function<const L: usize>(
+    pub(super) fn each_function<const L: usize>(
         &self,
         face: u32,
         sites: &[Site; L],
@@ -159,7 +174,7 @@ impl Space {
 
     /// A function at some points, without its weight; None where it is zero at all of them.
     #[inline(always)]
-    pub fn jets<const L: usize>(
+    pub(super) fn jets<const L: usize>(
         &self,
         function: u32,
         sites: &[Site; L],

@@ -160,8 +160,11 @@ fn space(
     Space::new(Recipe { uv, triangles, options, sharp_edges: sharp.to_vec(), corners: Vec::new() })
 }
 
-/// Parameter meshes of all sorts, by name.
-fn meshes() -> Vec<(&'static str, Vec<DVec2>, Vec<[u32; 3]>)> {
+/// Name, places, faces.
+type NamedMesh = (&'static str, Vec<DVec2>, Vec<[u32; 3]>);
+
+/// Parameter meshes of all sorts.
+fn meshes() -> Vec<NamedMesh> {
     let (moved, flipped) = grid([9, 8], 0.3, 3, |_| true);
     let (even, turned) = grid([8, 8], 0.0, 5, |_| true);
     let squeezed = moved.iter().map(|p| DVec2::from_angle(0.4).rotate(DVec2::new(p.x, p.y / 20.0))).collect();
