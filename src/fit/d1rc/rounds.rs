@@ -41,7 +41,12 @@ pub enum Source {
 impl Source {
     pub fn new(mesh: &Mesh, options: &D1rcFitOptions, control: &mut Control) -> Result<Self, D1rcFitError> {
         let sharp_edges_of = |mesh: &Mesh| {
-            let found = options.sharp_angle.map(|angle| mesh.sharp_edges(angle)).unwrap_or_default();
+            let mut known: Vec<[u32; 2]> =
+                options.sharp_edges.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect();
+            known.sort_unstable();
+            let mut found = options.sharp_angle.map(|angle| mesh.sharp_edges(angle)).unwrap_or_default();
+            found.retain(|edge| known.binary_search(edge).is_err());
+            // those given come first: errors tell their places
             options.sharp_edges.iter().copied().chain(found).collect()
         };
         if let Some(given) = options.control_mesh {
