@@ -74,7 +74,7 @@ fn print_row(name: &str, mesh: &Mesh, fit: &D1rcFit) {
 
 /// Errors at the parameters of the fit with the vertices that the control mesh kept as control points.
 fn plain(mesh: &Mesh, fit: &D1rcFit) -> DataErrors {
-    let (recipe, control_mesh) = (&fit.surface.space().recipe, &fit.control_mesh);
+    let (recipe, control_mesh) = (fit.surface.space().recipe(), &fit.control_mesh);
     let surface = D1rcSurface::from_mesh(control_mesh, &recipe.options, &fit.sharp_edges, &[]);
     let surface = surface.expect("the fit began with it");
     let values: Vec<f64> = mesh.points().iter().flat_map(|p| p.to_array()).collect();

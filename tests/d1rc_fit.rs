@@ -22,7 +22,7 @@ fn errors(surface: &D1rcSurface, mesh: &Mesh, fit: &D1rcFit) -> DataErrors {
 
 /// The errors with the vertices of the control mesh as control points, at the parameters of the fit.
 fn plain(mesh: &Mesh, fit: &D1rcFit) -> DataErrors {
-    let options = fit.surface.space().recipe.options;
+    let options = fit.surface.space().recipe().options;
     errors(&D1rcSurface::from_mesh(&fit.control_mesh, &options, &fit.sharp_edges, &[]).unwrap(), mesh, fit)
 }
 
@@ -50,7 +50,7 @@ fn a_control_mesh_from_elsewhere_serves_as_well() {
     let plain = plain(&fine, &fit);
     let relative = |error: f64| error / fit.report.diagonal;
     eprintln!("given: {:.2e}, plain {:.2e}", relative(fit.report.max_error), relative(plain.max));
-    assert_eq!(fit.surface.space().recipe.triangles, coarse.triangles());
+    assert_eq!(fit.surface.space().recipe().triangles, coarse.triangles());
     assert!(fit.report.max_error <= 0.5 * plain.max, "{} against {}", fit.report.max_error, plain.max);
 }
 

@@ -53,9 +53,10 @@ pub struct Frame {
 /// Clones of clamped knots are this close, against the smallest height of a face there: near enough for links to
 /// see each cluster as one point, far enough for the predicates not to need all their digits.
 const CLUSTER: f64 = 0.01;
-/// By ring, how many steps a phantom knot stands aside, towards the next of its ring. Knots straight outside a vertex would
-/// be collinear with it and the edge behind it, and the surface nearly kinked along that line.
-const ASIDE: [f64; 3] = [0.82, 0.34, 0.72];
+/// By ring, how far a phantom knot stands aside, as a share of the way to the next of its ring. Knots straight outside
+/// a vertex would be collinear with it and the edge behind it, and the surface nearly kinked along that line; farther
+/// aside they make fits worse beside the border.
+const ASIDE: [f64; 3] = [0.06, 0.02, 0.05];
 /// Corners sharper than this (the sine of half the angle) do not push their clones any farther.
 const SHARPEST: f64 = 0.25;
 /// Phantom rings shrink to half this often before the boundary is refused.
@@ -351,8 +352,7 @@ impl<'a> Builder<'a> {
                 let outside = |place: DVec2, inward: DVec2| place - ring as f64 * step * inward;
                 let here = outside(place, inward);
                 let next = next.map_or(here, |(place, inward)| outside(place, inward));
-                let aside = ASIDE[ring - 1] * step * (next - here).normalize_or_zero();
-                let offset = here + aside - place;
+                let offset = here.lerp(next, ASIDE[ring - 1]) - place;
                 let clone = self.copy(knot, place + offset);
                 self.frame.rows[clone as usize] = self.extrapolated(knot, offset);
                 clones.push(clone);
