@@ -676,7 +676,8 @@ TEST(MeshDecimate, KeepsParametersFieldsAndTopology) {
   bad = options;
   bad.reserved = 1;
   refuse(bad, PLANISH_STATUS_VERSION, -1, "reserved");
-  const std::uint32_t edges[] = {21, 22, 22, 23, 0, 500};
+  const std::uint32_t *corners = all.triangles.data();
+  const std::uint32_t edges[] = {corners[0], corners[1], corners[1], corners[2], 0, 500};
   bad = options;
   bad.sharp_edge_count = 3;
   refuse(bad, null, -1, "sharp_edges is NULL");

@@ -312,6 +312,7 @@ fn collapse_all(
 ) -> Result<usize, Cancelled> {
     let mut done = 0;
     while done < count {
+        control.report(done as f64 / count as f64, f64::NAN)?;
         // what was impossible may have become possible by changes further away than those that are followed
         let mut queue = Queue::of(collapsing, node_count);
         let before = done;
