@@ -324,6 +324,8 @@ typedef enum planish_outside {
     PLANISH_OUTSIDE_FLAG = 1,
     /**
      * The polynomial at the domain's end is continued, and the point flagged.
+     * A D1RC-spline, whose domain are the faces of its control mesh, is continued by its tangent plane at the nearest
+     * place of the border.
      */
     PLANISH_OUTSIDE_EXTRAPOLATE = 2,
 } planish_outside;

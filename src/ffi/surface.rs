@@ -179,6 +179,8 @@ pub enum planish_outside {
     /// NaN and a flag; the call returns PLANISH_STATUS_POINTS_OUTSIDE.
     Flag = 1,
     /// The polynomial at the domain's end is continued, and the point flagged.
+    /// A D1RC-spline, whose domain are the faces of its control mesh, is continued by its tangent plane at the nearest
+    /// place of the border.
     Extrapolate = 2,
 }
 
