@@ -624,8 +624,8 @@ module planish
     integer(c_size_t) :: max_coefficients = 4000000 !! Most control points of PLANISH_STEP_FORM_TENSOR
     integer(c_int32_t) :: form = 0 !! A planish_step_form, what is written of a T-spline or PHT-spline
     integer(c_int32_t) :: level_spread = 1 !! By how much the levels of cells in one face of patches may differ
-    !> A D1RC-spline is written as a tensor surface fitted to it, off by at most this in model units; 0 takes 1e-3 of
-    !> the diagonal
+    !> A D1RC-spline is written as a tensor surface fitted within this, in model units, at the nodes of a fine
+    !> tessellation; 0 takes 1e-3 of the diagonal
     real(c_double) :: tolerance = 0
   end type
 

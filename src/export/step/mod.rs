@@ -90,8 +90,8 @@ pub struct StepOptions<'a> {
     pub level_spread: u32,
     /// Most control points that [`Form::Tensor`] may take.
     pub max_coefficients: usize,
-    /// A D1RC-spline is written as a tensor surface fitted to it, off by at most this in model units; 0 takes 1e-3
-    /// of the diagonal.
+    /// A D1RC-spline is written as a tensor surface fitted within this, in model units, at the nodes of a fine
+    /// tessellation; 0 takes 1e-3 of the diagonal.
     pub tolerance: f64,
 }
 
