@@ -41,7 +41,6 @@ pub mod control;
 pub mod curve;
 pub mod error;
 pub mod export;
-#[allow(unsafe_code, reason = "the border to C; nothing else may be unsafe")]
 pub mod ffi;
 pub mod fit;
 pub mod geometry;

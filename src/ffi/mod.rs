@@ -5,6 +5,7 @@
 //! functions in the order of the header. The documentation of a function is its safety contract: what each
 //! argument must be is said there once, for readers of the header.
 
+#![allow(unsafe_code, reason = "the border to C; nothing else may be unsafe")]
 #![allow(non_camel_case_types, reason = "these are the names of the header")]
 #![allow(
     clippy::missing_safety_doc,

@@ -264,11 +264,5 @@ fn all_sharp_edges_of_fandisk_stay() {
         ends.map(|(a, b)| mesh.points()[a].distance(mesh.points()[b as usize])).sum::<f64>() / 2.0
     };
     let [long, short] = [length(&mesh, &before), length(&coarse.piece.mesh, &after)];
-    eprintln!(
-        "fandisk: {} nodes, {} sharp edges of length {short:.4}, before {} of {long:.4}",
-        coarse.piece.nodes.len(),
-        kept.len(),
-        before.neighbours.iter().map(Vec::len).sum::<usize>() / 2
-    );
     assert!(short <= long && short >= 0.98 * long);
 }
