@@ -1,6 +1,5 @@
 use super::*;
 use crate::samples;
-use std::collections::BTreeSet;
 use std::path::Path;
 
 fn decimate(mesh: &Mesh, options: &DecimateOptions) -> Decimation {
@@ -249,7 +248,6 @@ fn all_sharp_edges_of_fandisk_stay() {
     assert_same_kind(&mesh, &coarse);
     let sharp = |mesh: &Mesh, options: &DecimateOptions| Features::of(mesh, options).unwrap();
     let before = sharp(&mesh, &options);
-    let kept: BTreeSet<[u32; 2]> = coarse.sharp_edges.iter().copied().collect();
     let after = sharp(&coarse.piece.mesh, &to(400).with_sharp_edges(&coarse.sharp_edges));
     // ends and junctions of chains stay, and the number of chains at each
     for (node, chain) in before.neighbours.iter().enumerate() {
