@@ -8,7 +8,7 @@ use planish::Control;
 use planish::control::Pool;
 use planish::fit::pht::{Estimator, PhtFit, PhtOptions, fit_mesh, fit_points};
 use planish::fit::report::Tolerance;
-use planish::fit::tessellation::{self, TensorOptions};
+use planish::fit::tensor::{self, TensorOptions};
 use planish::mesh::{MeshOptions, read};
 use planish::query::project::{ProjectOptions, Projector};
 use planish::samples::{Random, ridged_sheet, ridged_surface};
@@ -104,7 +104,7 @@ fn convert(folder: &str) {
         read(Path::new(&format!("{folder}/igea_disk_43k.ply")), &MeshOptions::default()).expect("a mesh");
     mesh.clear_parameters();
     let options = TensorOptions { fixed_grid: Some([93, 91]), ..TensorOptions::default() };
-    let fit = tessellation::fit_mesh(&mesh, &options, &mut Control::new(2)).expect("a fit");
+    let fit = tensor::fit_mesh(&mesh, &options, &mut Control::new(2)).expect("a fit");
     let (tensor, diagonal) = (fit.surface, fit.report.diagonal);
     let spans = [92, 90];
     println!("tensor fit: {} control points", tensor.coefficient_count());

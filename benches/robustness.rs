@@ -6,7 +6,7 @@
 use glam::DVec2;
 use planish::Control;
 use planish::fit::report::{Remarks, Tolerance};
-use planish::fit::tessellation::{TensorOptions, fit_mesh};
+use planish::fit::tensor::{TensorOptions, fit_mesh};
 use planish::mesh::Mesh;
 use planish::samples::{Random, grid};
 use std::f64::consts::TAU;

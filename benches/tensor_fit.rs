@@ -4,7 +4,7 @@
 
 use planish::Control;
 use planish::fit::report::Tolerance;
-use planish::fit::tessellation::{TensorOptions, fit_mesh};
+use planish::fit::tensor::{TensorOptions, fit_mesh};
 use planish::mesh::{MeshOptions, read};
 use std::path::Path;
 

@@ -2,7 +2,7 @@
 //! and with a report of the error that can be trusted.
 //!
 //! ```
-//! use planish::fit::tessellation::{TensorOptions, fit_mesh};
+//! use planish::fit::tensor::{TensorOptions, fit_mesh};
 //! use planish::surface::Surface;
 //! use planish::{Control, samples};
 //!

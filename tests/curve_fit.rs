@@ -1,7 +1,8 @@
 //! Curve fits against the measured table of the method.
 
 use planish::Control;
-use planish::fit::tessellation::{Method, TensorOptions, fit_curve};
+use planish::fit::curve::fit_curve;
+use planish::fit::tensor::{Method, TensorOptions};
 use std::f64::consts::PI;
 
 /// Knots, and sums of squared errors of the paper's equations and of least squares, with smoothing 1e-3.

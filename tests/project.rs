@@ -9,7 +9,7 @@ mod common;
 use glam::{DVec2, DVec3};
 use planish::Control;
 use planish::control::Pool;
-use planish::fit::tessellation::{TensorOptions, fit_mesh};
+use planish::fit::tensor::{TensorOptions, fit_mesh};
 use planish::knots::KnotVector;
 use planish::query::project::{ProjectOptions, Projector};
 use planish::samples::{Random, bumps};

@@ -4,10 +4,9 @@ mod common;
 
 use glam::{DVec2, DVec3};
 use planish::Control;
+use planish::fit::common::{FitError, Regularize};
 use planish::fit::report::{FitReport, Remarks, StopReason, Tolerance, ToleranceScale};
-use planish::fit::tessellation::{
-    Ends, FitError, Method, Regularize, TensorFit, TensorOptions, fit_field, fit_mesh, fit_points,
-};
+use planish::fit::tensor::{Ends, Method, TensorFit, TensorOptions, fit_field, fit_mesh, fit_points};
 use planish::mesh::{Mesh, MeshOptions, read};
 use planish::samples::{self, Random};
 use planish::surface::Surface;

@@ -147,7 +147,7 @@ fn draw_control_net(surface: &dyn Surface, picture: &mut Picture) {
 mod tests {
     use super::*;
     use crate::Control;
-    use crate::fit::tessellation::{TensorOptions, fit_mesh};
+    use crate::fit::tensor::{TensorOptions, fit_mesh};
     use crate::samples;
 
     /// How many pixels are nearly of a colour.

@@ -12,7 +12,7 @@ use super::{
     planish_eval_options, planish_flag, planish_section_ends, planish_status, planish_tensor_options,
 };
 use crate::curve::{Curve, EndRule, MAX_DERIVATIVE, interpolate};
-use crate::fit::tessellation::fit_curve;
+use crate::fit::curve::fit_curve;
 use crate::knots::KnotVector;
 use crate::surface::evaluate::OutsideRule;
 

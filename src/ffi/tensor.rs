@@ -11,10 +11,9 @@ use super::report::{FitOutputs, planish_fit_report};
 use super::surface::{planish_surface, query_surface};
 use super::{planish_parameterize_options, planish_progress, planish_status};
 use crate::Control;
+use crate::fit::common::{FitError, Regularize};
 use crate::fit::report::{Tolerance, ToleranceScale};
-use crate::fit::tessellation::{
-    Ends, Energy, FitError, Method, Regularize, TensorFit, TensorOptions, fit_field, fit_mesh, fit_points,
-};
+use crate::fit::tensor::{Ends, Energy, Method, TensorFit, TensorOptions, fit_field, fit_mesh, fit_points};
 use crate::knots::KnotVector;
 use crate::surface::tensor::{Axis, TensorError, TensorSurface};
 use glam::DVec2;

@@ -10,8 +10,8 @@ use super::planish_status;
 use super::report::write_pairs;
 use super::status::query;
 use super::tensor::planish_tolerance_scale;
+use crate::fit::common::FitError;
 use crate::fit::field::transfer::{Balance, FarRule, Transfer, TransferOptions, TransferReport};
-use crate::fit::tessellation::FitError;
 use glam::DVec3;
 
 /// Carries values from the nodes of a source mesh to target points, and forces on these back to the nodes. Made by

@@ -1,9 +1,11 @@
-//! Fitting: one measure of error for all methods, and a folder for each.
+//! Fitting: what all methods share, and a folder for each.
 
+pub mod common;
+pub mod curve;
 pub mod d1rc;
-pub mod errors;
 pub mod field;
 pub mod pht;
-pub mod report;
 pub mod skin;
-pub mod tessellation;
+pub mod tensor;
+
+pub use common::{errors, report};

@@ -5,10 +5,11 @@ use crate::{Failure, Outcome};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use planish::export::step::{Form, StepOptions, Unit};
+use planish::fit::common::Regularize;
 use planish::fit::d1rc::{self, D1rcFitOptions};
 use planish::fit::pht::{self, PhtOptions};
 use planish::fit::report::{FitReport, Remarks, StopReason, Tolerance, ToleranceScale};
-use planish::fit::tessellation::{self, Ends, Method, Regularize, TensorOptions};
+use planish::fit::tensor::{self, Ends, Method, TensorOptions};
 use planish::mesh::{Mesh, MeshOptions, MeshRepairs, read};
 use planish::parameterize::{Border, ParameterizeOptions};
 use planish::{Control, Error};
@@ -168,7 +169,7 @@ pub fn run(arguments: &FitArguments) -> Result<Outcome, Failure> {
 fn fit_by_family(mesh: &Mesh, arguments: &FitArguments, control: &mut Control) -> Result<Fit, Error> {
     match arguments.family {
         FamilyName::Tensor => {
-            let fit = tessellation::fit_mesh(mesh, &tensor_options(arguments), control)?;
+            let fit = tensor::fit_mesh(mesh, &tensor_options(arguments), control)?;
             let (report, parameters, errors) = (fit.report, fit.parameters, fit.errors);
             Ok(Fit { surface: fit.surface.into(), report, parameters, errors })
         }

@@ -1,6 +1,6 @@
 use super::*;
 use crate::Control;
-use crate::fit::tessellation::{TensorOptions, fit_mesh};
+use crate::fit::tensor::{TensorOptions, fit_mesh};
 use crate::knots::KnotVector;
 use crate::samples;
 use crate::surface::{Region, Trims};

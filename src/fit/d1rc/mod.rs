@@ -17,8 +17,9 @@ mod rounds;
 #[cfg(test)]
 mod tests;
 
-use super::report::{FitReport, Tolerance};
-use super::tessellation::{FitError, Regularize, check_values};
+use super::common::checks::check_values;
+use super::common::report::{FitReport, Tolerance};
+use super::common::{FitError, Regularize};
 use crate::control::{Cancelled, Control};
 use crate::error::ErrorKind;
 use crate::mesh::{DecimateError, Mesh};

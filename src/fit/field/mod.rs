@@ -1,6 +1,6 @@
 //! Fields on the nodes of one surface, fitted again and again.
 //!
-//! The least squares of [`super::tessellation`] on a fixed grid (`ferguson.md` 4 and 9) are linear in the values:
+//! The least squares of [`super::tensor`] on a fixed grid (`ferguson.md` 4 and 9) are linear in the values:
 //! ```text
 //! (N^T W N + (mu/12) E) c = N^T W x
 //! ```
@@ -10,17 +10,18 @@
 mod right_side;
 pub mod transfer;
 
-use super::report::{FitReport, Remarks, StopReason, Tolerance};
-use super::tessellation::energy::FreeFunctions;
-use super::tessellation::grid::{Ends, UniformBasis, UniformGrid};
-use super::tessellation::normal_equations::{NormalEquations, Samples, TensorBasis};
-use super::tessellation::samples::interior_places;
-use super::tessellation::{
-    Energy, FitError, LARGEST_GRID, NodeParameters, Regularize, TensorOptions, check_count, check_parameters,
-    check_values, check_weights, fit_field, fit_points, node_parameters,
-};
+use super::common::checks::{check_count, check_parameters, check_values, check_weights};
+use super::common::errors::{DataErrors, data_errors};
+use super::common::report::{FitReport, Remarks, StopReason, Tolerance};
+use super::common::samples::interior_places;
+use super::common::uniform::LARGEST_GRID;
+use super::common::uniform::energy::FreeFunctions;
+use super::common::uniform::grid::{UniformBasis, UniformGrid};
+use super::common::uniform::normal_equations::{NormalEquations, Samples, TensorBasis};
+use super::common::uniform::{Ends, Energy};
+use super::common::{FitError, NodeParameters, Regularize, node_parameters};
+use super::tensor::{TensorOptions, fit_field, fit_points};
 use crate::control::{Control, Pool, Watch};
-use crate::fit::errors::{DataErrors, data_errors};
 use crate::geometry::Bounds;
 use crate::knots::KnotVector;
 use crate::linalg::Cholesky;

@@ -5,9 +5,8 @@
 //! same rows read a solution at the data: the transpose, `W N c`.
 
 use crate::control::Pool;
-use crate::fit::tessellation::normal_equations::{ByCell, TensorBasis};
-use crate::fit::tessellation::samples::InteriorPlace;
-use crate::fit::tessellation::single_grid::interior_weight;
+use crate::fit::common::samples::{InteriorPlace, interior_weight};
+use crate::fit::common::uniform::normal_equations::{ByCell, TensorBasis};
 use crate::linalg::SolveMemory;
 use glam::DVec2;
 use rayon::prelude::*;

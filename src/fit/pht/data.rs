@@ -3,10 +3,10 @@
 //! With more coefficients than nodes the nodes alone say nothing (`parameterization.md` 6). The middle of a
 //! triangle of a shape is taken where a smooth surface would have it, above the facet.
 
-use super::super::tessellation::Frame;
-use super::super::tessellation::interior::{MeshData, heights_over, node_normals, triangle_sagittas};
-use super::super::tessellation::samples::bulge;
 use crate::control::Pool;
+use crate::fit::common::Frame;
+use crate::fit::common::interior::{MeshData, heights_over, node_normals, triangle_sagittas};
+use crate::fit::common::samples::bulge;
 use crate::geometry::{Bounds, Domain};
 use crate::mesh::Mesh;
 use crate::surface::Surface;

@@ -10,7 +10,7 @@
 use super::data::Data;
 use super::hermite_cell::{CellMatrix, CellSums, weights};
 use crate::control::{Pool, Watch};
-use crate::fit::tessellation::FitError;
+use crate::fit::common::FitError;
 use crate::linalg::SymbolicCholesky;
 use crate::surface::pht::{Cell, Matrix, TMesh, Topology};
 use glam::DVec2;

@@ -6,7 +6,7 @@
 
 use super::data::Data;
 use crate::control::Pool;
-use crate::fit::tessellation::FitError;
+use crate::fit::common::FitError;
 use crate::surface::pht::{TMesh, Topology, VertexKind};
 use glam::DVec2;
 use rayon::prelude::*;

@@ -19,10 +19,9 @@ pub(in crate::fit) mod refine;
 #[cfg(test)]
 mod tests;
 
-use super::report::{FitReport, Remarks, Tolerance};
-use super::tessellation::{
-    FitError, NodeParameters, Regularize, check_parameters, check_values, node_parameters,
-};
+use super::common::checks::{check_parameters, check_values};
+use super::common::report::{FitReport, Remarks, Tolerance};
+use super::common::{FitError, NodeParameters, Regularize, node_parameters};
 use crate::control::Control;
 use crate::mesh::Mesh;
 use crate::parameterize::{Border, ParameterizeOptions};

@@ -2,7 +2,7 @@
 
 use crate::ErrorKind;
 use crate::control::Cancelled;
-use crate::fit::tessellation::FitError;
+use crate::fit::common::FitError;
 use crate::query::project::ProjectError;
 
 /// A transfer is not possible.

@@ -1,12 +1,15 @@
 //! The same methods in one parameter: curves on uniform knots.
 
-use super::ferguson;
-use super::grid::{UniformBasis, UniformGrid};
-use super::{FitError, Frame, Method, SMOOTHING_LADDER, TensorOptions, check_options, check_values};
+use super::common::checks::{LEAST_RANGE, check_values};
+use super::common::errors::{DataErrors, summarize};
+use super::common::report::{FitReport, Remarks, StopReason};
+use super::common::uniform::ferguson;
+use super::common::uniform::grid::{UniformBasis, UniformGrid};
+use super::common::uniform::{Method, SMOOTHING_LADDER};
+use super::common::{FitError, Frame};
+use super::tensor::{TensorOptions, check_options};
 use crate::control::Control;
 use crate::curve::Curve;
-use crate::fit::errors::{DataErrors, summarize};
-use crate::fit::report::{FitReport, Remarks, StopReason};
 use crate::geometry::Bounds;
 use crate::linalg::SymbolicCholesky;
 use sprs::CsMat;
@@ -99,7 +102,7 @@ impl<'a> CurveProblem<'a> {
             return Err(FitError::ParametersNotFinite { index });
         }
         let range = u.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &u| (a.min(u), b.max(u)));
-        if range.1 - range.0 <= super::LEAST_RANGE * range.0.abs().max(range.1.abs()) {
+        if range.1 - range.0 <= LEAST_RANGE * range.0.abs().max(range.1.abs()) {
             return Err(FitError::DegenerateRange { axis: 'u', at: range.0 });
         }
         let bounds = Bounds::of_rows(values, dim);

@@ -3,8 +3,8 @@
 use super::single_grid::Candidate;
 use super::{FitError, Problem, TensorFit};
 use crate::control::{Control, Pool};
-use crate::fit::report::{FitReport, Remarks, StopReason};
-use crate::query::project::{ProjectOptions, Projector};
+use crate::fit::common::errors::max_distance;
+use crate::fit::common::report::{FitReport, Remarks, StopReason};
 use crate::surface::tensor::TensorSurface;
 use crate::surface::{Surface, Trims};
 use glam::DVec2;
@@ -221,23 +221,6 @@ impl Problem<'_> {
             parameters: std::mem::take(&mut self.uv),
             errors: best.errors.each,
         }
-    }
-}
-
-/// Largest closest-point distance from data to a surface; NaN if they cannot be projected.
-pub(in crate::fit) fn max_distance(
-    surface: &dyn Surface,
-    values: &[f64],
-    guesses: &[DVec2],
-    pool: &Pool,
-) -> f64 {
-    let options = ProjectOptions { guesses: Some(guesses), keep_trims: false, ..Default::default() };
-    let count = guesses.len();
-    let (mut uv, mut distances) = (vec![DVec2::ZERO; count], vec![0.0; count]);
-    let projector = Projector::new(surface);
-    match projector.and_then(|p| p.project(values, &options, &mut uv, &mut distances, pool)) {
-        Ok(_) => distances.into_iter().fold(0.0, f64::max),
-        Err(_) => f64::NAN,
     }
 }
 

@@ -1,12 +1,8 @@
 //! Errors between the nodes, and the part of them that flat facets explain.
 
-use super::Problem;
-use super::grid::UniformGrid;
+use super::errors::data_errors;
 use crate::control::Pool;
-use crate::fit::errors::data_errors;
 use crate::mesh::Mesh;
-use crate::surface::Trims;
-use crate::surface::tensor::TensorSurface;
 use crate::surface::{Surface, normal};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -55,17 +51,6 @@ impl MeshData<'_> {
     }
 }
 
-impl Problem<'_> {
-    /// Measures a surface between the nodes.
-    pub fn interior_errors(&self, surface: &TensorSurface, pool: &Pool) -> InteriorErrors {
-        let Some(mesh) = self.mesh else {
-            return InteriorErrors::default();
-        };
-        let data = MeshData { mesh, uv: &self.uv, values: self.values, is_shape: self.is_shape };
-        data.interior_errors(surface, pool)
-    }
-}
-
 /// Distances from places on facets to the tangent planes of the surface at their parameters. A map that
 /// stretches unevenly puts the mean of parameters beside the mean of places, along the surface: that is no
 /// error of the shape. Where the surface has no tangent plane the whole distance counts.
@@ -86,24 +71,6 @@ pub fn heights_over(surface: &dyn Surface, uv: &[DVec2], values: &[f64], pool: &
         });
     });
     heights
-}
-
-impl Problem<'_> {
-    /// Cells without data inside the loops of the mesh, or inside the box of scattered data: there the surface
-    /// is smooth guesswork.
-    pub fn empty_cell_count(&self, grid: &[UniformGrid; 2], trims: &Trims) -> usize {
-        let cells_v = grid[1].count - 1;
-        let mut is_empty = vec![true; (grid[0].count - 1) * cells_v];
-        for uv in &self.uv {
-            is_empty[grid[0].locate(uv.x).0 * cells_v + grid[1].locate(uv.y).0] = false;
-        }
-        let is_inside = |cell: usize| {
-            let middle = |grid: &UniformGrid, k: usize| grid.knot(k) + grid.step / 2.0;
-            let uv = DVec2::new(middle(&grid[0], cell / cells_v), middle(&grid[1], cell % cells_v));
-            self.data_box.contains(uv) && trims.contains(uv)
-        };
-        is_empty.iter().enumerate().filter(|&(cell, &empty)| empty && is_inside(cell)).count()
-    }
 }
 
 /// Centroid and three edge middles of each triangle.

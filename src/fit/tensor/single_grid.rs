@@ -1,10 +1,12 @@
 //! The fit on one grid: least squares at a fixed smoothing, the ladder of smoothings, the measure.
 
-use super::grid::{Ends, UniformBasis, UniformGrid};
-use super::normal_equations::{NormalEquations, Samples, TensorBasis};
-use super::{FitError, Method, Problem, SMOOTHING_LADDER, ferguson};
+use super::{Ends, FitError, Method, Problem, SMOOTHING_LADDER};
 use crate::control::{Pool, Watch};
-use crate::fit::errors::{DataErrors, data_errors};
+use crate::fit::common::errors::{DataErrors, data_errors};
+use crate::fit::common::samples::interior_weight;
+use crate::fit::common::uniform::ferguson;
+use crate::fit::common::uniform::grid::{UniformBasis, UniformGrid};
+use crate::fit::common::uniform::normal_equations::{NormalEquations, Samples, TensorBasis};
 use crate::knots::KnotVector;
 use crate::linalg::SymbolicCholesky;
 use crate::surface::Surface;
@@ -81,17 +83,6 @@ impl Problem<'_> {
         *surface.region_mut() = self.region();
         Ok(surface)
     }
-}
-
-/// Weight of a place inside a triangle against that of a node, as a multiple of the smoothing: well above the
-/// bending energy, which would let the surface swing, and so far below the nodes that it does not pull them.
-const INTERIOR_PER_SMOOTHING: f64 = 50.0;
-/// Its limit: places inside are estimates.
-const INTERIOR_MOST: f64 = 0.05;
-
-/// Weight of places inside triangles against that of nodes.
-pub fn interior_weight(smoothing: f64) -> f64 {
-    (INTERIOR_PER_SMOOTHING * smoothing).min(INTERIOR_MOST)
 }
 
 /// The normal equations of one grid, ready to be solved with any smoothing.

@@ -4,9 +4,7 @@
 //! many times the tolerance. Triangles are cut until their parts are as small as a cell, and the middles of the
 //! parts are fitted with a weight so small that nodes are not pulled off, but above the bending energy's.
 
-use super::Problem;
-use super::grid::UniformGrid;
-use super::interior::node_normals;
+use super::uniform::grid::UniformGrid;
 use crate::mesh::Mesh;
 use glam::{DVec2, DVec3};
 
@@ -17,14 +15,6 @@ pub struct InteriorPlace {
     pub shares: [f64; 3],
     /// The mean weight of the nodes.
     pub weight: f64,
-}
-
-/// Places inside triangles, in the frame, with the weights of their triangles.
-#[derive(Default)]
-pub struct InteriorData {
-    pub uv: Vec<DVec2>,
-    pub values: Vec<f64>,
-    pub weights: Vec<f64>,
 }
 
 /// Most parts along one side of a triangle; a guard against triangles of absurd length.
@@ -57,26 +47,15 @@ impl InteriorPlace {
     }
 }
 
-impl Problem<'_> {
-    /// The places inside triangles that are larger than the cells of a grid; `values` are those of the nodes.
-    pub fn interior_data(&self, grid: &[UniformGrid; 2], values: &[f64]) -> InteriorData {
-        let mut data = InteriorData::default();
-        let Some(mesh) = self.mesh else { return data };
-        let mut shape_normals = None;
-        for place in interior_places(mesh, &self.uv, grid, self.options.weights) {
-            data.uv.push(place.mean(|n| self.uv[n]));
-            data.weights.push(place.weight);
-            if self.is_shape {
-                let normals = shape_normals.get_or_insert_with(|| node_normals(mesh));
-                let corners = place.nodes.map(|n| DVec3::from_slice(&values[3 * n..]));
-                let normals = place.nodes.map(|n| normals[n].normalize_or_zero());
-                data.values.extend(bulge(corners, normals, place.shares).to_array());
-            } else {
-                data.values.extend((0..self.dim).map(|k| place.mean(|n| values[n * self.dim + k])));
-            }
-        }
-        data
-    }
+/// Weight of a place inside a triangle against that of a node, as a multiple of the smoothing: well above the
+/// bending energy, which would let the surface swing, and so far below the nodes that it does not pull them.
+const INTERIOR_PER_SMOOTHING: f64 = 50.0;
+/// Its limit: places inside are estimates.
+const INTERIOR_MOST: f64 = 0.05;
+
+/// Weight of places inside triangles against that of nodes.
+pub fn interior_weight(smoothing: f64) -> f64 {
+    (INTERIOR_PER_SMOOTHING * smoothing).min(INTERIOR_MOST)
 }
 
 /// Into how many parts each side is cut, so that parts are no longer than a cell; corners in cells.

@@ -8,8 +8,8 @@
 //! and the slopes are those of natural C2 splines: Xu from x along u, Xv from x along v, Xuv from Xv along u.
 //! This is an oblique projection, not least squares.
 
-use super::FitError;
 use super::grid::UniformGrid;
+use crate::fit::common::FitError;
 use crate::hermite;
 use crate::linalg::Entries;
 use glam::DVec2;

@@ -1,0 +1,109 @@
+//! Why data cannot be fitted, the same for every method.
+
+use crate::control::Cancelled;
+use crate::parameterize::ParameterizeError;
+
+/// Least number of data that determine anything worth calling a surface.
+pub(super) const LEAST_COUNT: usize = 3;
+
+/// A fit is not possible.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum FitError {
+    /// An option is out of its range.
+    #[error("{option} is {value}, it must be {range}")]
+    Option {
+        /// Name of the option.
+        option: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it may be.
+        range: &'static str,
+    },
+    /// Too few data.
+    #[error("{count} data are too few, at least {LEAST_COUNT} are needed")]
+    TooFew {
+        /// Data given.
+        count: usize,
+    },
+    /// Arrays do not fit together.
+    #[error("{count} numbers are given for {what}, {expected} are needed")]
+    Count {
+        /// The array.
+        what: &'static str,
+        /// Numbers given.
+        count: usize,
+        /// Numbers needed.
+        expected: usize,
+    },
+    /// A parameter is NaN or infinite.
+    #[error("the parameters of datum {index} are not finite")]
+    ParametersNotFinite {
+        /// The datum.
+        index: usize,
+    },
+    /// A value is NaN or infinite.
+    #[error("the values of datum {index} are not finite")]
+    ValuesNotFinite {
+        /// The datum.
+        index: usize,
+    },
+    /// A surface that is to be updated is not one of this fitter's.
+    #[error("the surface has other knots or another dimension than the fields of this fitter")]
+    OtherGrid,
+    /// A weight is not a positive number.
+    #[error("weight {index} is {weight}, it must be positive and finite")]
+    Weight {
+        /// The datum.
+        index: usize,
+        /// Its weight.
+        weight: f64,
+    },
+    /// All data have the same u or the same v.
+    #[error("all data have {axis} = {at}: the parameter range is degenerate")]
+    DegenerateRange {
+        /// The parameter.
+        axis: char,
+        /// The one value it has.
+        at: f64,
+    },
+    /// The data leave the surface undetermined.
+    #[error("the data do not determine a surface: all lie on one line in (u,v)")]
+    Singular,
+    /// The mesh cannot be parameterized.
+    #[error(transparent)]
+    Parameterize(#[from] ParameterizeError),
+    /// The progress callback asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+impl FitError {
+    /// The class of the error.
+    pub fn kind(&self) -> crate::ErrorKind {
+        use crate::ErrorKind;
+        match self {
+            Self::Option { .. } | Self::TooFew { .. } | Self::Count { .. } | Self::OtherGrid => {
+                ErrorKind::InvalidArgument
+            }
+            Self::Weight { weight, .. } if weight.is_finite() => ErrorKind::InvalidArgument,
+            Self::ParametersNotFinite { .. } | Self::ValuesNotFinite { .. } | Self::Weight { .. } => {
+                ErrorKind::NotFinite
+            }
+            Self::DegenerateRange { .. } => ErrorKind::Degenerate,
+            Self::Singular => ErrorKind::Singular,
+            Self::Parameterize(error) => error.kind(),
+            Self::Cancelled(_) => ErrorKind::Cancelled,
+        }
+    }
+
+    /// The offending datum.
+    pub fn index(&self) -> Option<usize> {
+        match *self {
+            Self::ParametersNotFinite { index }
+            | Self::ValuesNotFinite { index }
+            | Self::Weight { index, .. } => Some(index),
+            Self::Parameterize(ref error) => error.index(),
+            _ => None,
+        }
+    }
+}

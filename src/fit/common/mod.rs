@@ -1,0 +1,20 @@
+//! What all methods share: checks of the data, the frame, parameters of nodes, foot points, what lies between the
+//! nodes, one measure of error and one report.
+//!
+//! A method knows this folder and no other method.
+
+pub(in crate::fit) mod checks;
+mod error;
+pub mod errors;
+pub(in crate::fit) mod foot_points;
+mod frame;
+pub(in crate::fit) mod interior;
+mod parameters;
+pub mod report;
+pub(in crate::fit) mod samples;
+pub mod uniform;
+
+pub use error::FitError;
+pub(in crate::fit) use frame::Frame;
+pub use parameters::Regularize;
+pub(in crate::fit) use parameters::{NodeParameters, node_parameters};

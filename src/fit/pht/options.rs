@@ -1,0 +1,106 @@
+//! What a PHT fit may be asked for.
+
+use crate::fit::common::checks::{check_option, check_smoothing, check_tolerance};
+use crate::fit::common::report::Tolerance;
+use crate::fit::common::{FitError, Regularize};
+use crate::options::with_fields;
+use crate::parameterize::ParameterizeOptions;
+use crate::surface::pht::{MAX_GRID, MAX_LEVEL};
+
+/// What determines the jets at the basis vertices.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Estimator {
+    /// Least squares over all data with a weak plate energy: fewest coefficients.
+    #[default]
+    Global,
+    /// A quadratic fit around each datum, interpolated linearly (the paper): for comparison.
+    LocalQuadratic,
+    /// A weighted cubic fit around each basis vertex: no system to solve, for very large data.
+    LocalCubic,
+}
+
+/// Options of PHT fits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PhtOptions<'a> {
+    /// The largest error allowed at the data.
+    pub tolerance: Tolerance,
+    /// What determines the jets.
+    pub estimator: Estimator,
+    /// Weight of the plate energy of each cell, mapped to the unit cell; of [`Estimator::Global`]. Default 1e-3:
+    /// ten times more flattens, a hundred times less lets the surface swing where a cell has few data. Where cells
+    /// cannot be split any more it is lowered.
+    pub smoothing: f64,
+    /// Cells to start from, along u and v.
+    pub initial_grid: [usize; 2],
+    /// Deepest level of a cell.
+    pub max_level: u32,
+    /// Most cells.
+    pub max_cells: usize,
+    /// A cell with fewer samples is not split: nodes, and middles of triangles.
+    pub min_samples: usize,
+    /// Levels by which cells that share an edge may differ; 0 for any number.
+    pub grade: u32,
+    /// Sweeps of parameter correction in each round, for shapes of meshes.
+    pub correction_sweeps: usize,
+    /// What to do with parameters that came with the mesh.
+    pub regularize: Regularize,
+    /// How a mesh without parameters gets them; None for a circle, with one stretch step unless the tolerance is
+    /// fine and the plain map even.
+    pub parameterize: Option<ParameterizeOptions>,
+    /// A positive weight for each datum.
+    pub weights: Option<&'a [f64]>,
+    /// Whether to measure the closest-point distance of the nodes.
+    pub measure_distance: bool,
+}
+
+impl Default for PhtOptions<'_> {
+    fn default() -> Self {
+        Self {
+            tolerance: Tolerance::default(),
+            estimator: Estimator::default(),
+            smoothing: 1e-3,
+            initial_grid: [1, 1],
+            max_level: 12,
+            max_cells: 200_000,
+            min_samples: 2,
+            grade: 1,
+            correction_sweeps: 1,
+            regularize: Regularize::default(),
+            parameterize: None,
+            weights: None,
+            measure_distance: false,
+        }
+    }
+}
+
+impl<'a> PhtOptions<'a> {
+    with_fields! {
+        with_tolerance tolerance: Tolerance,
+        with_estimator estimator: Estimator,
+        with_smoothing smoothing: f64,
+        with_initial_grid initial_grid: [usize; 2],
+        with_max_level max_level: u32,
+        with_max_cells max_cells: usize,
+        with_min_samples min_samples: usize,
+        with_grade grade: u32,
+        with_correction_sweeps correction_sweeps: usize,
+        with_regularize regularize: Regularize,
+        with_parameterize parameterize: Option<ParameterizeOptions>,
+        with_weights weights: Option<&'a [f64]>,
+        with_measure_distance measure_distance: bool,
+    }
+
+    pub(super) fn check(&self) -> Result<(), FitError> {
+        check_tolerance(&self.tolerance)?;
+        check_smoothing(self.smoothing, true)?;
+        for count in self.initial_grid {
+            let holds = (1..=MAX_GRID).contains(&count);
+            check_option(holds, "initial_grid", count as f64, "between 1 and 4095")?;
+        }
+        let (level, most, samples) = (self.max_level, self.max_cells, self.min_samples);
+        let least = self.initial_grid[0] * self.initial_grid[1];
+        check_option(level <= MAX_LEVEL, "max_level", f64::from(level), "at most 20")?;
+        check_option(most >= least, "max_cells", most as f64, "at least the initial cells")?;
+        check_option(samples >= 1, "min_samples", samples as f64, "at least 1")
+    }
+}

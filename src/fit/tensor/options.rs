@@ -1,0 +1,93 @@
+//! What a tensor fit may be asked for.
+
+use super::{Ends, Energy, Method, SMOOTHING_LADDER};
+use crate::fit::common::checks::{check_buffer, check_grid, check_option, check_smoothing, check_tolerance};
+use crate::fit::common::report::Tolerance;
+use crate::fit::common::{FitError, Regularize};
+use crate::options::with_fields;
+use crate::parameterize::ParameterizeOptions;
+
+/// Options of tensor fits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TensorOptions<'a> {
+    /// The largest error allowed at the data.
+    pub tolerance: Tolerance,
+    /// Which equations determine the surface.
+    pub method: Method,
+    /// What happens at the ends of the knots.
+    pub ends: Ends,
+    /// Which second derivatives cost energy.
+    pub energy: Energy,
+    /// Weight mu of the energy; 0 takes the largest of [`SMOOTHING_LADDER`] that meets the tolerance (for
+    /// [`Method::Ferguson`]: 1e-3).
+    pub smoothing: f64,
+    /// How far the knots reach beyond the data, as a fraction of the data's range.
+    pub buffer: f64,
+    /// Most knots along one direction.
+    pub max_grid: usize,
+    /// Most unknowns of one grid.
+    pub max_coefficients: usize,
+    /// Knots along u and v to use without refinement.
+    pub fixed_grid: Option<[usize; 2]>,
+    /// Sweeps of parameter correction on each grid: nodes move to their foot points, then the fit is
+    /// repeated. The errors reported are then those at the corrected parameters.
+    pub correction_sweeps: usize,
+    /// What to do with parameters that came with the mesh.
+    pub regularize: Regularize,
+    /// How a mesh without parameters gets them.
+    pub parameterize: ParameterizeOptions,
+    /// A positive weight for each datum.
+    pub weights: Option<&'a [f64]>,
+    /// Whether to measure the closest-point distance of the nodes.
+    pub measure_distance: bool,
+}
+
+impl Default for TensorOptions<'_> {
+    fn default() -> Self {
+        Self {
+            tolerance: Tolerance::default(),
+            method: Method::default(),
+            ends: Ends::default(),
+            energy: Energy::default(),
+            smoothing: 0.0,
+            buffer: 0.10,
+            max_grid: 257,
+            max_coefficients: 257 * 257,
+            fixed_grid: None,
+            correction_sweeps: 0,
+            regularize: Regularize::default(),
+            parameterize: ParameterizeOptions::TENSOR,
+            weights: None,
+            measure_distance: false,
+        }
+    }
+}
+
+impl<'a> TensorOptions<'a> {
+    with_fields! {
+        with_tolerance tolerance: Tolerance,
+        with_method method: Method,
+        with_ends ends: Ends,
+        with_energy energy: Energy,
+        with_smoothing smoothing: f64,
+        with_buffer buffer: f64,
+        with_max_grid max_grid: usize,
+        with_max_coefficients max_coefficients: usize,
+        with_fixed_grid fixed_grid: Option<[usize; 2]>,
+        with_correction_sweeps correction_sweeps: usize,
+        with_regularize regularize: Regularize,
+        with_parameterize parameterize: ParameterizeOptions,
+        with_weights weights: Option<&'a [f64]>,
+        with_measure_distance measure_distance: bool,
+    }
+
+    pub(super) fn check(&self) -> Result<(), FitError> {
+        let (most_knots, most) = (self.max_grid, self.max_coefficients);
+        check_tolerance(&self.tolerance)?;
+        check_smoothing(self.smoothing, true)?;
+        check_buffer(self.buffer)?;
+        check_option(most_knots >= 2, "max_grid", most_knots as f64, "at least 2")?;
+        check_option(most >= 4, "max_coefficients", most as f64, "at least 4")?;
+        check_grid(self.fixed_grid.into_iter().flatten())
+    }
+}
