@@ -29,7 +29,7 @@
 //! * [`surface`]: what every surface can do, and the families.
 //! * [`query`]: tessellation, closest points, deviation; fits measure themselves with it.
 //! * [`fit`]: one measure of error for all, and the methods.
-//! * [`export`]: files for other programs, pictures, the library's own format.
+//! * [`export`]: files for other programs, the library's own format.
 //! * [`samples`]: seeded shapes for demonstrations, tests and benchmarks.
 //! * [`ffi`]: the C ABI, documented in `include/planish.h`.
 

@@ -3,8 +3,6 @@
 mod error;
 pub mod native;
 pub mod obj;
-pub mod picture;
-pub mod render;
 pub mod step;
 pub mod vtk;
 

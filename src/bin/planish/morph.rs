@@ -5,7 +5,7 @@ use crate::{Failure, Outcome};
 use clap::Args;
 use glam::{DVec2, DVec3};
 use planish::Control;
-use planish::export::picture::{Picture, View};
+use crate::picture::{Picture, View};
 use planish::export::step::StepOptions;
 use planish::export::vtk::on_surface;
 use planish::fit::common::Regularize;

@@ -3,7 +3,7 @@
 use crate::Failure;
 use glam::DVec2;
 use planish::Control;
-use planish::export::picture::{Picture, View};
+use crate::picture::{Picture, View};
 use planish::export::step::{self, StepOptions};
 use planish::export::{native, obj, vtk};
 use planish::fit::report::FitReport;

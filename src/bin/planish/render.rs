@@ -5,8 +5,8 @@ use crate::{Failure, Outcome};
 use clap::Args;
 use planish::Control;
 use planish::export::native;
-use planish::export::picture::View;
-use planish::export::render::{RenderOptions, render};
+use crate::picture::View;
+use crate::picture::{RenderOptions, render};
 use planish::mesh::{MeshOptions, read};
 use std::path::PathBuf;
 

@@ -1,14 +1,14 @@
 //! Pictures of surfaces in space: shaded or coloured by deviation, with knot lines, trims and control net; or of
 //! their parameter planes.
 
-use super::picture::{Picture, View};
-use super::vtk::on_surface;
-use crate::control::Pool;
-use crate::error::Error;
-use crate::mesh::Mesh;
-use crate::query::deviation::{DeviationOptions, deviation};
-use crate::query::tessellate::{TessellateOptions, tessellate};
-use crate::surface::Surface;
+use super::raster::{Picture, View};
+use planish::export::vtk::on_surface;
+use planish::control::Pool;
+use planish::error::Error;
+use planish::mesh::Mesh;
+use planish::query::deviation::{DeviationOptions, deviation};
+use planish::query::tessellate::{TessellateOptions, tessellate};
+use planish::surface::Surface;
 use glam::{DVec2, DVec3};
 
 /// What a picture shows.
@@ -146,9 +146,9 @@ fn draw_control_net(surface: &dyn Surface, picture: &mut Picture) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Control;
-    use crate::fit::tensor::{TensorOptions, fit_mesh};
-    use crate::samples;
+    use planish::Control;
+    use planish::fit::tensor::{TensorOptions, fit_mesh};
+    use planish::samples;
 
     /// How many pixels are nearly of a colour.
     fn count(picture: &Picture, ink: [f64; 3]) -> usize {

@@ -3,7 +3,7 @@
 //! Parallel projection, one light beside the viewer, smooth normals, a depth buffer, and four samples a
 //! pixel. It needs no display and gives the same pixels everywhere.
 
-use crate::mesh::Mesh;
+use planish::mesh::Mesh;
 use glam::{DMat3, DVec2, DVec3};
 
 /// Colours of a scale from its low to its high end, dark blue over green to yellow and red.
@@ -344,7 +344,7 @@ mod tests {
 
     #[test]
     fn holes_show_the_background_and_the_rest_the_shape() {
-        let mesh = crate::samples::sphere_with_holes(2000, 1).unwrap();
+        let mesh = planish::samples::sphere_with_holes(2000, 1).unwrap();
         let view = View { direction: DVec3::Z, up: DVec3::Y };
         let mut picture = Picture::new(300, 300, &view, &mesh);
         picture.draw_mesh(&mesh, None, (0.0, 1.0));

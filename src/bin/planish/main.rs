@@ -2,25 +2,16 @@
 //!
 //! Exit code 0: done, and the tolerance met; 2: done, but the tolerance not met; 1: any error.
 
-#[path = "planish/d1rc.rs"]
 mod d1rc;
-#[path = "planish/decimate.rs"]
 mod decimate;
-#[path = "planish/eval.rs"]
 mod eval;
-#[path = "planish/fit.rs"]
 mod fit;
-#[path = "planish/info.rs"]
 mod info;
-#[path = "planish/morph.rs"]
 mod morph;
-#[path = "planish/output.rs"]
 mod output;
-#[path = "planish/render.rs"]
+mod picture;
 mod render;
-#[path = "planish/sample.rs"]
 mod sample;
-#[path = "planish/skin.rs"]
 mod skin;
 
 use clap::{Parser, Subcommand};
