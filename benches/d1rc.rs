@@ -9,7 +9,7 @@ use planish::mesh::{Mesh, MeshOptions, read};
 use planish::parameterize::{ParameterizeOptions, parameterize};
 use planish::samples::{Random, grid};
 use planish::surface::d1rc::{D1rcMode, D1rcOptions, D1rcSurface};
-use planish::surface::{Faces, Surface};
+use planish::surface::{Facets, Surface};
 use std::time::Instant;
 
 /// Runs of which the median is printed.
@@ -95,7 +95,7 @@ fn run(mesh: &Mesh, options: &D1rcOptions) {
     let divide = |surface: &D1rcSurface, faces: &[usize], all: &[Vec<DVec2>]| {
         for &face in faces {
             let mut rows = vec![0.0; 3 * all[face].len()];
-            surface.eval_on_face(face, &all[face], &mut rows);
+            surface.eval_on_facet(face, &all[face], &mut rows);
             std::hint::black_box(&rows);
         }
     };

@@ -12,7 +12,7 @@
 
 use super::tessellate::{TessellateError, Tessellation, distance_to_segment, least_angle};
 use crate::mesh::Mesh;
-use crate::surface::Faces;
+use crate::surface::Facets;
 use glam::{DVec2, DVec3};
 
 /// Sides are not divided into more parts than this: a kink that no edge follows would go on for ever.
@@ -27,7 +27,7 @@ pub struct Fineness {
 }
 
 /// The coarsest division that is fine enough.
-pub fn tessellate_faces(surface: &dyn Faces, fineness: &Fineness) -> Result<Tessellation, TessellateError> {
+pub fn tessellate_facets(surface: &dyn Facets, fineness: &Fineness) -> Result<Tessellation, TessellateError> {
     let mut coarse = Division::new(surface, 1, fineness.max_points)?;
     let diagonal = coarse.diagonal();
     let tolerance = if fineness.chord_tolerance > 0.0 { fineness.chord_tolerance } else { 1e-3 * diagonal };
@@ -43,7 +43,7 @@ pub fn tessellate_faces(surface: &dyn Faces, fineness: &Fineness) -> Result<Tess
 }
 
 /// A division into `parts` parts a side, as a mesh.
-pub fn subdivided(surface: &dyn Faces, parts: usize, max_points: usize) -> Result<Mesh, TessellateError> {
+pub fn subdivided(surface: &dyn Facets, parts: usize, max_points: usize) -> Result<Mesh, TessellateError> {
     Ok(Division::new(surface, parts.max(1), max_points)?.finish(0.0)?.mesh)
 }
 
@@ -62,7 +62,7 @@ fn place_in_face(parts: usize, i: usize, j: usize) -> usize {
 }
 
 impl Division {
-    fn new(surface: &dyn Faces, parts: usize, max_points: usize) -> Result<Self, TessellateError> {
+    fn new(surface: &dyn Facets, parts: usize, max_points: usize) -> Result<Self, TessellateError> {
         let faces = surface.triangles();
         if faces.is_empty() {
             return Err(TessellateError::Empty);
@@ -112,7 +112,7 @@ impl Division {
     }
 
     /// The nodes of a face that no face before it had.
-    fn evaluate(&mut self, surface: &dyn Faces, number: usize, face: &[u32; 3], first: usize) {
+    fn evaluate(&mut self, surface: &dyn Facets, number: usize, face: &[u32; 3], first: usize) {
         let [a, b, c] = face.map(|corner| surface.places()[corner as usize]);
         let parts = self.parts as f64;
         let (mut fresh, mut uv) = (Vec::new(), Vec::new());
@@ -132,7 +132,7 @@ impl Division {
             }
         }
         let mut rows = vec![0.0; 3 * uv.len()];
-        surface.eval_on_face(number, &uv, &mut rows);
+        surface.eval_on_facet(number, &uv, &mut rows);
         for ((&node, uv), row) in fresh.iter().zip(uv).zip(rows.chunks_exact(3)) {
             self.uv[node] = uv;
             self.points[node] = DVec3::from_slice(row);
@@ -250,9 +250,9 @@ mod tests {
     #[test]
     fn divisions_have_the_nodes_of_the_surface_and_no_seams() {
         let surface = bowl();
-        let faces = surface.faces().unwrap();
+        let facets = surface.facets().unwrap();
         for parts in [1, 2, 3, 7] {
-            let mesh = subdivided(faces.as_ref(), parts, 1_000_000).unwrap();
+            let mesh = subdivided(facets.as_ref(), parts, 1_000_000).unwrap();
             assert_eq!(mesh.triangles().len(), 40 * parts * parts);
             assert!(mesh.is_disk() && mesh.loops()[0].len() == 18 * parts, "{parts} parts");
             let uv = mesh.parameters().unwrap();
@@ -268,14 +268,14 @@ mod tests {
     #[test]
     fn the_chord_tolerance_is_kept() {
         let surface = bowl();
-        let faces = surface.faces().unwrap();
+        let facets = surface.facets().unwrap();
         for chord_tolerance in [1e-2, 1e-3, 1e-4] {
             let fineness = Fineness { chord_tolerance, max_edge_length: 0.0, max_points: 1_000_000 };
-            let tessellation = tessellate_faces(faces.as_ref(), &fineness).unwrap();
+            let tessellation = tessellate_facets(facets.as_ref(), &fineness).unwrap();
             assert!(tessellation.chord_error <= chord_tolerance, "{}", tessellation.chord_error);
         }
         let fineness = Fineness { chord_tolerance: 1e-4, max_edge_length: 0.0, max_points: 100 };
-        let refused = tessellate_faces(faces.as_ref(), &fineness).unwrap_err();
+        let refused = tessellate_facets(facets.as_ref(), &fineness).unwrap_err();
         assert_eq!(refused, TessellateError::TooLarge { limit: 100 });
     }
 }

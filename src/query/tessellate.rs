@@ -6,7 +6,7 @@
 //! edges that are too long or too far from the surface become nodes, until none is left.
 
 use crate::mesh::{Mesh, MeshError};
-use crate::query::subdivide::{Fineness, tessellate_faces};
+use crate::query::subdivide::{Fineness, tessellate_facets};
 use crate::surface::Surface;
 use glam::{DVec2, DVec3};
 use spade::handles::FixedVertexHandle;
@@ -111,11 +111,11 @@ pub fn tessellate(
             return Err(TessellateError::Option { option, value });
         }
     }
-    if let Some(faces) = surface.faces()
-        && (!options.keep_trims || faces.has_own_trims())
+    if let Some(facets) = surface.facets()
+        && (!options.keep_trims || facets.has_own_trims())
     {
         let TessellateOptions { chord_tolerance, max_edge_length, max_points, .. } = *options;
-        return tessellate_faces(faces.as_ref(), &Fineness { chord_tolerance, max_edge_length, max_points });
+        return tessellate_facets(facets.as_ref(), &Fineness { chord_tolerance, max_edge_length, max_points });
     }
     let mut plane = Plane::new(surface, options)?;
     plane.add_frame()?;

@@ -86,7 +86,7 @@ pub trait Surface: Send + Sync {
     }
 
     /// The triangles in the parameter plane over which the surface is made; None for the other families.
-    fn faces(&self) -> Option<Arc<dyn Faces>> {
+    fn facets(&self) -> Option<Arc<dyn Facets>> {
         None
     }
 
@@ -98,9 +98,9 @@ pub trait Surface: Send + Sync {
     /// Straight lines in the parameter plane that show how the surface is divided: knot lines, or the edges of a
     /// T-mesh or of a control mesh.
     fn knot_lines(&self) -> Vec<[DVec2; 2]> {
-        match (self.patches(), self.faces()) {
+        match (self.patches(), self.facets()) {
             (Some(patches), _) => sides(patches, self.domain().max),
-            (None, Some(faces)) => edges(faces.as_ref()),
+            (None, Some(facets)) => edges(facets.as_ref()),
             (None, None) => Vec::new(),
         }
     }
@@ -153,27 +153,27 @@ fn sides(patches: &dyn Patches, end: DVec2) -> Vec<[DVec2; 2]> {
     sides
 }
 
-/// The edges of all faces, each once.
-fn edges(faces: &dyn Faces) -> Vec<[DVec2; 2]> {
+/// The edges of all facets, each once.
+fn edges(facets: &dyn Facets) -> Vec<[DVec2; 2]> {
     let ends = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [c, a]].map(|[p, q]| [p.min(q), p.max(q)]);
-    let mut edges: Vec<[u32; 2]> = faces.triangles().into_iter().flat_map(ends).collect();
+    let mut edges: Vec<[u32; 2]> = facets.triangles().into_iter().flat_map(ends).collect();
     edges.sort_unstable();
     edges.dedup();
-    edges.into_iter().map(|ends| ends.map(|corner| faces.places()[corner as usize])).collect()
+    edges.into_iter().map(|ends| ends.map(|corner| facets.places()[corner as usize])).collect()
 }
 
-/// The view of a surface over triangles in the parameter plane, for those who keep it and divide its faces.
-pub trait Faces: Surface + std::fmt::Debug {
+/// The view of a surface over triangles in the parameter plane, for those who keep it and divide its facets.
+pub trait Facets: Surface + std::fmt::Debug {
     /// The places of the corners.
     fn places(&self) -> &[DVec2];
 
-    /// Three corners each: the faces on which the surface is best shown.
+    /// Three corners each: the facets on which the surface is best shown.
     fn triangles(&self) -> Vec<[u32; 3]>;
 
-    /// Values at points of one of those faces.
-    fn eval_on_face(&self, face: usize, uv: &[DVec2], out: &mut [f64]);
+    /// Values at points of one of those facets.
+    fn eval_on_facet(&self, facet: usize, uv: &[DVec2], out: &mut [f64]);
 
-    /// Whether the trims are the border of those faces.
+    /// Whether the trims are the border of those facets.
     fn has_own_trims(&self) -> bool;
 
     /// The place of the domain nearest to a parameter pair.

@@ -9,7 +9,7 @@ use crate::mesh::Mesh;
 use crate::query::subdivide::subdivided;
 use crate::query::tessellate::{TessellateError, TessellateOptions, tessellate};
 use crate::query::triangles::TriangleTree;
-use crate::surface::Faces;
+use crate::surface::Facets;
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
@@ -26,15 +26,15 @@ const MOST_DAMPING: f64 = 1e12;
 
 /// A surface over triangles with a tessellation of it.
 #[derive(Debug, Clone)]
-pub struct FaceProjector {
-    surface: Arc<dyn Faces>,
+pub struct FacetProjector {
+    surface: Arc<dyn Facets>,
     has_own_trims: bool,
     tree: TriangleTree<Mesh>,
 }
 
-impl FaceProjector {
+impl FacetProjector {
     /// For a surface in space.
-    pub fn new(surface: Arc<dyn Faces>) -> Result<Self, TessellateError> {
+    pub fn new(surface: Arc<dyn Facets>) -> Result<Self, TessellateError> {
         let has_own_trims = surface.has_own_trims();
         let mesh = match has_own_trims {
             true => subdivided(surface.as_ref(), PARTS, MAX_POINTS)?,

@@ -7,13 +7,13 @@
 //! B-spline surface", Graphical Models 71 (2009), 107-112). Newton's method is used where it cannot fail: on
 //! convex cells; all others are halved. Boundaries, poles, folds and sheets that cross need no care of their own.
 //!
-//! Surfaces over triangles go another way (`faces`).
+//! Surfaces over triangles go another way (`facets`).
 //!
 //! With trims the nearest point lies inside them or on them: the lines of the trims are curves on patches and are
 //! searched alike, and minima outside do not count.
 
 mod cells;
-mod faces;
+mod facets;
 mod foot;
 mod index;
 mod kernel;
@@ -28,7 +28,7 @@ use crate::curve::Curve;
 use crate::geometry::{Bounds, Domain};
 use crate::surface::{Kind, Surface, Trims};
 use cells::{curve_cells, surface_cells, trim_pieces};
-use faces::FaceProjector;
+use facets::FacetProjector;
 use glam::{DVec2, DVec3};
 use index::{Index, Place};
 use rayon::prelude::*;
@@ -126,7 +126,7 @@ pub struct Projector {
     /// Differences of distance below this do not count: roundoff of the coordinates.
     tolerance: f64,
     /// Of a surface over triangles, which has no patches; the index is then empty.
-    faces: Option<FaceProjector>,
+    facets: Option<FacetProjector>,
 }
 
 /// Relative to the surface's size: a cell that cannot hold a place nearer by more than this is not searched.
@@ -138,7 +138,7 @@ impl Projector {
     /// Builds the hierarchy: time and memory are proportional to the number of patches.
     pub fn new(surface: &dyn Surface) -> Result<Self, ProjectError> {
         let Some(patches) = surface.patches() else {
-            return Self::of_faces(surface);
+            return Self::of_facets(surface);
         };
         let trims = &surface.region().trims;
         let trim_index = Index::new(trim_pieces(patches, trims));
@@ -172,21 +172,21 @@ impl Projector {
             index: Index::new(cells),
             trim_index: Index::new(Vec::new()),
             trims: Trims::default(),
-            faces: None,
+            facets: None,
             tolerance: DISTANCE_TOLERANCE * bounds.diagonal() + 4.0 * f64::EPSILON * largest,
         }
     }
 
-    fn of_faces(surface: &dyn Surface) -> Result<Self, ProjectError> {
-        let faces = surface.faces().filter(|_| surface.dim() == 3);
-        let faces = faces.ok_or(ProjectError::NoPatches { kind: surface.kind() })?;
+    fn of_facets(surface: &dyn Surface) -> Result<Self, ProjectError> {
+        let facets = surface.facets().filter(|_| surface.dim() == 3);
+        let facets = facets.ok_or(ProjectError::NoPatches { kind: surface.kind() })?;
         Ok(Self {
             dim: surface.dim(),
             domain: surface.domain(),
             index: Index::new(Vec::new()),
             trim_index: Index::new(Vec::new()),
             trims: surface.region().trims.clone(),
-            faces: Some(FaceProjector::new(faces)?),
+            facets: Some(FacetProjector::new(facets)?),
             tolerance: 0.0,
         })
     }
@@ -272,8 +272,8 @@ impl Projector {
         options: &ProjectOptions,
         workspace: &mut Workspace,
     ) -> (DVec2, f64) {
-        if let Some(faces) = &self.faces {
-            return faces.nearest(DVec3::from_slice(point), guess, options);
+        if let Some(facets) = &self.facets {
+            return facets.nearest(DVec3::from_slice(point), guess, options);
         }
         // a little farther, so that a point right at the limit is found
         let farthest = options.max_distance * (1.0 + 4.0 * f64::EPSILON) + 2.0 * self.tolerance;

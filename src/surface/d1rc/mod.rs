@@ -39,7 +39,7 @@ pub use options::{D1rcMode, D1rcOptions, SharpRule};
 pub use sharp::sharp_edges;
 pub use space::{Recipe, Space};
 
-use super::{ControlNet, Domain, Faces, Kind, Region, Surface};
+use super::{ControlNet, Domain, Facets, Kind, Region, Surface};
 use crate::mesh::Mesh;
 use crate::surface::Trims;
 use glam::{DVec2, DVec3};
@@ -302,7 +302,7 @@ impl Surface for D1rcSurface {
         self.eval_points(uv, max_derivative, out);
     }
 
-    fn faces(&self) -> Option<Arc<dyn Faces>> {
+    fn facets(&self) -> Option<Arc<dyn Facets>> {
         Some(Arc::new(self.clone()))
     }
 
@@ -323,7 +323,7 @@ impl Surface for D1rcSurface {
     }
 }
 
-impl Faces for D1rcSurface {
+impl Facets for D1rcSurface {
     fn places(&self) -> &[DVec2] {
         self.space.locator.places()
     }
@@ -332,7 +332,7 @@ impl Faces for D1rcSurface {
         self.space.shown.iter().map(|&face| self.space.locator.faces()[face as usize]).collect()
     }
 
-    fn eval_on_face(&self, face: usize, uv: &[DVec2], out: &mut [f64]) {
+    fn eval_on_facet(&self, face: usize, uv: &[DVec2], out: &mut [f64]) {
         self.eval_on_domain_face(self.space.shown[face], uv, out);
     }
 
