@@ -27,6 +27,7 @@ use crate::surface::pht::PhtError;
 use crate::surface::tensor::{CombineError, TensorError};
 use crate::surface::tspline::TSplineError;
 use crate::surface::{ConvertError, TrimError};
+use crate::tmesh::TMeshError;
 
 /// The class of an error: what a program can act upon without reading the sentence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -96,6 +97,9 @@ pub enum Error {
     /// A tensor surface is not one.
     #[error(transparent)]
     Tensor(#[from] TensorError),
+    /// A T-mesh is not one, or cannot be changed as asked.
+    #[error(transparent)]
+    TMesh(#[from] TMeshError),
     /// A PHT-spline is not one, or cannot be changed as asked.
     #[error(transparent)]
     Pht(#[from] PhtError),
@@ -175,6 +179,7 @@ impl Error {
             Self::Knots(error) => (error.kind(), error.index()),
             Self::Curve(error) => (error.kind(), error.index()),
             Self::Tensor(error) => (error.kind(), error.index()),
+            Self::TMesh(error) => (error.kind(), error.index()),
             Self::Pht(error) => (error.kind(), error.index()),
             Self::D1rc(error) => (error.kind(), error.index()),
             Self::TSpline(error) => (error.kind(), error.index()),

@@ -26,6 +26,7 @@
 //! * [`mesh`]: triangle meshes, their topology and files.
 //! * [`parameterize`]: where a mesh gets its (u,v) from.
 //! * [`curve`]: B-spline curves.
+//! * [`tmesh`]: hierarchical T-meshes, their cells and vertices.
 //! * [`surface`]: what every surface can do, and the families.
 //! * [`query`]: tessellation, closest points, deviation; fits measure themselves with it.
 //! * [`fit`]: one measure of error for all, and the methods.
@@ -54,6 +55,7 @@ pub mod refinement;
 pub mod samples;
 pub mod summary;
 pub mod surface;
+pub mod tmesh;
 
 pub use control::Control;
 pub use error::{Error, ErrorKind};

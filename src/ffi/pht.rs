@@ -15,7 +15,8 @@ use crate::fit::common::{FitError, Regularize};
 use crate::fit::pht::{Estimator, PhtFit, PhtOptions, fit_field, fit_mesh, fit_points};
 use crate::fit::report::{Tolerance, ToleranceScale};
 use crate::surface::Domain;
-use crate::surface::pht::{BorderSide, Cell, ConvertOptions, PhtSurface, TMesh, stitch};
+use crate::surface::pht::{BorderSide, ConvertOptions, PhtSurface, stitch};
+use crate::tmesh::{Cell, TMesh};
 use glam::DVec2;
 use std::ffi::c_void;
 

@@ -5,7 +5,8 @@ use super::guard::guard;
 use super::planish_status;
 use super::surface::{planish_surface, query_surface};
 use crate::surface::Patches;
-use crate::surface::pht::{Basis, NodeId, PhtSurface, VertexKind};
+use crate::surface::pht::{Basis, PhtSurface};
+use crate::tmesh::{NodeId, VertexKind};
 
 /// Which control points a PHT-spline has.
 #[repr(C)]

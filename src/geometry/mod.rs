@@ -1,9 +1,11 @@
 //! Points, boxes and exact predicates.
 
+mod axis;
 mod bounds;
 mod domain;
 mod orientation;
 
+pub use axis::Axis;
 pub use bounds::Bounds;
 pub use domain::Domain;
 pub use orientation::{CANCELLATION, Orientation, is_in_circle, orientation, signed_area};

@@ -115,7 +115,10 @@ pub fn tessellate(
         && (!options.keep_trims || facets.has_own_trims())
     {
         let TessellateOptions { chord_tolerance, max_edge_length, max_points, .. } = *options;
-        return tessellate_facets(facets.as_ref(), &Fineness { chord_tolerance, max_edge_length, max_points });
+        return tessellate_facets(
+            facets.as_ref(),
+            &Fineness { chord_tolerance, max_edge_length, max_points },
+        );
     }
     let mut plane = Plane::new(surface, options)?;
     plane.add_frame()?;

@@ -1,11 +1,11 @@
 //! `planish morph`.
 
 use crate::output::{write_png, write_surface};
+use crate::picture::{Picture, View};
 use crate::{Failure, Outcome};
 use clap::Args;
 use glam::{DVec2, DVec3};
 use planish::Control;
-use crate::picture::{Picture, View};
 use planish::export::step::StepOptions;
 use planish::export::vtk::on_surface;
 use planish::fit::common::Regularize;

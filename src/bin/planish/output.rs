@@ -1,9 +1,9 @@
 //! What the commands print and write.
 
 use crate::Failure;
+use crate::picture::{Picture, View};
 use glam::DVec2;
 use planish::Control;
-use crate::picture::{Picture, View};
 use planish::export::step::{self, StepOptions};
 use planish::export::{native, obj, vtk};
 use planish::fit::report::FitReport;

@@ -1,12 +1,12 @@
 //! `planish render`.
 
 use crate::output::write_png;
+use crate::picture::View;
+use crate::picture::{RenderOptions, render};
 use crate::{Failure, Outcome};
 use clap::Args;
 use planish::Control;
 use planish::export::native;
-use crate::picture::View;
-use crate::picture::{RenderOptions, render};
 use planish::mesh::{MeshOptions, read};
 use std::path::PathBuf;
 

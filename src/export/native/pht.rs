@@ -18,8 +18,9 @@
 use super::bytes::{Reader, Writer, region_size};
 use super::{LoadError, PHT, Save};
 use crate::surface::Surface;
-use crate::surface::pht::{Cell, PhtError, PhtSurface, TMesh};
+use crate::surface::pht::{PhtError, PhtSurface};
 use crate::surface::tensor::Axis;
+use crate::tmesh::{Cell, TMesh};
 
 impl Save for PhtSurface {
     fn file_kind(&self) -> u32 {
@@ -67,10 +68,12 @@ pub(super) fn read(reader: &mut Reader) -> Result<PhtSurface, LoadError> {
     if line_counts[0].saturating_mul(line_counts[1]) > vertex_count {
         return Err(reader.wrong(format!("{vertex_count} vertices are too few for the initial grid")));
     }
-    let wrong = |error: PhtError| reader.wrong(error.to_string());
-    let mut mesh = TMesh::new(&breaks_u, &breaks_v).map_err(wrong)?;
-    mesh.split_all(&splits).map_err(wrong)?;
-    let mut surface = PhtSurface::new(dim, is_rational, mesh, &jets).map_err(wrong)?;
+    let surface = || -> Result<PhtSurface, PhtError> {
+        let mut mesh = TMesh::new(&breaks_u, &breaks_v)?;
+        mesh.split_all(&splits)?;
+        PhtSurface::new(dim, is_rational, mesh, &jets)
+    };
+    let mut surface = surface().map_err(|error| reader.wrong(error.to_string()))?;
     *surface.region_mut() = reader.region(has_data_box, trim_count, &surface.domain())?;
     Ok(surface)
 }

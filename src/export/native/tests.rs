@@ -4,10 +4,11 @@ use super::*;
 use crate::curve::Curve;
 use crate::knots::KnotVector;
 use crate::surface::d1rc::{D1rcOptions, D1rcSurface};
-use crate::surface::pht::{Cell, PhtSurface, TMesh};
+use crate::surface::pht::PhtSurface;
 use crate::surface::tensor::TensorSurface;
 use crate::surface::tspline::TSplineSurface;
 use crate::surface::{Domain, Region, Surface, Trims};
+use crate::tmesh::{Cell, TMesh};
 use glam::DVec2;
 
 fn tensor() -> AnySurface {

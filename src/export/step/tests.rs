@@ -291,7 +291,8 @@ fn a_t_spline_is_written_whole_or_in_strips() {
 
 #[test]
 fn a_pht_spline_is_a_shell_of_patches() {
-    use crate::surface::pht::{Cell, ConvertOptions, PhtSurface};
+    use crate::surface::pht::{ConvertOptions, PhtSurface};
+    use crate::tmesh::Cell;
     let mut pht = PhtSurface::from_tensor(&wave(), &ConvertOptions::default()).unwrap();
     pht.split(&[Cell { level: 0, i: 0, j: 0 }, Cell { level: 1, i: 1, j: 1 }]).unwrap();
     let options = |level_spread| StepOptions { form: Form::Patches, level_spread, ..StepOptions::default() };

@@ -12,7 +12,8 @@ use super::hermite_cell::{CellMatrix, CellSums, weights};
 use crate::control::{Pool, Watch};
 use crate::fit::common::FitError;
 use crate::linalg::SymbolicCholesky;
-use crate::surface::pht::{Cell, Matrix, TMesh, Topology};
+use crate::surface::pht::{Matrix, expansions};
+use crate::tmesh::{Cell, TMesh, Topology};
 use glam::DVec2;
 use rayon::prelude::*;
 use sprs::CsMat;
@@ -94,7 +95,7 @@ struct Share {
 
 impl<'a> System<'a> {
     pub fn new(mesh: &'a TMesh, topology: &'a Topology) -> Self {
-        let expansions = topology.expansions(mesh);
+        let expansions = expansions(topology, mesh);
         let mut sizes = vec![DVec2::ZERO; topology.basis.len()];
         let mut pairs: Vec<(u32, u32)> = Vec::new();
         for (&node, corners) in topology.leaves.iter().zip(&topology.corners) {

@@ -7,7 +7,7 @@
 use super::data::Data;
 use crate::control::Pool;
 use crate::fit::common::FitError;
-use crate::surface::pht::{TMesh, Topology, VertexKind};
+use crate::tmesh::{TMesh, Topology, VertexKind};
 use glam::DVec2;
 use rayon::prelude::*;
 use spade::{DelaunayTriangulation, FloatTriangulation, HasPosition, Point2, Triangulation};

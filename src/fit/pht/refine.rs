@@ -9,8 +9,9 @@ use crate::fit::common::errors::{DataErrors, data_errors, max_distance};
 use crate::fit::common::foot_points::{LONGEST_STEP, STEPS, gauss_newton_step, hold_back};
 use crate::fit::common::report::{FitReport, Remarks, StopReason};
 use crate::fit::common::uniform::energy::FreeFunctions;
-use crate::surface::pht::{Cell, MAX_LEVEL, NodeId, PhtError, PhtSurface, TMesh, Topology};
+use crate::surface::pht::{PhtError, PhtSurface};
 use crate::surface::{Region, Surface, Trims};
+use crate::tmesh::{Cell, MAX_LEVEL, NodeId, TMesh, Topology};
 use glam::DVec2;
 use rayon::prelude::*;
 

@@ -15,11 +15,12 @@
 //! control points never change under refinement, but beside finer cells the four functions become nearly
 //! parallel; with those of the widest leaf of the support on each side they stay apart.
 
+use super::expansion::{Matrix, expansions};
 use super::jet::{self, ROWS};
-use super::mesh::{TMesh, Vertex};
-use super::topology::{Matrix, Topology};
 use super::{PhtError, PhtSurface};
 use crate::surface::tensor::Axis;
+use crate::tmesh::Topology;
+use crate::tmesh::{TMesh, Vertex};
 
 /// Which widths the four functions of a vertex have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -181,7 +182,7 @@ impl PhtSurface {
 
     fn expansions(&self) -> &[Vec<(u32, Matrix)>] {
         let view = self.view();
-        view.expansions.get_or_init(|| view.topology.expansions(&self.mesh))
+        view.expansions.get_or_init(|| expansions(&view.topology, &self.mesh))
     }
 
     fn widths(&self, basis: Basis) -> &[Widths] {

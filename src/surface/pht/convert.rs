@@ -4,13 +4,12 @@
 //! all of its knot lines a surface of degree 3 at most is reproduced; within a tolerance cells are split from
 //! one on until samples agree, and the error falls with the fourth power of their size.
 
-use super::mesh::{Cell, MAX_LEVEL, NodeId, TMesh, Vertex};
-use super::topology::Topology;
 use super::{PhtError, PhtSurface};
 use crate::geometry::Domain;
 use crate::knots::KnotVector;
 use crate::surface::tensor::{Axis, TensorSurface};
 use crate::surface::{Patches, Surface};
+use crate::tmesh::{Cell, MAX_LEVEL, NodeId, TMesh, TMeshError, Topology, Vertex};
 use glam::DVec2;
 use std::collections::BTreeMap;
 
@@ -162,7 +161,9 @@ impl<'a> Source<'a> {
             let mut allow = |mesh: &TMesh, leaf: NodeId| {
                 let (level, count) = (mesh.cell(leaf).level, mesh.leaf_count() + 3);
                 if level >= max_level {
-                    return Err(PhtError::LevelLimit { index: leaf.index(), level, limit: max_level });
+                    return Err(
+                        TMeshError::LevelLimit { index: leaf.index(), level, limit: max_level }.into()
+                    );
                 }
                 if count > max_cells {
                     return Err(PhtError::TooLarge { what: "cells", count, limit: max_cells });

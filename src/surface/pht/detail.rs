@@ -1,15 +1,15 @@
 //! Local detail: finer cells, and the vertices to edit, in a rectangle of parameters.
 
-use super::mesh::{Cell, MAX_LEVEL};
 use super::{PhtError, PhtSurface};
 use crate::geometry::Domain;
+use crate::tmesh::{Cell, MAX_LEVEL, TMeshError};
 
 impl PhtSurface {
     /// Splits all leaves that meet the inside of a rectangle until they have at least this level. The surface
     /// stays the same; there will be at most `max_cells` leaves, or nothing changes.
     pub fn refine_region(&mut self, region: Domain, level: u32, max_cells: usize) -> Result<(), PhtError> {
         if level > MAX_LEVEL {
-            return Err(PhtError::LevelLimit { index: 0, level, limit: MAX_LEVEL });
+            return Err(TMeshError::LevelLimit { index: 0, level, limit: MAX_LEVEL }.into());
         }
         let mut mesh = self.mesh.clone();
         let mut splits: Vec<Cell> = Vec::new();

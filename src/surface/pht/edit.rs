@@ -6,11 +6,11 @@
 //! vertices any more.
 
 use super::evaluate::View;
+use super::expansion::line_between;
 use super::jet::{ROWS, between, inside};
-use super::mesh::{Cell, EDGES, NodeId, Role, TMesh, Vertex};
-use super::topology::line_between;
 use super::{PhtError, PhtSurface};
 use crate::surface::tensor::Axis;
+use crate::tmesh::{Cell, EDGES, NodeId, Role, TMesh, TMeshError, Vertex};
 use std::sync::OnceLock;
 
 impl PhtSurface {
@@ -125,7 +125,7 @@ impl PhtSurface {
     }
 }
 
-fn mergeable(mesh: &TMesh, index: usize, cell: Cell) -> Result<NodeId, PhtError> {
+fn mergeable(mesh: &TMesh, index: usize, cell: Cell) -> Result<NodeId, TMeshError> {
     let node = mesh.find(cell).filter(|&node| mesh.is_mergeable(node));
-    node.ok_or(PhtError::NotMergeable { index, cell })
+    node.ok_or(TMeshError::NotMergeable { index, cell })
 }

@@ -1,8 +1,8 @@
 //! What can be wrong with a PHT-spline.
 
-use super::mesh::{Cell, MAX_GRID, MAX_LEVEL};
 use crate::ErrorKind;
-use crate::surface::tensor::Axis;
+use crate::geometry::Axis;
+use crate::tmesh::TMeshError;
 
 /// A PHT-spline is not one, or cannot be changed as asked.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -10,56 +10,9 @@ pub enum PhtError {
     /// Values need at least one component.
     #[error("the dimension is 0")]
     Dimension,
-    /// The number of grid lines is out of range.
-    #[error("{count} knots are given in {axis:?}, there must be 2 to {}", MAX_GRID + 1)]
-    KnotCount {
-        /// The direction.
-        axis: Axis,
-        /// Knots given.
-        count: usize,
-    },
-    /// A grid line is NaN or infinite.
-    #[error("knot {index} in {axis:?} is not finite")]
-    KnotNotFinite {
-        /// The direction.
-        axis: Axis,
-        /// The knot.
-        index: usize,
-    },
-    /// A grid line does not lie beyond the one before it.
-    #[error("knot {index} in {axis:?} is not greater than the knot before it")]
-    KnotNotIncreasing {
-        /// The direction.
-        axis: Axis,
-        /// The knot.
-        index: usize,
-    },
-    /// A cell that should be a leaf is none.
-    #[error("cell {index} (level {}, {}, {}) is not a leaf of the mesh", cell.level, cell.i, cell.j)]
-    NotLeaf {
-        /// Its place in the list.
-        index: usize,
-        /// Its address.
-        cell: Cell,
-    },
-    /// A leaf cannot be split any more.
-    #[error("cell {index} has level {level}, the deepest is {limit} (at most {MAX_LEVEL})")]
-    LevelLimit {
-        /// Its place in the list.
-        index: usize,
-        /// Its level.
-        level: u32,
-        /// The deepest level allowed.
-        limit: u32,
-    },
-    /// A cell cannot be merged: it has no quarters, or one of them is no leaf.
-    #[error("the quarters of cell {index} (level {}, {}, {}) are not four leaves", cell.level, cell.i, cell.j)]
-    NotMergeable {
-        /// Its place in the list.
-        index: usize,
-        /// Its address.
-        cell: Cell,
-    },
+    /// The mesh is not one, or cannot be changed as asked.
+    #[error(transparent)]
+    Mesh(#[from] TMeshError),
     /// Arrays do not fit together.
     #[error("{count} numbers are given for {what}, {expected} are needed")]
     Count {
@@ -130,11 +83,11 @@ impl PhtError {
     /// The class of the error.
     pub fn kind(&self) -> ErrorKind {
         match self {
-            Self::KnotNotFinite { .. } | Self::NotFinite { .. } => ErrorKind::NotFinite,
+            Self::Mesh(error) => error.kind(),
+            Self::NotFinite { .. } => ErrorKind::NotFinite,
             Self::Weight { weight, .. } if !weight.is_finite() => ErrorKind::NotFinite,
-            Self::NotLeaf { .. } | Self::NotMergeable { .. } | Self::NoSuchVertex { .. } => ErrorKind::Index,
-            Self::TooLarge { .. } | Self::LevelLimit { .. } => ErrorKind::TooLarge,
-            Self::KnotCount { count, .. } if *count > MAX_GRID => ErrorKind::TooLarge,
+            Self::NoSuchVertex { .. } => ErrorKind::Index,
+            Self::TooLarge { .. } => ErrorKind::TooLarge,
             _ => ErrorKind::InvalidArgument,
         }
     }
@@ -142,12 +95,8 @@ impl PhtError {
     /// The offending knot, cell, vertex or leaf.
     pub fn index(&self) -> Option<usize> {
         match *self {
-            Self::KnotNotFinite { index, .. }
-            | Self::KnotNotIncreasing { index, .. }
-            | Self::NotLeaf { index, .. }
-            | Self::LevelLimit { index, .. }
-            | Self::NotMergeable { index, .. }
-            | Self::NotFinite { index }
+            Self::Mesh(ref error) => error.index(),
+            Self::NotFinite { index }
             | Self::NoSuchVertex { index, .. }
             | Self::Weight { index, .. }
             | Self::Crease { index, .. } => Some(index),

@@ -5,14 +5,15 @@
 
 use super::PhtSurface;
 use super::basis::Widths;
-use super::directory::Directory;
+use super::expansion::{Matrix, all_jets};
 use super::jet;
-use super::mesh::TMesh;
-use super::topology::{Matrix, Topology};
 use crate::surface::ORDERS;
 use crate::surface::derivative_rows;
 use crate::surface::homogeneous::divide;
 use crate::surface::rows_of_four::{combine, contract};
+use crate::tmesh::Directory;
+use crate::tmesh::TMesh;
+use crate::tmesh::Topology;
 use glam::DVec2;
 use pulp::{Arch, Simd, WithSimd};
 use std::sync::OnceLock;
@@ -45,7 +46,7 @@ impl View {
     pub fn new(surface: &PhtSurface, topology: Topology) -> Self {
         let (mesh, width) = (&surface.mesh, surface.width());
         let basis: Vec<f64> = surface.jets.values().flatten().copied().collect();
-        let jets = topology.all_jets(mesh, &basis, width);
+        let jets = all_jets(&topology, mesh, &basis, width);
         let mut ordinates = vec![0.0; topology.leaves.len() * 16 * width];
         let mut frames = Vec::with_capacity(topology.leaves.len());
         let leaves = topology.leaves.iter().zip(&topology.corners);

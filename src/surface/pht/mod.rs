@@ -18,29 +18,27 @@
 mod basis;
 mod convert;
 mod detail;
-mod directory;
 mod edit;
 mod error;
 mod evaluate;
+mod expansion;
 mod jet;
-mod mesh;
 mod simplify;
 mod stitch;
 mod tensor;
 #[cfg(test)]
 mod tests;
-mod topology;
 
 pub use basis::{Basis, BezierForm, LocalExtraction};
 pub use convert::ConvertOptions;
 pub use error::PhtError;
-pub use mesh::{Cell, Edge, MAX_GRID, MAX_LEVEL, NodeId, Role, TMesh, Vertex};
+pub use expansion::{Matrix, all_jets, expansions};
 pub use simplify::Simplification;
 pub use stitch::{BorderSide, stitch};
-pub use topology::{Hanging, Matrix, Topology, VertexKind};
 
 use super::{Domain, Kind, Patches, Region, Surface};
 use crate::bezier::BezierPatch;
+use crate::tmesh::{TMesh, Topology, Vertex};
 use evaluate::View;
 use glam::DVec2;
 use jet::ROWS;

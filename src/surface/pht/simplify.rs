@@ -7,11 +7,11 @@
 //! A removal changes more than the cell and its neighbours: a vertex that becomes a T-vertex gets another jet,
 //! and with it all T-vertices on edges that end there, and so on. [`PhtSurface::changed_by`] follows them.
 
-use super::mesh::{Cell, EDGES, Edge, NodeId, QUADRANTS, Vertex};
 use super::{PhtError, PhtSurface, jet};
 use crate::bezier::BezierPatch;
 use crate::surface::Patches;
 use crate::surface::tensor::Axis;
+use crate::tmesh::{Cell, EDGES, Edge, NodeId, QUADRANTS, Vertex};
 
 /// What a simplification did.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -5,10 +5,10 @@
 //! run away from the edge. A surface whose parameters run faster across its edge keeps its pace: the derivative
 //! across is averaged in units of both domains' widths.
 
-use super::mesh::{Cell, MAX_LEVEL, TMesh, Vertex};
 use super::{PhtError, PhtSurface};
 use crate::surface::Surface;
 use crate::surface::tensor::Axis;
+use crate::tmesh::{Cell, MAX_LEVEL, TMesh, Vertex};
 use std::sync::OnceLock;
 
 /// One of the four edges of a surface's domain.

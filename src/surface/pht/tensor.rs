@@ -6,12 +6,12 @@
 
 use super::PhtSurface;
 use super::evaluate::View;
+use super::expansion::line_between;
 use super::jet::{self, inside};
-use super::mesh::{NodeId, TMesh, Vertex};
-use super::topology::line_between;
 use crate::knots::KnotVector;
 use crate::surface::tensor::{Axis, TensorError, TensorSurface};
 use crate::surface::{ConvertError, Surface};
+use crate::tmesh::{Cell, NodeId, TMesh, Vertex};
 
 /// A rectangle of whole leaves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -177,7 +177,7 @@ fn blocks(mesh: &TMesh, sigma: u32) -> Vec<Block> {
     let [count_u, count_v] = mesh.grid_size();
     for i in 0..count_u {
         for j in 0..count_v {
-            let root = mesh.find(super::Cell { level: 0, i, j }).expect("a cell of the grid");
+            let root = mesh.find(Cell { level: 0, i, j }).expect("a cell of the grid");
             collect_blocks(mesh, root, sigma, &mut blocks);
         }
     }

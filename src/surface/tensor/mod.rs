@@ -13,20 +13,13 @@ mod refine;
 pub use combine::CombineError;
 
 use super::{ControlNet, Domain, Kind, Patches, Region, Surface, eval_grid_by_rows};
+pub use crate::geometry::Axis;
+
 use crate::bezier::{BezierPatch, apply, extraction};
 use crate::knots::KnotVector;
 use bicubic::BicubicTable;
 use glam::{DVec2, DVec3};
 use std::sync::OnceLock;
-
-/// A parameter direction.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Axis {
-    /// The first parameter.
-    U,
-    /// The second parameter.
-    V,
-}
 
 /// A tensor surface is not one.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

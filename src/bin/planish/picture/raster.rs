@@ -3,8 +3,8 @@
 //! Parallel projection, one light beside the viewer, smooth normals, a depth buffer, and four samples a
 //! pixel. It needs no display and gives the same pixels everywhere.
 
-use planish::mesh::Mesh;
 use glam::{DMat3, DVec2, DVec3};
+use planish::mesh::Mesh;
 
 /// Colours of a scale from its low to its high end, dark blue over green to yellow and red.
 const SCALE: [[f64; 3]; 6] = [

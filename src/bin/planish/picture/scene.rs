@@ -2,14 +2,14 @@
 //! their parameter planes.
 
 use super::raster::{Picture, View};
-use planish::export::vtk::on_surface;
+use glam::{DVec2, DVec3};
 use planish::control::Pool;
 use planish::error::Error;
+use planish::export::vtk::on_surface;
 use planish::mesh::Mesh;
 use planish::query::deviation::{DeviationOptions, deviation};
 use planish::query::tessellate::{TessellateOptions, tessellate};
 use planish::surface::Surface;
-use glam::{DVec2, DVec3};
 
 /// What a picture shows.
 #[derive(Debug, Clone, Copy)]

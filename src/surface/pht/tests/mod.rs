@@ -7,6 +7,7 @@ use crate::knots::KnotVector;
 use crate::samples::Random;
 use crate::surface::derivative_rows;
 use crate::surface::tensor::{Axis, TensorSurface};
+use crate::tmesh::{Cell, MAX_LEVEL, NodeId, Role, TMeshError, VertexKind};
 
 fn cell(level: u32, i: u32, j: u32) -> Cell {
     Cell { level, i, j }
@@ -227,9 +228,9 @@ fn fast_evaluation_agrees_with_the_patches() {
 fn refusals_name_the_offender_and_change_nothing() {
     let line = |breaks: &[f64]| TMesh::new(breaks, &[0.0, 1.0]).unwrap_err();
     let axis = Axis::U;
-    assert_eq!(line(&[0.0, 1.0, 1.0]), PhtError::KnotNotIncreasing { axis, index: 2 });
-    assert_eq!(line(&[0.0, f64::NAN]), PhtError::KnotNotFinite { axis, index: 1 });
-    assert_eq!(line(&[0.0]), PhtError::KnotCount { axis, count: 1 });
+    assert_eq!(line(&[0.0, 1.0, 1.0]), TMeshError::KnotNotIncreasing { axis, index: 2 });
+    assert_eq!(line(&[0.0, f64::NAN]), TMeshError::KnotNotFinite { axis, index: 1 });
+    assert_eq!(line(&[0.0]), TMeshError::KnotCount { axis, count: 1 });
     let mesh = unit_square(&[cell(0, 0, 0)]);
     let data = vec![0.0; 36];
     let refuse = |dim, jets: &[f64]| PhtSurface::new(dim, false, mesh.clone(), jets).unwrap_err();
@@ -244,16 +245,16 @@ fn refusals_name_the_offender_and_change_nothing() {
     let mut surface = original.clone();
     let leaf = surface.mesh().cell(surface.mesh().leaves().next().unwrap());
     let missing = cell(3, 900, 0);
-    assert_eq!(surface.split(&[leaf, missing]), Err(PhtError::NotLeaf { index: 1, cell: missing }));
-    assert_eq!(surface.split(&[leaf, leaf]), Err(PhtError::NotLeaf { index: 1, cell: leaf }));
-    assert_eq!(surface.merge(&[leaf]), Err(PhtError::NotMergeable { index: 0, cell: leaf }));
+    assert_eq!(surface.split(&[leaf, missing]), Err(TMeshError::NotLeaf { index: 1, cell: missing }.into()));
+    assert_eq!(surface.split(&[leaf, leaf]), Err(TMeshError::NotLeaf { index: 1, cell: leaf }.into()));
+    assert_eq!(surface.merge(&[leaf]), Err(TMeshError::NotMergeable { index: 0, cell: leaf }.into()));
     assert!(matches!(surface.simplify(f64::NAN), Err(PhtError::Tolerance { .. })));
     assert!(matches!(surface.set_jets(&[9999], &[0.0; 4]), Err(PhtError::NoSuchVertex { index: 9999, .. })));
     assert_eq!(surface, original);
     let mut deep: Vec<Cell> = (0..MAX_LEVEL).map(|level| cell(level, 0, 0)).collect();
     deep.push(cell(MAX_LEVEL, 0, 0));
     let mut surface = PhtSurface::new(1, false, unit_square(&[]), &[0.0; 16]).unwrap();
-    assert!(matches!(surface.split(&deep), Err(PhtError::LevelLimit { index: 20, .. })));
+    assert!(matches!(surface.split(&deep), Err(PhtError::Mesh(TMeshError::LevelLimit { index: 20, .. }))));
     deep.pop();
     surface.split(&deep).unwrap();
     assert_eq!(surface.patch_count(), 61);

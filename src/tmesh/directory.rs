@@ -1,9 +1,10 @@
 //! Finds the leaf of a parameter pair in nearly constant time: a uniform grid of buckets, each of which knows the
 //! deepest node that holds it whole, and from there down the quadtree.
 
-use super::mesh::{Cell, MAX_LEVEL, NodeId, TMesh};
+use super::cell::{Cell, MAX_LEVEL, Vertex};
+use super::mesh::{NodeId, TMesh};
+use crate::geometry::Axis;
 use crate::knots::KnotVector;
-use crate::surface::tensor::Axis;
 use glam::DVec2;
 
 /// The buckets of one mesh.
@@ -25,7 +26,7 @@ impl Directory {
         let level =
             (0..MAX_LEVEL / 2).rev().find(|&level| roots << (2 * level) <= mesh.leaf_count().max(roots));
         let level = level.unwrap_or(0);
-        let side = super::mesh::Vertex::side_at(level);
+        let side = Vertex::side_at(level);
         let lines = [(Axis::U, count_u), (Axis::V, count_v)].map(|(axis, count)| {
             let breaks: Vec<f64> = (0..=count << level).map(|k| mesh.parameter(axis, k * side)).collect();
             // lines so close that they coincide after rounding leave the initial grid

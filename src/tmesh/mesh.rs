@@ -1,113 +1,10 @@
-//! Hierarchical T-meshes: a quadtree over each cell of a tensor grid.
-//!
-//! J. Deng et al., "Polynomial splines over hierarchical T-meshes", Graph. Models 70 (2008), section 2.
-//! ```text
-//! +-------+---+---+    Cells are split at their parametric middle. The dots are where vertices differ:
-//! |       |   |   |    o is a corner of all four leaves that touch it, a basis vertex, and so is every
-//! |       T---o---o    vertex of the border; T lies inside an edge of the larger leaf, its host.
-//! |       |   |   |
-//! +-------o---+---+
-//! ```
-//! A place in the mesh is a pair of integers in units of 2^-[`MAX_LEVEL`] of an initial cell; parameters are
-//! made from it, never compared with it.
+//! The mesh: its quadtrees, and who lies beside whom.
 
-use super::error::PhtError;
-use crate::geometry::Domain;
+use super::cell::{Cell, EDGES, Edge, MAX_GRID, MAX_LEVEL, QUADRANTS, UNIT, Vertex};
+use super::error::TMeshError;
+use crate::geometry::{Axis, Domain};
 use crate::knots::KnotVector;
-use crate::surface::tensor::Axis;
 use glam::DVec2;
-
-/// Most times a cell of the initial grid can be halved.
-pub const MAX_LEVEL: u32 = 20;
-/// Side of an initial cell in units of vertices.
-const UNIT: u32 = 1 << MAX_LEVEL;
-/// Most initial cells along one direction: vertices fit into 32 bits.
-pub const MAX_GRID: usize = 4095;
-
-/// The address of a cell: `level` halvings of an initial cell, `i` and `j` counted along u and v over the
-/// whole grid.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Cell {
-    /// 0 for a cell of the initial grid.
-    pub level: u32,
-    /// Below `2^level` times the initial cells along u.
-    pub i: u32,
-    /// Below `2^level` times the initial cells along v.
-    pub j: u32,
-}
-
-/// The place of a vertex, in units of 2^-20 of an initial cell; ordered along u first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Vertex {
-    /// Along u.
-    pub i: u32,
-    /// Along v.
-    pub j: u32,
-}
-
-/// Corners, children and quadrants come in this order, v running fastest.
-pub const QUADRANTS: [[u32; 2]; 4] = [[0, 0], [0, 1], [1, 0], [1, 1]];
-
-impl Cell {
-    /// Side in units of vertices.
-    pub fn side(self) -> u32 {
-        UNIT >> self.level
-    }
-
-    /// The corners in the order of [`QUADRANTS`].
-    pub fn corners(self) -> [Vertex; 4] {
-        let side = self.side();
-        QUADRANTS.map(|[a, b]| Vertex { i: (self.i + a) * side, j: (self.j + b) * side })
-    }
-
-    /// The cell it is a quarter of.
-    pub fn parent(self) -> Option<Self> {
-        (self.level > 0).then(|| Self { level: self.level - 1, i: self.i / 2, j: self.j / 2 })
-    }
-
-    /// Its quarters.
-    pub fn children(self) -> [Self; 4] {
-        QUADRANTS.map(|[a, b]| Self { level: self.level + 1, i: 2 * self.i + a, j: 2 * self.j + b })
-    }
-
-    /// The vertex in its middle. The level is below [`MAX_LEVEL`].
-    pub fn middle(self) -> Vertex {
-        let half = self.side() / 2;
-        Vertex { i: (2 * self.i + 1) * half, j: (2 * self.j + 1) * half }
-    }
-
-    /// The middles of the edges at least u, largest u, least v, largest v.
-    pub fn edge_middles(self) -> [Vertex; 4] {
-        let [a, b, c, _] = self.corners();
-        let (low, high, Vertex { i, j }) = (a, Vertex { i: c.i, j: b.j }, self.middle());
-        [Vertex { i: low.i, j }, Vertex { i: high.i, j }, Vertex { i, j: low.j }, Vertex { i, j: high.j }]
-    }
-
-    /// Whether `vertex` is one of its corners.
-    pub fn has_corner(self, vertex: Vertex) -> bool {
-        self.corners().contains(&vertex)
-    }
-}
-
-impl Vertex {
-    /// Its coordinate along one axis.
-    pub fn along(self, axis: Axis) -> u32 {
-        match axis {
-            Axis::U => self.i,
-            Axis::V => self.j,
-        }
-    }
-
-    /// Side of the cells of a level, in units of vertices.
-    pub fn side_at(level: u32) -> u32 {
-        UNIT >> level
-    }
-
-    /// The least level at which both coordinates are grid lines.
-    pub fn birth_level(self) -> u32 {
-        MAX_LEVEL - (self.i | self.j | UNIT).trailing_zeros()
-    }
-}
 
 /// Number of a node of the quadtrees; its meaning ends when the node is merged away.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -161,18 +58,18 @@ impl PartialEq for TMesh {
 
 impl TMesh {
     /// The tensor grid over strictly increasing `breaks_u` and `breaks_v`.
-    pub fn new(breaks_u: &[f64], breaks_v: &[f64]) -> Result<Self, PhtError> {
+    pub fn new(breaks_u: &[f64], breaks_v: &[f64]) -> Result<Self, TMeshError> {
         let grid = |axis, breaks: &[f64]| {
             if let Some(index) = breaks.iter().position(|t| !t.is_finite()) {
-                return Err(PhtError::KnotNotFinite { axis, index });
+                return Err(TMeshError::KnotNotFinite { axis, index });
             }
             if let Some(index) = breaks.windows(2).position(|pair| pair[0] >= pair[1]) {
-                return Err(PhtError::KnotNotIncreasing { axis, index: index + 1 });
+                return Err(TMeshError::KnotNotIncreasing { axis, index: index + 1 });
             }
             if breaks.len() < 2 || breaks.len() - 1 > MAX_GRID {
-                return Err(PhtError::KnotCount { axis, count: breaks.len() });
+                return Err(TMeshError::KnotCount { axis, count: breaks.len() });
             }
-            KnotVector::clamped(breaks, 1).map_err(|_| PhtError::KnotCount { axis, count: breaks.len() })
+            KnotVector::clamped(breaks, 1).map_err(|_| TMeshError::KnotCount { axis, count: breaks.len() })
         };
         let grid = [grid(Axis::U, breaks_u)?, grid(Axis::V, breaks_v)?];
         let [count_u, count_v] = [breaks_u.len() as u32 - 1, breaks_v.len() as u32 - 1];
@@ -200,7 +97,7 @@ impl TMesh {
     }
 
     /// The initial grid along an axis, as knots of degree 1.
-    pub(super) fn grid_lines(&self, axis: Axis) -> &KnotVector {
+    pub fn grid_lines(&self, axis: Axis) -> &KnotVector {
         match axis {
             Axis::U => &self.grid[0],
             Axis::V => &self.grid[1],
@@ -292,7 +189,7 @@ impl TMesh {
 
     /// Splits leaves one after the other; later ones may be quarters of earlier ones. An error leaves those
     /// before it split.
-    pub fn split_all(&mut self, cells: &[Cell]) -> Result<(), PhtError> {
+    pub fn split_all(&mut self, cells: &[Cell]) -> Result<(), TMeshError> {
         for (index, &cell) in cells.iter().enumerate() {
             let leaf = self.splittable(index, cell)?;
             self.split(leaf);
@@ -301,11 +198,11 @@ impl TMesh {
     }
 
     /// The leaf at an address, the `index`-th of a list, if it can be split.
-    pub fn splittable(&self, index: usize, cell: Cell) -> Result<NodeId, PhtError> {
+    pub fn splittable(&self, index: usize, cell: Cell) -> Result<NodeId, TMeshError> {
         let leaf = self.find(cell).filter(|&node| self.is_leaf(node));
-        let leaf = leaf.ok_or(PhtError::NotLeaf { index, cell })?;
+        let leaf = leaf.ok_or(TMeshError::NotLeaf { index, cell })?;
         if cell.level >= MAX_LEVEL {
-            return Err(PhtError::LevelLimit { index, level: cell.level, limit: MAX_LEVEL });
+            return Err(TMeshError::LevelLimit { index, level: cell.level, limit: MAX_LEVEL });
         }
         Ok(leaf)
     }
@@ -481,22 +378,3 @@ impl TMesh {
         leaves
     }
 }
-
-/// An edge of a cell.
-#[derive(Debug, Clone, Copy)]
-pub struct Edge {
-    /// The direction it runs in.
-    pub along: Axis,
-    /// The corners at its ends.
-    pub ends: [usize; 2],
-    /// From its first end, the quadrant ahead on the other side.
-    pub ahead: [u32; 2],
-}
-
-/// The edges at least u, largest u, least v, largest v.
-pub const EDGES: [Edge; 4] = [
-    Edge { along: Axis::V, ends: [0, 1], ahead: [0, 1] },
-    Edge { along: Axis::V, ends: [2, 3], ahead: [1, 1] },
-    Edge { along: Axis::U, ends: [0, 2], ahead: [1, 0] },
-    Edge { along: Axis::U, ends: [1, 3], ahead: [1, 1] },
-];
