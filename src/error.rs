@@ -14,6 +14,7 @@ use crate::fit::d1rc::D1rcFitError;
 use crate::fit::field::transfer::TransferError;
 use crate::fit::skin::SkinError;
 use crate::knots::KnotError;
+use crate::layout::LayoutError;
 use crate::mesh::{CutError, DecimateError, MeshError, ReadError};
 use crate::parameterize::ParameterizeError;
 use crate::query::deviation::DeviationError;
@@ -73,6 +74,9 @@ pub enum Error {
     /// A mesh file cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
+    /// Quads do not make a layout.
+    #[error(transparent)]
+    Layout(#[from] LayoutError),
     /// A mesh cannot be parameterized.
     #[error(transparent)]
     Parameterize(#[from] ParameterizeError),
@@ -171,6 +175,7 @@ impl Error {
         match self {
             Self::Mesh(error) => (error.kind(), error.index()),
             Self::Read(error) => (error.kind(), error.index()),
+            Self::Layout(error) => (error.kind(), error.index()),
             Self::Parameterize(error) => (error.kind(), error.index()),
             Self::Fit(error) => (error.kind(), error.index()),
             Self::Transfer(error) => (error.kind(), error.index()),

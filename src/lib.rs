@@ -25,6 +25,7 @@
 //! * [`linalg`]: banded and sparse systems.
 //! * [`mesh`]: triangle meshes, their topology and files.
 //! * [`parameterize`]: where a mesh gets its (u,v) from.
+//! * [`layout`]: quadrilateral patches over surfaces of any genus, and how they meet.
 //! * [`curve`]: B-spline curves.
 //! * [`tmesh`]: hierarchical T-meshes, their cells and vertices.
 //! * [`surface`]: what every surface can do, and the families.
@@ -47,6 +48,7 @@ pub mod fit;
 pub mod geometry;
 pub mod hermite;
 pub mod knots;
+pub mod layout;
 pub mod linalg;
 pub mod mesh;
 pub mod parameterize;

@@ -3,6 +3,7 @@
 //! Each is a tessellation with exact places; those with natural parameters carry them. The same seed gives the
 //! same bits on every machine.
 
+pub mod layouts;
 pub mod rows;
 
 use crate::mesh::{Mesh, MeshError};

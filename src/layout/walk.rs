@@ -1,0 +1,41 @@
+//! Ways over the edges of a layout.
+
+use super::{Layout, Place, Sector, Side};
+use glam::DVec2;
+
+impl Layout {
+    /// The place that parameters beyond a quad stand for: what lies across an edge belongs to the neighbour, to
+    /// first order (`q` becomes `-q`). What lies beyond a border, or still outside after two edges, is moved to
+    /// the nearest place.
+    pub fn cross(&self, quad: u32, uv: DVec2) -> Place {
+        let mut place = Place { quad, uv };
+        // twice around: past a corner two edges are crossed
+        for side in [0, 1, 2, 3, 0, 1, 2, 3] {
+            let side = Side { quad: place.quad, side };
+            let [t, q] = side.coordinates(place.uv);
+            if q < 0.0
+                && let Some(other) = self.opposite(side).filter(|_| self.is_smooth(self.edge_of(side).edge))
+            {
+                place = other.place(1.0 - t, -q);
+            }
+        }
+        Place { uv: place.uv.clamp(DVec2::ZERO, DVec2::ONE), ..place }
+    }
+
+    /// The parameters of a place as a quad would continue: on itself, or on a neighbour unfolded over their edge
+    /// by `B(s, q) = A(s + q g(s), -q)`, g linear between the balances of the ends. None for all other quads.
+    pub fn unfold(&self, quad: u32, place: Place) -> Option<DVec2> {
+        if place.quad == quad {
+            return Some(place.uv);
+        }
+        (0..4).map(|side| Side { quad, side }).find_map(|side| {
+            let other = self.opposite(side).filter(|other| other.quad == place.quad)?;
+            self.is_smooth(self.edge_of(side).edge).then_some(())?;
+            let [t, q] = other.coordinates(place.uv);
+            let [c_0, c_1] = [side, side.next()].map(|corner| Sector::balance(self.sector_at(corner)));
+            let s = 1.0 - t;
+            let g = c_0 * (1.0 - s) - c_1 * s;
+            Some(side.place(s + q * g, -q).uv)
+        })
+    }
+}
