@@ -15,7 +15,7 @@ pub fn trapezohedron(n: u32) -> PlacedQuads {
         (0..n).map(|i| [north, equator(2 * i), equator(2 * i + 1), equator(2 * i + 2)]).collect();
     quads.extend((0..n).map(|i| [south, equator(2 * i + 1), equator(2 * i), equator(2 * i + 2 * n - 1)]));
     // even vertices belong to the northern edges
-    let height = |k: u32| if k % 2 == 0 { 0.3 } else { -0.3 };
+    let height = |k: u32| if k.is_multiple_of(2) { 0.3 } else { -0.3 };
     let mut places: Vec<DVec3> = (0..2 * n)
         .map(|k| {
             let (sin, cos) = (PI * f64::from(k) / f64::from(n)).sin_cos();

@@ -10,6 +10,7 @@ mod cut;
 pub mod d1rc;
 mod differential;
 pub mod evaluate;
+pub mod g1;
 mod homogeneous;
 pub mod pht;
 mod region;
