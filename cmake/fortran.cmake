@@ -1,8 +1,9 @@
-# Makes Planish::fortran, the Fortran module, of its source. A compiled module fits a single compiler, so every
-# project compiles the source with its own: the build tree of Planish and, through find_package, its users.
+# Makes Planish::fortran, the Fortran modules, of their sources: planish_c.f90 (generated), then planish.f90. A compiled
+# module fits a single compiler, so every project compiles the sources with its own: the build tree of Planish and,
+# through find_package, its users.
 
-function(planish_add_fortran source library)
-  add_library(planish_fortran STATIC EXCLUDE_FROM_ALL "${source}")
+function(planish_add_fortran raw source library)
+  add_library(planish_fortran STATIC EXCLUDE_FROM_ALL "${raw}" "${source}")
   set(modules "${CMAKE_CURRENT_BINARY_DIR}/planish_modules")
   set_target_properties(planish_fortran PROPERTIES Fortran_MODULE_DIRECTORY "${modules}"
                                                    POSITION_INDEPENDENT_CODE ON)

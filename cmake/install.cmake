@@ -3,8 +3,9 @@
 include(CMakePackageConfigHelpers)
 set(_config_dir "${CMAKE_INSTALL_LIBDIR}/cmake/Planish")
 
-# the Fortran module is installed as source: a compiled one fits a single compiler
-install(FILES include/planish.h include/planish.hpp include/planish.f90 DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
+# the Fortran modules are installed as source: a compiled one fits a single compiler
+install(FILES include/planish.h include/planish.hpp include/planish.f90 bindings/planish_c.f90
+        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
         COMPONENT Development)
 
 # PROGRAMS, because a shared library is executable; FILES copies links as links

@@ -5,6 +5,7 @@
 
 #include <planish.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -28,6 +29,17 @@ static planish::surface hat() {
 
 static double value(const planish::surface &surface, double u, double v) {
   return surface.eval(planish::point2{u, v})[0];
+}
+
+// The status of the error that a call throws.
+template <class Call>
+static planish_status thrown(const Call &call) {
+  try {
+    call();
+  } catch (const planish::error &error) {
+    return error.status();
+  }
+  return PLANISH_STATUS_OK;
 }
 
 TEST(Pht, WorkedExample) {
@@ -95,6 +107,57 @@ TEST(Pht, ConvertsATensorSurfaceAndStitches) {
   CHECK_NEAR(value(a, 0.3, 0.9), value(tensor, 0.3, 0.9), 1e-14);
   planish::pht_stitch(a, PLANISH_BORDER_SIDE_HIGH_U, b, PLANISH_BORDER_SIDE_LOW_V, true);
   for (double t : {0.0, 0.2, 0.5, 0.9, 1.0}) CHECK_NEAR(value(a, 1.0, t), value(b, 1.0 - t, 0.0), 1e-14);
+}
+
+// +-------+-------+
+// |       |       |    T marks the T-vertices: each lies in an edge of its host, the cell beside the four small ones,
+// |       |       |    whose neighbours are these two and the cell in the corner.
+// +---T---+-------+
+// +---+---T       |
+// +---+---+-------+
+TEST(Pht, KnowsHostsAndNeighbours) {
+  planish::surface surface = hat();
+  const planish::pht view(surface);
+  CHECK_EQUAL(view.hanging_count(), 2u);
+  const auto hanging = view.hanging();
+  const auto hosts = view.hosts();
+  CHECK(hanging.size() == 2 && hosts.size() == 2);
+  for (std::size_t i = 0; i < hanging.size(); ++i) {
+    const bool right = hanging[i] == planish::point2{0.5, 0.25};
+    CHECK(right || (hanging[i] == planish::point2{0.25, 0.5}));
+    CHECK_EQUAL(hosts[i], view.cell_at(right ? 0.6 : 0.1, right ? 0.1 : 0.6));
+    const auto neighbours = view.neighbours(hosts[i]);
+    CHECK_EQUAL(neighbours.size(), 3u);
+    CHECK(std::count(neighbours.begin(), neighbours.end(), view.cell_at(0.8, 0.8)) == 1);
+  }
+  CHECK(thrown([&] { view.neighbours(7); }) == PLANISH_STATUS_INDEX);
+}
+
+TEST(Pht, ExtractionSumsToOne) {
+  planish::surface surface = hat();
+  const planish::pht view(surface);
+  for (std::size_t cell = 0; cell < view.cell_count(); ++cell) {
+    const auto made = view.extract(cell);
+    const std::size_t width = 4 * made.vertices.size();
+    CHECK(std::is_sorted(made.vertices.begin(), made.vertices.end()) && made.matrix.size() == 16 * width);
+    for (std::size_t row = 0; row < 16; ++row) {
+      const auto begin = made.matrix.begin() + static_cast<std::ptrdiff_t>(row * width);
+      CHECK_NEAR(std::accumulate(begin, begin + static_cast<std::ptrdiff_t>(width), 0.0), 1.0, 1e-14);
+    }
+  }
+}
+
+TEST(Pht, ControlPointsAreReplacedAndRegionsRefined) {
+  planish::surface surface = hat();
+  planish::pht view(surface);
+  view.set_control_points({0}, {4, 3, 2, 1});
+  const auto points = view.control_points();
+  for (std::size_t i = 0; i < 4; ++i) CHECK_NEAR(points[i], 4.0 - static_cast<double>(i), 1e-14);
+  const double before = value(surface, 0.7, 0.8);
+  view.refine_region({0.6, 0.9, 0.6, 0.9}, 3);
+  CHECK(view.cell_count() > 7);
+  CHECK_NEAR(value(surface, 0.7, 0.8), before, 1e-14);
+  CHECK(thrown([&] { view.refine_region({0, 1, 0, 1}, 8, 100); }) == PLANISH_STATUS_TOO_LARGE);
 }
 
 TEST(PhtFit, KeepsTheTolerance) {

@@ -139,6 +139,56 @@ typedef enum planish_status {
 } planish_status;
 
 /**
+ * Which weights an interior node gives its neighbours.
+ */
+typedef enum planish_map_method {
+    /**
+     * Mean value coordinates: no triangle turns over over a convex border.
+     */
+    PLANISH_MAP_METHOD_MEAN_VALUE = 0,
+    /**
+     * Cotangents: the conformal map of a flat sheet. Triangles may turn over; the report counts them.
+     */
+    PLANISH_MAP_METHOD_HARMONIC = 1,
+} planish_map_method;
+
+/**
+ * Where the longest boundary loop goes.
+ */
+typedef enum planish_border {
+    /**
+     * The one of circle, square by turns, square by arc and (if `unroll` says so) free with the least L2
+     * stretch.
+     */
+    PLANISH_BORDER_AUTO = 0,
+    /**
+     * The circle inscribed in the unit square, spaced by chord length.
+     */
+    PLANISH_BORDER_CIRCLE = 1,
+    /**
+     * The unit square with corners at the four sharpest turns of the loop.
+     */
+    PLANISH_BORDER_SQUARE_BY_TURNS = 2,
+    /**
+     * The unit square with corners at each quarter of the loop's length.
+     */
+    PLANISH_BORDER_SQUARE_BY_ARC = 3,
+    /**
+     * The unit square with the nodes `corners` at (0,0), (1,0), (1,1), (0,1).
+     */
+    PLANISH_BORDER_CORNERS = 4,
+    /**
+     * All boundary nodes, those of holes too, keep the parameters that the mesh has.
+     */
+    PLANISH_BORDER_KEPT = 5,
+    /**
+     * No border at all: unrolled so that lengths are kept best, in the units of the mesh. Refused if that
+     * folds or overlaps itself.
+     */
+    PLANISH_BORDER_FREE = 6,
+} planish_border;
+
+/**
  * Things worth knowing about a map or a fit: the bits of `remarks` in reports, several may hold.
  */
 typedef enum planish_remark {
@@ -235,56 +285,6 @@ typedef enum planish_stop_reason {
 } planish_stop_reason;
 
 /**
- * Which weights an interior node gives its neighbours.
- */
-typedef enum planish_map_method {
-    /**
-     * Mean value coordinates: no triangle turns over over a convex border.
-     */
-    PLANISH_MAP_METHOD_MEAN_VALUE = 0,
-    /**
-     * Cotangents: the conformal map of a flat sheet. Triangles may turn over; the report counts them.
-     */
-    PLANISH_MAP_METHOD_HARMONIC = 1,
-} planish_map_method;
-
-/**
- * Where the longest boundary loop goes.
- */
-typedef enum planish_border {
-    /**
-     * The one of circle, square by turns, square by arc and (if `unroll` says so) free with the least L2
-     * stretch.
-     */
-    PLANISH_BORDER_AUTO = 0,
-    /**
-     * The circle inscribed in the unit square, spaced by chord length.
-     */
-    PLANISH_BORDER_CIRCLE = 1,
-    /**
-     * The unit square with corners at the four sharpest turns of the loop.
-     */
-    PLANISH_BORDER_SQUARE_BY_TURNS = 2,
-    /**
-     * The unit square with corners at each quarter of the loop's length.
-     */
-    PLANISH_BORDER_SQUARE_BY_ARC = 3,
-    /**
-     * The unit square with the nodes `corners` at (0,0), (1,0), (1,1), (0,1).
-     */
-    PLANISH_BORDER_CORNERS = 4,
-    /**
-     * All boundary nodes, those of holes too, keep the parameters that the mesh has.
-     */
-    PLANISH_BORDER_KEPT = 5,
-    /**
-     * No border at all: unrolled so that lengths are kept best, in the units of the mesh. Refused if that
-     * folds or overlaps itself.
-     */
-    PLANISH_BORDER_FREE = 6,
-} planish_border;
-
-/**
  * The family of a surface.
  */
 typedef enum planish_kind {
@@ -329,25 +329,6 @@ typedef enum planish_outside {
      */
     PLANISH_OUTSIDE_EXTRAPOLATE = 2,
 } planish_outside;
-
-/**
- * What a VTK file holds of a surface.
- */
-typedef enum planish_vtk_content {
-    /**
-     * Triangles of the part inside the trims, or of deviation_from.
-     */
-    PLANISH_VTK_CONTENT_TRIANGLES = 0,
-    /**
-     * Its Bezier patches as cells of type VTK_BEZIER_QUADRILATERAL (VTK 9): the surface itself. Trims are not
-     * shown; cell data "parameters" has least and largest u, least and largest v of each patch.
-     */
-    PLANISH_VTK_CONTENT_PATCHES = 1,
-    /**
-     * Its control points, joined by polylines as neighbours in the control net.
-     */
-    PLANISH_VTK_CONTENT_CONTROL_NET = 2,
-} planish_vtk_content;
 
 /**
  * Flags of a point: bits of the elements of out_flags.
@@ -460,58 +441,18 @@ typedef enum planish_regularize {
 } planish_regularize;
 
 /**
- * What determines a PHT-spline at its vertices.
+ * What happens to targets beyond max_distance.
  */
-typedef enum planish_pht_estimator {
+typedef enum planish_far_rule {
     /**
-     * Least squares over all data with a weak bending energy: fewest coefficients.
+     * The first of them is an error, PLANISH_STATUS_OUTSIDE.
      */
-    PLANISH_PHT_ESTIMATOR_GLOBAL = 0,
+    PLANISH_FAR_RULE_REFUSE = 0,
     /**
-     * A quadratic fit around each datum, interpolated linearly (Deng et al., 2008): for comparison.
+     * They take part like all others; the call returns PLANISH_STATUS_POINTS_OUTSIDE.
      */
-    PLANISH_PHT_ESTIMATOR_LOCAL_QUADRATIC = 1,
-    /**
-     * A weighted cubic fit around each vertex: no system to solve, for very large data.
-     */
-    PLANISH_PHT_ESTIMATOR_LOCAL_CUBIC = 2,
-} planish_pht_estimator;
-
-/**
- * Which control points a PHT-spline has.
- */
-typedef enum planish_pht_basis {
-    /**
-     * Of the cells at the birth of a vertex (Deng et al., 2008): independent of later splits.
-     */
-    PLANISH_PHT_BASIS_CANONICAL = 0,
-    /**
-     * Of the widest cell of a vertex's support on each side: well conditioned whatever the levels.
-     */
-    PLANISH_PHT_BASIS_SUPPORT_SIZED = 1,
-} planish_pht_basis;
-
-/**
- * An edge of a surface's domain.
- */
-typedef enum planish_border_side {
-    /**
-     * Least u.
-     */
-    PLANISH_BORDER_SIDE_LOW_U = 0,
-    /**
-     * Largest u.
-     */
-    PLANISH_BORDER_SIDE_HIGH_U = 1,
-    /**
-     * Least v.
-     */
-    PLANISH_BORDER_SIDE_LOW_V = 2,
-    /**
-     * Largest v.
-     */
-    PLANISH_BORDER_SIDE_HIGH_V = 3,
-} planish_border_side;
+    PLANISH_FAR_RULE_KEEP = 1,
+} planish_far_rule;
 
 /**
  * What the rows of planish_mesh_sample_rows() lie between.
@@ -526,6 +467,76 @@ typedef enum planish_row_source {
      */
     PLANISH_ROW_SOURCE_NODE = 1,
 } planish_row_source;
+
+/**
+ * What a VTK file holds of a surface.
+ */
+typedef enum planish_vtk_content {
+    /**
+     * Triangles of the part inside the trims, or of deviation_from.
+     */
+    PLANISH_VTK_CONTENT_TRIANGLES = 0,
+    /**
+     * Its Bezier patches as cells of type VTK_BEZIER_QUADRILATERAL (VTK 9): the surface itself. Trims are not
+     * shown; cell data "parameters" has least and largest u, least and largest v of each patch.
+     */
+    PLANISH_VTK_CONTENT_PATCHES = 1,
+    /**
+     * Its control points, joined by polylines as neighbours in the control net.
+     */
+    PLANISH_VTK_CONTENT_CONTROL_NET = 2,
+} planish_vtk_content;
+
+/**
+ * The application protocol of a STEP file.
+ */
+typedef enum planish_step_schema {
+    /**
+     * AP214, automotive design: read by every CAD system.
+     */
+    PLANISH_STEP_SCHEMA_AP214 = 0,
+    /**
+     * AP242, managed model-based 3D engineering.
+     */
+    PLANISH_STEP_SCHEMA_AP242 = 1,
+} planish_step_schema;
+
+/**
+ * What one model unit is.
+ */
+typedef enum planish_unit {
+    /**
+     * A millimetre.
+     */
+    PLANISH_UNIT_MILLIMETRE = 0,
+    /**
+     * A metre.
+     */
+    PLANISH_UNIT_METRE = 1,
+    /**
+     * An inch, 25.4 mm.
+     */
+    PLANISH_UNIT_INCH = 2,
+} planish_unit;
+
+/**
+ * What a STEP file holds of a T-spline or PHT-spline.
+ */
+typedef enum planish_step_form {
+    /**
+     * The same surface as one tensor surface.
+     */
+    PLANISH_STEP_FORM_TENSOR = 0,
+    /**
+     * One face for each span of v, over the knots of four control curves: far fewer control points.
+     */
+    PLANISH_STEP_FORM_STRIPS = 1,
+    /**
+     * A PHT-spline as a shell of faces that share edges, each over a rectangle of cells whose levels differ by at
+     * most level_spread.
+     */
+    PLANISH_STEP_FORM_PATCHES = 2,
+} planish_step_form;
 
 /**
  * Which knots the control curves of a skin get.
@@ -582,69 +593,58 @@ typedef enum planish_v_rule {
 } planish_v_rule;
 
 /**
- * What happens to targets beyond max_distance.
+ * What determines a PHT-spline at its vertices.
  */
-typedef enum planish_far_rule {
+typedef enum planish_pht_estimator {
     /**
-     * The first of them is an error, PLANISH_STATUS_OUTSIDE.
+     * Least squares over all data with a weak bending energy: fewest coefficients.
      */
-    PLANISH_FAR_RULE_REFUSE = 0,
+    PLANISH_PHT_ESTIMATOR_GLOBAL = 0,
     /**
-     * They take part like all others; the call returns PLANISH_STATUS_POINTS_OUTSIDE.
+     * A quadratic fit around each datum, interpolated linearly (Deng et al., 2008): for comparison.
      */
-    PLANISH_FAR_RULE_KEEP = 1,
-} planish_far_rule;
+    PLANISH_PHT_ESTIMATOR_LOCAL_QUADRATIC = 1,
+    /**
+     * A weighted cubic fit around each vertex: no system to solve, for very large data.
+     */
+    PLANISH_PHT_ESTIMATOR_LOCAL_CUBIC = 2,
+} planish_pht_estimator;
 
 /**
- * What a STEP file holds of a T-spline or PHT-spline.
+ * An edge of a surface's domain.
  */
-typedef enum planish_step_form {
+typedef enum planish_border_side {
     /**
-     * The same surface as one tensor surface.
+     * Least u.
      */
-    PLANISH_STEP_FORM_TENSOR = 0,
+    PLANISH_BORDER_SIDE_LOW_U = 0,
     /**
-     * One face for each span of v, over the knots of four control curves: far fewer control points.
+     * Largest u.
      */
-    PLANISH_STEP_FORM_STRIPS = 1,
+    PLANISH_BORDER_SIDE_HIGH_U = 1,
     /**
-     * A PHT-spline as a shell of faces that share edges, each over a rectangle of cells whose levels differ by at
-     * most level_spread.
+     * Least v.
      */
-    PLANISH_STEP_FORM_PATCHES = 2,
-} planish_step_form;
+    PLANISH_BORDER_SIDE_LOW_V = 2,
+    /**
+     * Largest v.
+     */
+    PLANISH_BORDER_SIDE_HIGH_V = 3,
+} planish_border_side;
 
 /**
- * The application protocol of a STEP file.
+ * Which control points a PHT-spline has.
  */
-typedef enum planish_step_schema {
+typedef enum planish_pht_basis {
     /**
-     * AP214, automotive design: read by every CAD system.
+     * Of the cells at the birth of a vertex (Deng et al., 2008): independent of later splits.
      */
-    PLANISH_STEP_SCHEMA_AP214 = 0,
+    PLANISH_PHT_BASIS_CANONICAL = 0,
     /**
-     * AP242, managed model-based 3D engineering.
+     * Of the widest cell of a vertex's support on each side: well conditioned whatever the levels.
      */
-    PLANISH_STEP_SCHEMA_AP242 = 1,
-} planish_step_schema;
-
-/**
- * What one model unit is.
- */
-typedef enum planish_unit {
-    /**
-     * A millimetre.
-     */
-    PLANISH_UNIT_MILLIMETRE = 0,
-    /**
-     * A metre.
-     */
-    PLANISH_UNIT_METRE = 1,
-    /**
-     * An inch, 25.4 mm.
-     */
-    PLANISH_UNIT_INCH = 2,
-} planish_unit;
+    PLANISH_PHT_BASIS_SUPPORT_SIZED = 1,
+} planish_pht_basis;
 
 /**
  * Which functions a D1RC-spline has.
@@ -800,6 +800,7 @@ typedef struct planish_mesh_options {
     /**
      * Receives for each node given the node of the mesh that it became, counted from 0: point_count
      * elements, or NULL (default). Filled on success only. Must be NULL for files.
+     * Array: [nodes].
      */
     uint32_t *out_node_map;
     /**
@@ -846,11 +847,12 @@ typedef struct planish_decimate_options {
     double sharp_angle;
     /**
      * Where the boundary or a chain of sharp edges turns by more than this, in radians, at most pi, its node
-     * stays. Default a quarter of pi.
+     * stays. Default pi / 4.
      */
     double corner_angle;
     /**
      * Further sharp edges: two nodes each, counted from 0; NULL (default) for none.
+     * Array: [sharp_edge_count, 2].
      */
     const uint32_t *sharp_edges;
     /**
@@ -860,6 +862,7 @@ typedef struct planish_decimate_options {
     /**
      * Receives the sharp edges of the new mesh, two nodes each, counted from 0, the smaller first; or NULL
      * (default). Written on success only.
+     * Array: [out_sharp_edge_count, 2].
      */
     uint32_t *out_sharp_edges;
     /**
@@ -921,6 +924,7 @@ typedef struct planish_parameterize_options {
     size_t struct_size;
     /**
      * A positive number for each node: large where more parameter area is wanted. NULL (default) for all 1.
+     * Array: [nodes].
      */
     const double *node_weights;
     /**
@@ -1054,6 +1058,7 @@ typedef struct planish_eval_options {
     size_t out_stride;
     /**
      * Receives bits of planish_flag, one element for each point; NULL (default) for none.
+     * Array: [points].
      */
     uint8_t *out_flags;
     /**
@@ -1162,6 +1167,7 @@ typedef struct planish_tensor_options {
     const struct planish_parameterize_options *parameterize;
     /**
      * A positive weight for each datum; NULL (default) for all 1.
+     * Array: [data].
      */
     const double *weights;
     /**
@@ -1175,11 +1181,13 @@ typedef struct planish_tensor_options {
     /**
      * Receives the (u,v) at which the error of each datum is measured: two numbers for each datum, or NULL
      * (default). Written on success only.
+     * Array: [data, 2].
      */
     double *out_parameters;
     /**
      * Receives the error of each datum in model units: one number for each datum, or NULL (default). Written
      * on success only.
+     * Array: [data].
      */
     double *out_errors;
     /**
@@ -1377,16 +1385,19 @@ typedef struct planish_field_options {
     const struct planish_parameterize_options *parameterize;
     /**
      * A positive weight for each node; NULL (default) for all 1.
+     * Array: [nodes].
      */
     const double *weights;
     /**
      * For each node 1 if fields have values there, 0 if not: those values are never looked at and may be NaN. NULL
      * (default) for values at all nodes.
+     * Array: [nodes].
      */
     const uint8_t *mask;
     /**
      * A field for which grid and smoothing are found that meet the tolerance: sample_dim numbers for each node; NULL
      * (default) for none. grid_u and grid_v must then be 0.
+     * Array: [nodes, sample_dim].
      */
     const double *sample_values;
     /**
@@ -1634,11 +1645,12 @@ typedef struct planish_project_options {
     /**
      * A row u, v near the answer for each point, or NULL (default). It saves time and may choose between
      * equally near places; the answer is the nearest place all the same. Borrowed.
+     * Array: [points, 2].
      */
     const double *guesses;
     /**
      * Points farther from the surface than this get NaN, and the call returns
-     * PLANISH_STATUS_POINTS_OUTSIDE. Not negative; default infinity.
+     * PLANISH_STATUS_POINTS_OUTSIDE. Not negative. Default infinity.
      */
     double max_distance;
     /**
@@ -1908,6 +1920,7 @@ typedef struct planish_interpolate_options {
     /**
      * For PLANISH_SECTION_ENDS_SLOPES: 2 rows of dim numbers, the derivatives with respect to u at the first and at
      * the last point; otherwise NULL (default). Borrowed for the call.
+     * Array: [2, dim].
      */
     const double *end_slopes;
     /**
@@ -2001,15 +2014,18 @@ typedef struct planish_skin_options {
      * For each row two vectors of dim numbers, the slopes at its begin and its end, derivatives with respect to
      * chord length (a unit tangent keeps the pace); NULL (default) unless ends is PLANISH_SECTION_ENDS_SLOPES. Not
      * used for curves.
+     * Array: [rows, 2, dim].
      */
     const double *end_slopes;
     /**
      * For each point of the first row, or each different knot of the first curve, a vector of dim numbers: the
      * derivative across it with respect to length along v; NULL (default) for no curvature there.
+     * Array: [*, dim].
      */
     const double *begin_tangents;
     /**
      * The same at the last row.
+     * Array: [*, dim].
      */
     const double *end_tangents;
     /**
@@ -2023,11 +2039,13 @@ typedef struct planish_skin_options {
     /**
      * Receives the (u,v) at which the error of each point is measured: two numbers for each point, or NULL
      * (default; for curves it must be). Written on success only.
+     * Array: [data, 2].
      */
     double *out_parameters;
     /**
      * Receives the error of each point in model units, or NULL (default; for curves it must be). Written on success
      * only.
+     * Array: [data].
      */
     double *out_errors;
     /**
@@ -2124,6 +2142,7 @@ typedef struct planish_pht_options {
     const struct planish_parameterize_options *parameterize;
     /**
      * A positive weight for each datum; NULL (default) for all 1.
+     * Array: [data].
      */
     const double *weights;
     /**
@@ -2137,11 +2156,13 @@ typedef struct planish_pht_options {
     /**
      * Receives the (u,v) at which the error of each datum is measured: two numbers for each datum, or NULL
      * (default). Written on success only.
+     * Array: [data, 2].
      */
     double *out_parameters;
     /**
      * Receives the error of each datum in model units: one number for each datum, or NULL (default). Written
      * on success only.
+     * Array: [data].
      */
     double *out_errors;
     /**
@@ -2236,6 +2257,7 @@ typedef struct planish_d1rc_options {
     size_t struct_size;
     /**
      * sharp_edge_count pairs of nodes joined by an edge; NULL (default) for none. Edges on the boundary do nothing.
+     * Array: [sharp_edge_count, 2].
      */
     const uint32_t *sharp_edges;
     /**
@@ -2244,6 +2266,7 @@ typedef struct planish_d1rc_options {
     size_t sharp_edge_count;
     /**
      * corner_count nodes to be interpolated; NULL (default) for none.
+     * Array: [corner_count].
      */
     const uint32_t *corners;
     /**
@@ -2287,16 +2310,19 @@ typedef struct planish_d1rc_options {
     const struct planish_mesh *control_mesh;
     /**
      * Fits only: a positive weight for each node; NULL (default) for all 1.
+     * Array: [nodes].
      */
     const double *weights;
     /**
      * Fits only: receives the (u,v) at which the error of each node is measured: two numbers for each node, or NULL
      * (default). Written on success only.
+     * Array: [nodes, 2].
      */
     double *out_parameters;
     /**
      * Fits only: receives the error of each node in model units: one number for each node, or NULL (default).
      * Written on success only.
+     * Array: [nodes].
      */
     double *out_errors;
     /**
@@ -2365,6 +2391,7 @@ PLANISH_API const char *planish_status_name(int32_t status);
  *
  * text: receives the sentence in UTF-8, cut off if it is too long and always terminated; NULL if size is 0.
  * size: bytes that text has room for, the NUL included.
+ * Arrays: text[size].
  * Returns the length of the whole sentence in bytes without the NUL; 0 if nothing has failed yet.
  * planish_error_message(NULL, 0) asks for it.
  */
@@ -2397,6 +2424,7 @@ enum planish_status planish_mesh_options_init(struct planish_mesh_options *optio
  * triangle_count: at least 1.
  * options:        NULL for the defaults.
  * out_mesh:       receives a new mesh; destroy with planish_mesh_free().
+ * Arrays: points[point_count, 3], triangles[triangle_count, 3].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_INPUT_REPAIRED (something was welded or turned over, see
  * options->out_repairs) or an error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (empty
  * arrays, a stride, the weld distance), PLANISH_STATUS_NOT_FINITE (a coordinate; the index is the node),
@@ -2501,6 +2529,7 @@ PLANISH_API size_t planish_mesh_loop_point_count(const struct planish_mesh *mesh
  * mesh:       not NULL.
  * out_points: receives planish_mesh_point_count() rows of x, y, z.
  * count:      rows that out_points has room for.
+ * Arrays: out_points[mesh_point_count, 3].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
 PLANISH_API
@@ -2515,6 +2544,7 @@ enum planish_status planish_mesh_copy_points(const struct planish_mesh *mesh,
  * mesh:          not NULL.
  * out_triangles: receives planish_mesh_triangle_count() rows of three nodes, counted from 0.
  * count:         rows that out_triangles has room for.
+ * Arrays: out_triangles[mesh_triangle_count, 3].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
 PLANISH_API
@@ -2530,6 +2560,7 @@ enum planish_status planish_mesh_copy_triangles(const struct planish_mesh *mesh,
  * loop:      below planish_mesh_loop_count(); loop 0 is the longest in space.
  * out_nodes: receives planish_mesh_loop_point_count() nodes, counted from 0.
  * count:     nodes that out_nodes has room for.
+ * Arrays: out_nodes[mesh_loop_point_count].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INDEX (the loop) or
  * PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
@@ -2552,6 +2583,7 @@ PLANISH_API size_t planish_mesh_field_count(const struct planish_mesh *mesh);
  * field: below planish_mesh_field_count().
  * name:  receives the name in UTF-8, cut off if it is too long and always terminated; NULL if size is 0.
  * size:  bytes that name has room for, the NUL included.
+ * Arrays: name[size].
  * Returns the length of the whole name in bytes without the NUL; 0 for NULL or a field that does not exist.
  */
 PLANISH_API
@@ -2567,6 +2599,7 @@ size_t planish_mesh_field_name(const struct planish_mesh *mesh,
  * name:       the field's name in UTF-8, terminated.
  * out_values: receives planish_mesh_point_count() values; NaN where nothing is known.
  * count:      values that out_values has room for.
+ * Arrays: out_values[mesh_point_count].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (no such field, or
  * name is not UTF-8) or PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
@@ -2584,6 +2617,7 @@ enum planish_status planish_mesh_copy_field(const struct planish_mesh *mesh,
  * name:   the field's name in UTF-8, terminated.
  * values: count values, one for each node; NaN where nothing is known. Copied.
  * count:  planish_mesh_point_count().
+ * Arrays: values[count].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (count, or name is
  * not UTF-8), PLANISH_STATUS_TOO_LARGE or PLANISH_STATUS_OUT_OF_MEMORY.
  */
@@ -2605,6 +2639,7 @@ PLANISH_API uint32_t planish_mesh_has_parameters(const struct planish_mesh *mesh
  * mesh:  not NULL; changed.
  * uv:    count rows of u, v. Copied.
  * count: planish_mesh_point_count().
+ * Arrays: uv[count, 2].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (count),
  * PLANISH_STATUS_NOT_FINITE (the index is the node), PLANISH_STATUS_TOO_LARGE or PLANISH_STATUS_OUT_OF_MEMORY.
  */
@@ -2620,6 +2655,7 @@ enum planish_status planish_mesh_set_parameters(struct planish_mesh *mesh,
  * mesh:   not NULL.
  * out_uv: receives planish_mesh_point_count() rows of u, v.
  * count:  rows that out_uv has room for.
+ * Arrays: out_uv[mesh_point_count, 2].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the mesh has no
  * parameters) or PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
@@ -2639,6 +2675,7 @@ enum planish_status planish_mesh_copy_parameters(const struct planish_mesh *mesh
  * triangles: count triangles to leave out, counted from 0, in any order.
  * count:     may be 0.
  * out_mesh:  receives a new mesh; destroy with planish_mesh_free().
+ * Arrays: triangles[count].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INDEX (no such triangle; it is the
  * index) or PLANISH_STATUS_INVALID_ARGUMENT (nothing is left).
  */
@@ -2660,6 +2697,7 @@ enum planish_status planish_mesh_remove_triangles(const struct planish_mesh *mes
  * nodes:    count nodes of the path in order, counted from 0; see planish_mesh_shortest_path().
  * count:    at least 2.
  * out_mesh: receives a new mesh; destroy with planish_mesh_free().
+ * Arrays: nodes[count].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (count),
  * PLANISH_STATUS_INDEX (no such node; it is the index) or PLANISH_STATUS_TOPOLOGY (two nodes that follow each
  * other have no common edge, the index is the first; or the path opens nothing).
@@ -2679,6 +2717,7 @@ enum planish_status planish_mesh_cut_along(const struct planish_mesh *mesh,
  * out_meshes: receives planish_mesh_component_count() new meshes, all or none; destroy each with
  *             planish_mesh_free().
  * count:      meshes that out_meshes has room for.
+ * Arrays: out_meshes[mesh_component_count].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
 PLANISH_API
@@ -2695,6 +2734,7 @@ enum planish_status planish_mesh_split_components(const struct planish_mesh *mes
  * out_nodes: receives the nodes of the path, both ends included; NULL if count is 0.
  * count:     nodes that out_nodes has room for; 0 asks for the length only.
  * out_count: receives the number of nodes of the path; not NULL.
+ * Arrays: out_nodes[count], out_count[1].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INDEX (no such node; it is the
  * index), PLANISH_STATUS_TOPOLOGY (no path joins them) or PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
@@ -2803,6 +2843,7 @@ PLANISH_API size_t planish_surface_coefficient_count(const struct planish_surfac
  *
  * surface: not NULL.
  * out_box: receives 4 numbers: least u, largest u, least v, largest v.
+ * Arrays: out_box[4].
  * Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
  */
 PLANISH_API
@@ -2816,6 +2857,7 @@ enum planish_status planish_surface_domain(const struct planish_surface *surface
  *
  * surface: not NULL.
  * out_box: receives 4 numbers: least u, largest u, least v, largest v.
+ * Arrays: out_box[4].
  * Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
  */
 PLANISH_API
@@ -2832,6 +2874,7 @@ enum planish_status planish_surface_data_box(const struct planish_surface *surfa
  * options:    NULL for the defaults.
  * out_values: receives count rows of dim numbers; rows start options->out_stride doubles apart. It must not
  *             overlap uv.
+ * Arrays: uv[count, 2], out_values[count, surface_dim].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_POINTS_OUTSIDE (with PLANISH_OUTSIDE_FLAG; the values of those
  * points are NaN) or an error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option),
  * PLANISH_STATUS_OUTSIDE (with PLANISH_OUTSIDE_FAIL; the index is the first such point),
@@ -2856,6 +2899,7 @@ enum planish_status planish_surface_eval(const struct planish_surface *surface,
  * options:        NULL for the defaults.
  * out:            receives for each point 1, 3 or 6 rows of dim numbers: S; Su, Sv; Suu, Suv, Svv. Points
  *                 start options->out_stride doubles apart. It must not overlap uv.
+ * Arrays: uv[count, 2], out[count, *, surface_dim].
  * Returns what planish_surface_eval() returns; PLANISH_STATUS_INVALID_ARGUMENT also for max_derivative.
  */
 PLANISH_API
@@ -2876,6 +2920,7 @@ enum planish_status planish_surface_eval_derivatives(const struct planish_surfac
  * options:    NULL for the defaults; uv_stride must be 0.
  * out_values: receives u_count * v_count rows of dim numbers, v running fastest; rows start
  *             options->out_stride doubles apart. It must not overlap u or v.
+ * Arrays: u[u_count], v[v_count], out_values[u_count, v_count, surface_dim].
  * Returns what planish_surface_eval() returns; the index of a point counts as the rows of out_values do.
  */
 PLANISH_API
@@ -2897,6 +2942,7 @@ enum planish_status planish_surface_eval_grid(const struct planish_surface *surf
  * options:     NULL for the defaults.
  * out_normals: receives count rows of 3 numbers, NaN where Su and Sv are parallel; rows start
  *              options->out_stride doubles apart. It must not overlap uv.
+ * Arrays: uv[count, 2], out_normals[count, 3].
  * Returns what planish_surface_eval() returns; PLANISH_STATUS_INVALID_ARGUMENT also if dim is not 3.
  */
 PLANISH_API
@@ -2917,6 +2963,7 @@ enum planish_status planish_surface_normals(const struct planish_surface *surfac
  * out:     receives count rows of 8 numbers: k1, k2 with k1 >= k2, positive where the surface bends towards
  *          its normal, then the unit tangents d1 and d2 of 3 numbers each, with d1 x d2 the normal; NaN where
  *          there is no normal. Rows start options->out_stride doubles apart. It must not overlap uv.
+ * Arrays: uv[count, 2], out[count, 8].
  * Returns what planish_surface_eval() returns; PLANISH_STATUS_INVALID_ARGUMENT also if dim is not 3.
  */
 PLANISH_API
@@ -2947,6 +2994,7 @@ PLANISH_API size_t planish_surface_trim_point_count(const struct planish_surface
  * trim:    below planish_surface_trim_count(); trim 0 is the outer one.
  * out_uv:  receives planish_surface_trim_point_count() rows of u, v.
  * count:   rows that out_uv has room for.
+ * Arrays: out_uv[surface_trim_point_count, 2].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INDEX (the trim) or
  * PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
@@ -2966,6 +3014,7 @@ enum planish_status planish_surface_copy_trim(const struct planish_surface *surf
  *               Copied.
  * point_counts: trim_count numbers of points, each at least 3.
  * trim_count:   0 removes all trims.
+ * Arrays: uv[*, 2], point_counts[trim_count].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (a trim of fewer
  * than 3 points), PLANISH_STATUS_NOT_FINITE, PLANISH_STATUS_OUTSIDE (the index is the trim for all three),
  * PLANISH_STATUS_TOO_LARGE or PLANISH_STATUS_OUT_OF_MEMORY.
@@ -3020,6 +3069,7 @@ size_t planish_surface_patch_at(const struct planish_surface *surface,
  * out_ordinates: receives the patch's ordinate_count rows of ordinate_width numbers, v running fastest; NULL for
  *                none: ask for the sizes first.
  * count:         rows that out_ordinates has room for.
+ * Arrays: out_ordinates[out_patch.ordinate_count, out_patch.ordinate_width].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INDEX, PLANISH_STATUS_WRONG_KIND (the
  * family has no patches), PLANISH_STATUS_INVALID_ARGUMENT (struct_size) or PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
@@ -3102,6 +3152,7 @@ enum planish_status planish_tensor_fit(const struct planish_mesh *mesh,
  * options:     NULL for the defaults; parameterize and regularize are not used.
  * out_surface: receives a new surface; destroy with planish_surface_free().
  * out_report:  receives what the fit did and how good it is; NULL for no report.
+ * Arrays: uv[count, 2], values[count, dim].
  * Returns what planish_tensor_fit() returns; PLANISH_STATUS_NOT_FINITE also for uv and values (the index is
  * the datum), PLANISH_STATUS_TOO_LARGE (count times dim) and PLANISH_STATUS_OUT_OF_MEMORY.
  */
@@ -3125,6 +3176,7 @@ enum planish_status planish_tensor_fit_points(const double *uv,
  * options:     NULL for the defaults.
  * out_surface: receives a new surface; destroy with planish_surface_free().
  * out_report:  receives what the fit did and how good it is; NULL for no report.
+ * Arrays: values[count, dim].
  * Returns what planish_tensor_fit() returns; PLANISH_STATUS_INVALID_ARGUMENT also for count,
  * PLANISH_STATUS_NOT_FINITE also for values (the index is the node), and PLANISH_STATUS_TOO_LARGE.
  */
@@ -3151,6 +3203,9 @@ enum planish_status planish_tensor_fit_field(const struct planish_mesh *mesh,
  * control_points: rows of dim numbers, v running fastest, not multiplied by weights.
  * weights:        one positive number for each control point in the same order; NULL for a polynomial surface.
  * out_surface:    receives a new surface; destroy with planish_surface_free().
+ * Arrays: knots_u[knot_count_u], knots_v[knot_count_v],
+ *         control_points[knot_count_u - degree_u - 1, knot_count_v - degree_v - 1, dim],
+ *         weights[knot_count_u - degree_u - 1, knot_count_v - degree_v - 1].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (dim, a degree, a
  * count, a knot, a weight; the index is the knot or the control point), PLANISH_STATUS_NOT_FINITE (likewise),
  * PLANISH_STATUS_DEGENERATE (the knots span no interval), PLANISH_STATUS_TOO_LARGE or
@@ -3201,6 +3256,7 @@ size_t planish_tensor_control_point_count(const struct planish_surface *surface,
  * axis:      a planish_axis.
  * out_knots: receives planish_tensor_knot_count() knots.
  * count:     knots that out_knots has room for.
+ * Arrays: out_knots[tensor_knot_count].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the axis),
  * PLANISH_STATUS_WRONG_KIND or PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
@@ -3218,6 +3274,7 @@ enum planish_status planish_tensor_copy_knots(const struct planish_surface *surf
  * out_control_points: receives planish_surface_coefficient_count() rows of dim numbers, v running fastest, not
  *                     multiplied by weights.
  * count:              rows that out_control_points has room for.
+ * Arrays: out_control_points[surface_coefficient_count, surface_dim].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
  * PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
@@ -3238,6 +3295,7 @@ PLANISH_API uint32_t planish_tensor_has_weights(const struct planish_surface *su
  * surface:     not NULL.
  * out_weights: receives planish_surface_coefficient_count() weights, in the order of the control points.
  * count:       weights that out_weights has room for.
+ * Arrays: out_weights[surface_coefficient_count].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
  * PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
@@ -3255,6 +3313,7 @@ enum planish_status planish_tensor_copy_weights(const struct planish_surface *su
  * knots:   count parameters in the domain, in any order. Inside the domain no knot may occur more than degree
  *          times afterwards; at its ends degree + 1 times, which clamps.
  * count:   may be 0.
+ * Arrays: knots[count].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND,
  * PLANISH_STATUS_INVALID_ARGUMENT (the axis, or a knot would occur too often), PLANISH_STATUS_NOT_FINITE (the
  * index is that of knots) or PLANISH_STATUS_OUTSIDE.
@@ -3353,6 +3412,7 @@ enum planish_status planish_field_fitter_new(const struct planish_mesh *mesh,
  * count:      at least 3.
  * options:    NULL for the defaults.
  * out_fitter: receives a new fitter; destroy with planish_field_fitter_free().
+ * Arrays: uv[count, 2].
  * Returns what planish_field_fitter_new() returns, but for PLANISH_STATUS_TOPOLOGY.
  */
 PLANISH_API
@@ -3379,6 +3439,7 @@ PLANISH_API size_t planish_field_fitter_point_count(const struct planish_field_f
  *
  * fitter:   not NULL.
  * out_grid: receives 2 numbers: knots along u and v.
+ * Arrays: out_grid[2].
  * Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
  */
 PLANISH_API
@@ -3392,6 +3453,7 @@ enum planish_status planish_field_fitter_grid(const struct planish_field_fitter 
  * fitter: not NULL.
  * out_uv: receives planish_field_fitter_point_count() rows of u, v.
  * count:  rows that out_uv has room for.
+ * Arrays: out_uv[field_fitter_point_count, 2].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
 PLANISH_API
@@ -3409,6 +3471,7 @@ enum planish_status planish_field_fitter_copy_parameters(const struct planish_fi
  * dim:         numbers of a value, at least 1.
  * out_surface: receives a new surface over the (u,v) of the nodes; destroy with planish_surface_free().
  * out_report:  receives how good it is, measured on the surface; NULL for no report, which saves the measuring.
+ * Arrays: values[count, dim].
  * Returns PLANISH_STATUS_OK, with a report also PLANISH_STATUS_TOLERANCE_NOT_MET, or an error:
  * PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (count, dim), PLANISH_STATUS_NOT_FINITE (the index is
  * the node), PLANISH_STATUS_SINGULAR (numbers overflow) or PLANISH_STATUS_TOO_LARGE.
@@ -3431,6 +3494,7 @@ enum planish_status planish_field_fitter_fit(const struct planish_field_fitter *
  * values:  count rows of dim numbers, one a node.
  * count:   planish_field_fitter_point_count().
  * dim:     planish_surface_dim() of the surface.
+ * Arrays: values[count, dim].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INVALID_ARGUMENT
  * (count, dim, a surface of another grid), PLANISH_STATUS_NOT_FINITE (the index is the node) or
  * PLANISH_STATUS_SINGULAR (numbers overflow).
@@ -3451,6 +3515,7 @@ enum planish_status planish_field_fitter_update(const struct planish_field_fitte
  * factors:     count factors; NULL for all 1.
  * count:       at least 1.
  * out_surface: receives a new surface with the trims of the first; destroy with planish_surface_free().
+ * Arrays: surfaces[count], factors[count].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INVALID_ARGUMENT
  * (count, or a surface does not fit the first; the index is the surface) or PLANISH_STATUS_NOT_FINITE (a factor, or
  * the sum overflows; the index is the factor).
@@ -3473,6 +3538,7 @@ enum planish_status planish_tensor_combine(const struct planish_surface *const *
  * thread_count:  threads to use, at most 1024; 0 for all cores.
  * out_gradients: receives count times dim rows of 3 numbers, dim being that of the field; NaN where the shape has no
  *                tangent plane.
+ * Arrays: uv[count, 2], out_gradients[count, surface_dim, 3].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension of shape,
  * thread_count), PLANISH_STATUS_NOT_FINITE, PLANISH_STATUS_OUTSIDE (the index is the point for both) or
  * PLANISH_STATUS_TOO_LARGE.
@@ -3508,6 +3574,7 @@ enum planish_status planish_transfer_options_init(struct planish_transfer_option
  * options:      NULL for the defaults.
  * out_transfer: receives a new transfer; destroy with planish_transfer_free().
  * out_report:   receives how well the two lie on one another; NULL for no report.
+ * Arrays: targets[count, 3].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_POINTS_OUTSIDE (targets beyond max_distance were kept), or an error:
  * PLANISH_STATUS_OUTSIDE (a target lies beyond it; the index is the target), PLANISH_STATUS_NOT_FINITE (a target; the
  * index), PLANISH_STATUS_INVALID_ARGUMENT (an option), or what planish_field_fitter_new() returns.
@@ -3544,6 +3611,7 @@ PLANISH_API size_t planish_transfer_target_count(const struct planish_transfer *
  * transfer: not NULL.
  * out_uv:   receives planish_transfer_target_count() rows of u, v.
  * count:    rows that out_uv has room for.
+ * Arrays: out_uv[transfer_target_count, 2].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
 PLANISH_API
@@ -3558,6 +3626,7 @@ enum planish_status planish_transfer_copy_parameters(const struct planish_transf
  * transfer:      not NULL.
  * out_distances: receives planish_transfer_target_count() distances.
  * count:         distances that out_distances has room for.
+ * Arrays: out_distances[transfer_target_count].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
 PLANISH_API
@@ -3575,6 +3644,7 @@ enum planish_status planish_transfer_copy_distances(const struct planish_transfe
  * count:      planish_transfer_source_count().
  * dim:        numbers of a value, at least 1.
  * out_values: receives planish_transfer_target_count() rows of dim numbers; it must not overlap values.
+ * Arrays: values[count, dim], out_values[transfer_target_count, dim].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (count, dim),
  * PLANISH_STATUS_NOT_FINITE (the index is the node) or PLANISH_STATUS_TOO_LARGE.
  */
@@ -3596,6 +3666,7 @@ enum planish_status planish_transfer_apply(const struct planish_transfer *transf
  * dim:        numbers of a force, at least 1.
  * out_forces: receives planish_transfer_source_count() rows of dim numbers, 0 for nodes without values; it must not
  *             overlap forces.
+ * Arrays: forces[count, dim], out_forces[transfer_source_count, dim].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (count, dim),
  * PLANISH_STATUS_NOT_FINITE (the index is the target) or PLANISH_STATUS_TOO_LARGE.
  */
@@ -3617,6 +3688,7 @@ enum planish_status planish_transfer_apply_transpose(const struct planish_transf
  * target_count:  planish_transfer_target_count().
  * about:         3 numbers: the point that moments are about; NULL for the origin.
  * out_report:    not NULL; receives the sums.
+ * Arrays: displacements[source_count, 3], forces[target_count, 3], about[3].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (a count),
  * PLANISH_STATUS_NOT_FINITE (the index is the node or the target) or PLANISH_STATUS_TOO_LARGE.
  */
@@ -3679,6 +3751,7 @@ enum planish_status planish_project_options_init(struct planish_project_options 
  * options:       NULL for the defaults.
  * out_uv:        receives count rows u, v; NULL for none.
  * out_distances: receives count distances; NULL for none.
+ * Arrays: points[count, surface_dim], out_uv[count, 2], out_distances[count].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_POINTS_OUTSIDE (some points are farther than max_distance),
  * PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_NOT_FINITE (the index is the point),
  * PLANISH_STATUS_INVALID_ARGUMENT, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOO_LARGE or
@@ -3713,6 +3786,7 @@ enum planish_status planish_deviation_options_init(struct planish_deviation_opti
  * out_distances: receives planish_mesh_point_count() distances; NULL for none.
  * count:         doubles that out_distances has room for.
  * out_report:    receives the sizes of the distances; NULL for none.
+ * Arrays: out_distances[count].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, or the
  * dimension), PLANISH_STATUS_BUFFER_TOO_SMALL, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOPOLOGY or
  * PLANISH_STATUS_TOO_LARGE (measuring back only), or PLANISH_STATUS_VERSION.
@@ -3749,6 +3823,7 @@ enum planish_status planish_sample_rows_options_init(struct planish_sample_rows_
  * out_points:      receives rows of x, y, z, row after row; NULL to learn the counts only.
  * point_count:     points that out_points has room for.
  * out_point_count: receives the number of points of all rows.
+ * Arrays: out_row_counts[row_count], out_points[point_count, 3], out_point_count[1].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, the number of
  * rows, or both sources share a node, which is the index), PLANISH_STATUS_INDEX (no such loop or node),
  * PLANISH_STATUS_TOPOLOGY (the mesh has several pieces; or a row is not one closed curve, as on a mesh with handles or
@@ -3804,6 +3879,7 @@ PLANISH_API size_t planish_surface_save_size(const struct planish_surface *surfa
  * surface: not NULL.
  * buffer:  receives planish_surface_save_size() bytes.
  * size:    bytes that the buffer has room for.
+ * Arrays: buffer[size].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
 PLANISH_API
@@ -3818,6 +3894,7 @@ enum planish_status planish_surface_save(const struct planish_surface *surface,
  *
  * buffer:      size bytes.
  * out_surface: receives a new surface; destroy with planish_surface_free().
+ * Arrays: buffer[size].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_FORMAT (the index is the byte) or
  * PLANISH_STATUS_VERSION (a later library made it).
  */
@@ -3898,6 +3975,7 @@ enum planish_status planish_surface_write_step(const struct planish_surface *sur
  *             must be NULL.
  * out_curve:  receives a new curve; destroy with planish_curve_free().
  * out_report: receives what the fit did and how good it is; grid_v is 1. NULL for no report.
+ * Arrays: u[count], values[count, dim].
  * Returns what planish_tensor_fit_points() returns.
  */
 PLANISH_API
@@ -3919,6 +3997,7 @@ enum planish_status planish_curve_fit(const double *u,
  * knot_count:     at least 2 * (degree + 1).
  * control_points: knot_count - degree - 1 rows of dim numbers.
  * out_curve:      receives a new curve; destroy with planish_curve_free().
+ * Arrays: knots[knot_count], control_points[knot_count - degree - 1, dim].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (dim, degree or knots),
  * PLANISH_STATUS_NOT_FINITE (the index is the knot or the control point), PLANISH_STATUS_DEGENERATE (the knots span
  * no interval), PLANISH_STATUS_TOO_LARGE or PLANISH_STATUS_OUT_OF_MEMORY.
@@ -3952,6 +4031,7 @@ enum planish_status planish_interpolate_options_init(struct planish_interpolate_
  * dim:       numbers of a value, at least 1.
  * options:   NULL for the defaults.
  * out_curve: receives a new curve; destroy with planish_curve_free().
+ * Arrays: u[count], values[count, dim].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_NOT_FINITE (a parameter or a value; the index
  * is the point), PLANISH_STATUS_DEGENERATE (a parameter is not above the one before it; the index is the point),
  * PLANISH_STATUS_INVALID_ARGUMENT (count, dim, ends; a periodic curve whose last point is not the first),
@@ -3992,6 +4072,7 @@ PLANISH_API size_t planish_curve_control_point_count(const struct planish_curve 
  * curve:     not NULL.
  * out_knots: receives planish_curve_knot_count() knots.
  * count:     knots that out_knots has room for.
+ * Arrays: out_knots[curve_knot_count].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
 PLANISH_API
@@ -4006,6 +4087,7 @@ enum planish_status planish_curve_copy_knots(const struct planish_curve *curve,
  * curve:              not NULL.
  * out_control_points: receives planish_curve_control_point_count() rows of dim numbers.
  * count:              rows that out_control_points has room for.
+ * Arrays: out_control_points[curve_control_point_count, curve_dim].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
 PLANISH_API
@@ -4019,6 +4101,7 @@ enum planish_status planish_curve_copy_control_points(const struct planish_curve
  *
  * curve:        not NULL.
  * out_interval: receives 2 numbers: least u, largest u.
+ * Arrays: out_interval[2].
  * Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
  */
 PLANISH_API
@@ -4036,6 +4119,7 @@ enum planish_status planish_curve_domain(const struct planish_curve *curve,
  * options:        NULL for the defaults; thread_count is not used.
  * out:            receives for each parameter max_derivative + 1 rows of dim numbers: C, C', C'', C''';
  *                 parameters start options->out_stride doubles apart. It must not overlap u.
+ * Arrays: u[count], out[count, max_derivative + 1, curve_dim].
  * Returns what planish_surface_eval() returns; PLANISH_STATUS_INVALID_ARGUMENT also for max_derivative.
  */
 PLANISH_API
@@ -4078,6 +4162,7 @@ PLANISH_API double planish_curve_length(const struct planish_curve *curve);
  * u:           count parameters in the domain, in any order.
  * count:       may be 0.
  * out_lengths: receives count lengths.
+ * Arrays: u[count], out_lengths[count].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_NOT_FINITE or PLANISH_STATUS_OUTSIDE (the
  * index is the parameter for both).
  */
@@ -4098,6 +4183,7 @@ enum planish_status planish_curve_arc_lengths(const struct planish_curve *curve,
  * options:       NULL for the defaults. guesses are count parameters u; keep_trims is not used.
  * out_u:         receives count parameters; NULL for none.
  * out_distances: receives count distances; NULL for none.
+ * Arrays: points[count, curve_dim], out_u[count], out_distances[count].
  * Returns what planish_surface_project() returns, but for PLANISH_STATUS_WRONG_KIND.
  */
 PLANISH_API
@@ -4121,6 +4207,7 @@ PLANISH_API size_t planish_curve_save_size(const struct planish_curve *curve);
  * curve:  not NULL.
  * buffer: receives planish_curve_save_size() bytes.
  * size:   bytes that the buffer has room for.
+ * Arrays: buffer[size].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
 PLANISH_API
@@ -4135,6 +4222,7 @@ enum planish_status planish_curve_save(const struct planish_curve *curve,
  *
  * buffer:    size bytes.
  * out_curve: receives a new curve; destroy with planish_curve_free().
+ * Arrays: buffer[size].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_FORMAT (the index is the byte) or
  * PLANISH_STATUS_VERSION (a later library made it).
  */
@@ -4190,6 +4278,7 @@ PLANISH_API enum planish_status planish_skin_options_init(struct planish_skin_op
  * out_surface: receives a new T-spline; destroy with planish_surface_free().
  * out_report:  receives what the fit did and how good it is; grid_u is the largest number of knots of a control
  *              curve. NULL for no report.
+ * Arrays: points[*, options.dim], row_counts[row_count].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_TOLERANCE_NOT_MET, PLANISH_STATUS_STAGNATED (points are so near to one
  * another that no knot fits between), PLANISH_STATUS_INPUT_REPAIRED (points on the one before were merged) or an
  * error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, too few rows, or a row without
@@ -4214,6 +4303,7 @@ enum planish_status planish_tspline_skin(const double *points,
  * options:     NULL for the defaults. closed says that the curves are closed, and smooth there.
  * out_surface: receives a new T-spline; destroy with planish_surface_free().
  * out_report:  receives what the fit did and how good it is; NULL for no report.
+ * Arrays: curves[curve_count].
  * Returns what planish_tspline_skin() returns; PLANISH_STATUS_INVALID_ARGUMENT also for a curve of another dimension
  * than the first, the index is the curve.
  */
@@ -4234,6 +4324,7 @@ enum planish_status planish_tspline_skin_curves(const struct planish_curve *cons
  *              one dimension; none of them NULL.
  * curve_count: knot_count - 4.
  * out_surface: receives a new surface; destroy with planish_surface_free().
+ * Arrays: knots[knot_count], curves[curve_count].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (knots or curves, the index
  * is the one), PLANISH_STATUS_NOT_FINITE or PLANISH_STATUS_DEGENERATE (the knots span no interval).
  */
@@ -4275,6 +4366,7 @@ PLANISH_API size_t planish_tspline_knot_count(const struct planish_surface *surf
  * surface:   not NULL.
  * out_knots: receives planish_tspline_knot_count() knots.
  * count:     knots that out_knots has room for.
+ * Arrays: out_knots[tspline_knot_count].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
  * PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
@@ -4322,6 +4414,7 @@ enum planish_status planish_tspline_insert_knot_v(struct planish_surface *surfac
  * tolerance: in model units; 0 or more, or the knot stays.
  * out_error: receives a bound of the distance that the surface moves at any (u,v), or would have moved; NULL for
  *            none.
+ * Arrays: out_error[1].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_TOLERANCE_NOT_MET (the knot stays) or an error:
  * PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or PLANISH_STATUS_INDEX (no such curve, or no such knot
  * inside the domain).
@@ -4378,6 +4471,7 @@ enum planish_status planish_pht_fit(const struct planish_mesh *mesh,
  * options:     NULL for the defaults; parameterize, regularize and correction_sweeps are not used.
  * out_surface: receives a new surface; destroy with planish_surface_free().
  * out_report:  receives what the fit did and how good it is; NULL for no report.
+ * Arrays: uv[count, 2], values[count, dim].
  * Returns what planish_pht_fit() returns; PLANISH_STATUS_NOT_FINITE also for uv and values (the index is the
  * datum), PLANISH_STATUS_TOO_LARGE (count times dim) and PLANISH_STATUS_OUT_OF_MEMORY.
  */
@@ -4401,6 +4495,7 @@ enum planish_status planish_pht_fit_points(const double *uv,
  * options:     NULL for the defaults; correction_sweeps is not used.
  * out_surface: receives a new surface; destroy with planish_surface_free().
  * out_report:  receives what the fit did and how good it is; NULL for no report.
+ * Arrays: values[count, dim].
  * Returns what planish_pht_fit() returns; PLANISH_STATUS_INVALID_ARGUMENT also for count,
  * PLANISH_STATUS_NOT_FINITE also for values (the index is the node), and PLANISH_STATUS_TOO_LARGE.
  */
@@ -4430,6 +4525,8 @@ enum planish_status planish_pht_fit_field(const struct planish_mesh *mesh,
  *                (dim + 1 with weights); NULL for zeros, and weights of 1: the vertices are known afterwards.
  * data_count:    numbers in data; 0 if it is NULL.
  * out_surface:   receives a new surface; destroy with planish_surface_free().
+ * Arrays: lines_u[line_count_u], lines_v[line_count_v], cells[split_count, 3],
+ *         data[data_count, 4, dim + is_rational].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (dim, a count, a line
  * that does not increase, a weight that is not positive everywhere), PLANISH_STATUS_NOT_FINITE (the index is the
  * line or the vertex), PLANISH_STATUS_INDEX (a cell that is no leaf when its turn comes; the index is its row),
@@ -4455,6 +4552,7 @@ enum planish_status planish_pht_new(size_t dim,
  * surface: not NULL; changed.
  * cells:   count rows of level, i, j: leaves when their turn comes, so quarters may follow their cell.
  * count:   may be 0.
+ * Arrays: cells[count, 3].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX (a cell
  * is no leaf; the index is its row), PLANISH_STATUS_TOO_LARGE (a level above 20) or
  * PLANISH_STATUS_OUT_OF_MEMORY.
@@ -4472,6 +4570,7 @@ enum planish_status planish_pht_split(struct planish_surface *surface,
  * surface: not NULL; changed.
  * cells:   count rows of level, i, j: cells whose quarters are four leaves when their turn comes.
  * count:   may be 0.
+ * Arrays: cells[count, 3].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX (the
  * quarters are not four leaves; the index is the row) or PLANISH_STATUS_OUT_OF_MEMORY.
  */
@@ -4487,6 +4586,7 @@ enum planish_status planish_pht_merge(struct planish_surface *surface,
  * surface:       not NULL; changed.
  * tolerance:     in model units, not negative.
  * out_deviation: receives a bound of how far a point has moved; NULL for none.
+ * Arrays: out_deviation[1].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
  * PLANISH_STATUS_INVALID_ARGUMENT (tolerance).
  */
@@ -4504,6 +4604,7 @@ enum planish_status planish_pht_simplify(struct planish_surface *surface,
  * region:    least u, largest u, least v, largest v.
  * level:     at most 20.
  * max_cells: with more cells the call fails.
+ * Arrays: region[4].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
  * PLANISH_STATUS_TOO_LARGE (level, cells).
  */
@@ -4552,6 +4653,7 @@ enum planish_status planish_pht_from_surface(const struct planish_surface *surfa
  * out_surfaces: receives new surfaces; destroy each with planish_surface_free(). NULL asks for the number.
  * count:        handles that out_surfaces has room for.
  * out_count:    receives the number of surfaces.
+ * Arrays: out_surfaces[count], out_count[1].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND,
  * PLANISH_STATUS_BUFFER_TOO_SMALL (nothing is made) or PLANISH_STATUS_NOT_FINITE (a number would overflow).
  */
@@ -4612,6 +4714,7 @@ PLANISH_API size_t planish_pht_width(const struct planish_surface *surface);
  * surface:   not NULL.
  * out_cells: receives planish_pht_cell_count() rows of level, i, j.
  * count:     rows that out_cells has room for.
+ * Arrays: out_cells[pht_cell_count, 3].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
  * PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
@@ -4627,6 +4730,7 @@ enum planish_status planish_pht_copy_cells(const struct planish_surface *surface
  * surface: not NULL.
  * out_uv:  receives planish_pht_vertex_count() rows of u, v.
  * count:   rows that out_uv has room for.
+ * Arrays: out_uv[pht_vertex_count, 2].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
  * PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
@@ -4643,6 +4747,7 @@ enum planish_status planish_pht_copy_vertices(const struct planish_surface *surf
  * out_uv:    receives planish_pht_hanging_count() rows of u, v; NULL for none.
  * out_hosts: receives as many numbers of cells; NULL for none.
  * count:     rows that each has room for.
+ * Arrays: out_uv[pht_hanging_count, 2], out_hosts[pht_hanging_count].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
  * PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
@@ -4662,6 +4767,7 @@ enum planish_status planish_pht_copy_hanging(const struct planish_surface *surfa
  * out_cells: receives the numbers; NULL asks how many there are.
  * count:     numbers that out_cells has room for.
  * out_count: receives how many there are.
+ * Arrays: out_cells[count], out_count[1].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX or
  * PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
@@ -4680,6 +4786,7 @@ enum planish_status planish_pht_copy_neighbours(const struct planish_surface *su
  * out_data: receives for each of planish_pht_vertex_count() vertices four rows f, f_u, f_v, f_uv of
  *           planish_pht_width() numbers; with weights those of (w x, .., w).
  * count:    vertices that out_data has room for.
+ * Arrays: out_data[pht_vertex_count, 4, pht_width].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
  * PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
@@ -4696,6 +4803,7 @@ enum planish_status planish_pht_copy_data(const struct planish_surface *surface,
  * vertices: count numbers below planish_pht_vertex_count().
  * count:    may be 0.
  * data:     for each of them four rows f, f_u, f_v, f_uv of planish_pht_width() numbers.
+ * Arrays: vertices[count], data[count, 4, pht_width].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX,
  * PLANISH_STATUS_NOT_FINITE (the index is the vertex), PLANISH_STATUS_INVALID_ARGUMENT (a weight would not be
  * positive everywhere; the index is the cell) or PLANISH_STATUS_TOO_LARGE.
@@ -4715,6 +4823,7 @@ enum planish_status planish_pht_set_data(struct planish_surface *surface,
  * out_points: receives for each of planish_pht_vertex_count() vertices four rows --, +-, -+, ++ (towards less or
  *             more u, then v) of planish_pht_width() numbers; with weights those of (w x, .., w).
  * count:      vertices that out_points has room for.
+ * Arrays: out_points[pht_vertex_count, 4, pht_width].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND,
  * PLANISH_STATUS_INVALID_ARGUMENT (basis) or PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
@@ -4733,6 +4842,7 @@ enum planish_status planish_pht_copy_control_points(const struct planish_surface
  * count:    may be 0.
  * basis:    a planish_pht_basis.
  * points:   for each of them four rows --, +-, -+, ++ of planish_pht_width() numbers.
+ * Arrays: vertices[count], points[count, 4, pht_width].
  * Returns what planish_pht_set_data() returns; PLANISH_STATUS_INVALID_ARGUMENT also for basis.
  */
 PLANISH_API
@@ -4753,6 +4863,7 @@ enum planish_status planish_pht_set_control_points(struct planish_surface *surfa
  * out_matrix:   receives 16 rows, v running fastest, of four numbers for each vertex; NULL for none.
  * count:        vertices that both have room for.
  * out_count:    receives how many there are.
+ * Arrays: out_vertices[count], out_matrix[16, 4 * count], out_count[1].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX,
  * PLANISH_STATUS_INVALID_ARGUMENT (basis) or PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
@@ -4817,8 +4928,9 @@ PLANISH_API uint32_t planish_d1rc_degree(const struct planish_surface *surface);
  * surface:      not NULL; changed.
  * sharp_edges:  edge_count pairs of control points joined by an edge.
  * edge_count:   may be 0.
- * corners:      corner_count control points to be interpolated.
+ * corners:      corner_count control points to be interpolated; NULL if there are none.
  * corner_count: may be 0.
+ * Arrays: sharp_edges[edge_count, 2], corners[corner_count].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX,
  * PLANISH_STATUS_TOPOLOGY or PLANISH_STATUS_DEGENERATE, with the index, as planish_d1rc_new().
  */
@@ -4837,6 +4949,7 @@ enum planish_status planish_d1rc_set_sharp_edges(struct planish_surface *surface
  * out_edges: receives pairs of control points; NULL asks how many there are.
  * count:     pairs that out_edges has room for.
  * out_count: receives how many there are.
+ * Arrays: out_edges[count, 2], out_count[1].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
  * PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
@@ -4853,6 +4966,7 @@ enum planish_status planish_d1rc_copy_sharp_edges(const struct planish_surface *
  * surface:    not NULL.
  * out_points: receives planish_surface_coefficient_count() rows of dim numbers.
  * count:      rows that out_points has room for.
+ * Arrays: out_points[surface_coefficient_count, surface_dim].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
  * PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
@@ -4869,6 +4983,7 @@ enum planish_status planish_d1rc_copy_control_points(const struct planish_surfac
  * vertices: count control points.
  * count:    may be 0.
  * points:   count rows of dim numbers.
+ * Arrays: vertices[count], points[count, surface_dim].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX or
  * PLANISH_STATUS_NOT_FINITE (the index is the row).
  */
@@ -4887,6 +5002,7 @@ enum planish_status planish_d1rc_set_control_points(struct planish_surface *surf
  * edges:      count pairs of control points joined by an edge.
  * count:      may be 0.
  * out_orders: receives count numbers.
+ * Arrays: edges[count, 2], out_orders[count].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX (no such
  * control point) or PLANISH_STATUS_TOPOLOGY (no edge); the index is the pair.
  */
@@ -4905,6 +5021,7 @@ enum planish_status planish_d1rc_edge_continuity(const struct planish_surface *s
  * out_faces: receives the numbers; NULL asks how many there are.
  * count:     numbers that out_faces has room for.
  * out_count: receives how many there are.
+ * Arrays: out_faces[count], out_count[1].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX or
  * PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
@@ -4924,6 +5041,7 @@ enum planish_status planish_d1rc_copy_influence(const struct planish_surface *su
  * uv:         count rows of u, v.
  * count:      may be 0.
  * out_values: receives count numbers.
+ * Arrays: uv[count, 2], out_values[count].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX (vertex),
  * PLANISH_STATUS_NOT_FINITE or PLANISH_STATUS_OUTSIDE (the index is the point).
  */
@@ -4947,6 +5065,7 @@ size_t planish_d1rc_knot_count(const struct planish_surface *surface);
  * surface: not NULL.
  * out_uv:  receives planish_d1rc_knot_count() rows of u, v.
  * count:   rows that out_uv has room for.
+ * Arrays: out_uv[d1rc_knot_count, 2].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
  * PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
@@ -4970,6 +5089,7 @@ PLANISH_API size_t planish_d1rc_configuration_count(const struct planish_surface
  * out_edges: receives pairs of knots, with X on their left; NULL asks how many there are.
  * count:     pairs that out_edges has room for.
  * out_count: receives how many there are.
+ * Arrays: out_knots[d1rc_degree], out_edges[count, 2], out_count[1].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX or
  * PLANISH_STATUS_BUFFER_TOO_SMALL.
  */

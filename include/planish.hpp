@@ -1255,8 +1255,12 @@ class pht {
   std::size_t cell_count() const noexcept { return planish_pht_cell_count(surface_); }
   /// Number of basis vertices.
   std::size_t vertex_count() const noexcept { return planish_pht_vertex_count(surface_); }
+  /// Number of T-vertices: inside an edge of a cell, their host.
+  std::size_t hanging_count() const noexcept { return planish_pht_hanging_count(surface_); }
   /// Numbers of a row of data.
   std::size_t width() const noexcept { return planish_pht_width(surface_); }
+  /// The cell that has u, v: on a line the one to the right or above, beyond the domain the nearest.
+  std::size_t cell_at(double u, double v) const noexcept { return planish_pht_cell_at(surface_, u, v); }
 
   /// The addresses of the cells.
   std::vector<pht_cell> cells() const {
@@ -1270,6 +1274,29 @@ class pht {
     std::vector<point2> uv(vertex_count());
     detail::checked(planish_pht_copy_vertices(surface_, detail::flat(uv), uv.size()));
     return uv;
+  }
+
+  /// The parameters of the T-vertices.
+  std::vector<point2> hanging() const {
+    std::vector<point2> uv(hanging_count());
+    detail::checked(planish_pht_copy_hanging(surface_, detail::flat(uv), nullptr, uv.size()));
+    return uv;
+  }
+
+  /// The host of each T-vertex: the cell in whose edge it lies.
+  std::vector<std::uint32_t> hosts() const {
+    std::vector<std::uint32_t> hosts(hanging_count());
+    detail::checked(planish_pht_copy_hanging(surface_, nullptr, hosts.data(), hosts.size()));
+    return hosts;
+  }
+
+  /// The cells that share a part of an edge with a cell: at its least u, largest u, least v, largest v.
+  std::vector<std::size_t> neighbours(std::size_t cell) const {
+    std::size_t count = 0;
+    detail::checked(planish_pht_copy_neighbours(surface_, cell, nullptr, 0, &count));
+    std::vector<std::size_t> cells(count);
+    detail::checked(planish_pht_copy_neighbours(surface_, cell, cells.data(), count, &count));
+    return cells;
   }
 
   /// For each basis vertex the rows f, f_u, f_v, f_uv.
@@ -1290,6 +1317,38 @@ class pht {
     std::vector<double> points(4 * width() * vertex_count());
     detail::checked(planish_pht_copy_control_points(surface_, basis, points.data(), vertex_count()));
     return points;
+  }
+
+  /// Replaces the control points of some basis vertices.
+  void set_control_points(const std::vector<std::size_t> &vertices, const std::vector<double> &points,
+                          planish_pht_basis basis = PLANISH_PHT_BASIS_CANONICAL) {
+    detail::check_rows(points.size(), vertices.size(), 4 * width());
+    detail::checked(
+        planish_pht_set_control_points(surface_, vertices.data(), vertices.size(), basis, points.data()));
+  }
+
+  /// The operator that makes the Bezier ordinates of a cell from the control points of some basis vertices.
+  struct extraction {
+    /// The basis vertices that act on the cell, ascending.
+    std::vector<std::uint32_t> vertices;
+    /// 16 rows, v running fastest, of four numbers for each vertex.
+    std::vector<double> matrix;
+  };
+
+  /// The operator of a cell.
+  extraction extract(std::size_t cell, planish_pht_basis basis = PLANISH_PHT_BASIS_CANONICAL) const {
+    std::size_t count = 0;
+    detail::checked(planish_pht_copy_extraction(surface_, cell, basis, nullptr, nullptr, 0, &count));
+    extraction made{std::vector<std::uint32_t>(count), std::vector<double>(64 * count)};
+    detail::checked(planish_pht_copy_extraction(surface_, cell, basis, made.vertices.data(), made.matrix.data(), count,
+                                                &count));
+    return made;
+  }
+
+  /// Splits all cells that meet the inside of a rectangle (least u, largest u, least v, largest v) until they
+  /// have at least some level; the surface stays the same.
+  void refine_region(const std::array<double, 4> &region, std::uint32_t level, std::size_t max_cells = 200000) {
+    detail::checked(planish_pht_refine_region(surface_, region.data(), level, max_cells));
   }
 
   /// Splits leaves; the surface stays the same.

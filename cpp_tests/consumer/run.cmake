@@ -66,11 +66,11 @@ if(PKG_CONFIG)
     run(${CC} "${SCRATCH}/project/use.c" -o "${program}" ${flags} "-Wl,-rpath,${SCRATCH}/${kind}/${LIBDIR}")
     run("${program}")
     if(FC)
-      # the module is a source file beside the headers
+      # the modules are source files beside the headers
       execute_process(COMMAND ${PKG_CONFIG} --variable=includedir planish OUTPUT_VARIABLE include
                       OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
-      run(${FC} "-J${SCRATCH}" "${include}/planish.f90" "${SCRATCH}/project/use.f90" -o "${program}_fortran" ${flags}
-          "-Wl,-rpath,${SCRATCH}/${kind}/${LIBDIR}")
+      run(${FC} "-J${SCRATCH}" "${include}/planish_c.f90" "${include}/planish.f90" "${SCRATCH}/project/use.f90"
+          -o "${program}_fortran" ${flags} "-Wl,-rpath,${SCRATCH}/${kind}/${LIBDIR}")
       run("${program}_fortran")
     endif()
   endforeach()

@@ -48,6 +48,7 @@ impl planish_curve {
 ///             must be NULL.
 /// out_curve:  receives a new curve; destroy with planish_curve_free().
 /// out_report: receives what the fit did and how good it is; grid_v is 1. NULL for no report.
+/// Arrays: u[count], values[count, dim].
 /// Returns what planish_tensor_fit_points() returns.
 #[must_use]
 #[unsafe(no_mangle)]
@@ -87,6 +88,7 @@ pub unsafe extern "C" fn planish_curve_fit(
 /// knot_count:     at least 2 * (degree + 1).
 /// control_points: knot_count - degree - 1 rows of dim numbers.
 /// out_curve:      receives a new curve; destroy with planish_curve_free().
+/// Arrays: knots[knot_count], control_points[knot_count - degree - 1, dim].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (dim, degree or knots),
 /// PLANISH_STATUS_NOT_FINITE (the index is the knot or the control point), PLANISH_STATUS_DEGENERATE (the knots span
 /// no interval), PLANISH_STATUS_TOO_LARGE or PLANISH_STATUS_OUT_OF_MEMORY.
@@ -119,6 +121,7 @@ pub struct planish_interpolate_options {
     pub struct_size: usize,
     /// For PLANISH_SECTION_ENDS_SLOPES: 2 rows of dim numbers, the derivatives with respect to u at the first and at
     /// the last point; otherwise NULL (default). Borrowed for the call.
+    /// Array: [2, dim].
     pub end_slopes: *const f64,
     /// A planish_section_ends. Default PLANISH_SECTION_ENDS_AUTO: periodic if the last point is the first one, else
     /// parabolic.
@@ -157,6 +160,7 @@ pub unsafe extern "C" fn planish_interpolate_options_init(
 /// dim:       numbers of a value, at least 1.
 /// options:   NULL for the defaults.
 /// out_curve: receives a new curve; destroy with planish_curve_free().
+/// Arrays: u[count], values[count, dim].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_NOT_FINITE (a parameter or a value; the index
 /// is the point), PLANISH_STATUS_DEGENERATE (a parameter is not above the one before it; the index is the point),
 /// PLANISH_STATUS_INVALID_ARGUMENT (count, dim, ends; a periodic curve whose last point is not the first),
@@ -242,6 +246,7 @@ pub unsafe extern "C" fn planish_curve_control_point_count(curve: *const planish
 /// curve:     not NULL.
 /// out_knots: receives planish_curve_knot_count() knots.
 /// count:     knots that out_knots has room for.
+/// Arrays: out_knots[curve_knot_count].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
 #[unsafe(no_mangle)]
@@ -263,6 +268,7 @@ pub unsafe extern "C" fn planish_curve_copy_knots(
 /// curve:              not NULL.
 /// out_control_points: receives planish_curve_control_point_count() rows of dim numbers.
 /// count:              rows that out_control_points has room for.
+/// Arrays: out_control_points[curve_control_point_count, curve_dim].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
 #[unsafe(no_mangle)]
@@ -285,6 +291,7 @@ pub unsafe extern "C" fn planish_curve_copy_control_points(
 ///
 /// curve:        not NULL.
 /// out_interval: receives 2 numbers: least u, largest u.
+/// Arrays: out_interval[2].
 /// Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
 #[must_use]
 #[unsafe(no_mangle)]
@@ -309,6 +316,7 @@ pub unsafe extern "C" fn planish_curve_domain(
 /// options:        NULL for the defaults; thread_count is not used.
 /// out:            receives for each parameter max_derivative + 1 rows of dim numbers: C, C', C'', C''';
 ///                 parameters start options->out_stride doubles apart. It must not overlap u.
+/// Arrays: u[count], out[count, max_derivative + 1, curve_dim].
 /// Returns what planish_surface_eval() returns; PLANISH_STATUS_INVALID_ARGUMENT also for max_derivative.
 #[must_use]
 #[unsafe(no_mangle)]

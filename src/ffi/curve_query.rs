@@ -28,6 +28,7 @@ pub unsafe extern "C" fn planish_curve_length(curve: *const planish_curve) -> f6
 /// u:           count parameters in the domain, in any order.
 /// count:       may be 0.
 /// out_lengths: receives count lengths.
+/// Arrays: u[count], out_lengths[count].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_NOT_FINITE or PLANISH_STATUS_OUTSIDE (the
 /// index is the parameter for both).
 #[must_use]
@@ -57,6 +58,7 @@ pub unsafe extern "C" fn planish_curve_arc_lengths(
 /// options:       NULL for the defaults. guesses are count parameters u; keep_trims is not used.
 /// out_u:         receives count parameters; NULL for none.
 /// out_distances: receives count distances; NULL for none.
+/// Arrays: points[count, curve_dim], out_u[count], out_distances[count].
 /// Returns what planish_surface_project() returns, but for PLANISH_STATUS_WRONG_KIND.
 #[must_use]
 #[unsafe(no_mangle)]
@@ -107,6 +109,7 @@ pub unsafe extern "C" fn planish_curve_save_size(curve: *const planish_curve) ->
 /// curve:  not NULL.
 /// buffer: receives planish_curve_save_size() bytes.
 /// size:   bytes that the buffer has room for.
+/// Arrays: buffer[size].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
 #[unsafe(no_mangle)]
@@ -132,6 +135,7 @@ pub unsafe extern "C" fn planish_curve_save(
 ///
 /// buffer:    size bytes.
 /// out_curve: receives a new curve; destroy with planish_curve_free().
+/// Arrays: buffer[size].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_FORMAT (the index is the byte) or
 /// PLANISH_STATUS_VERSION (a later library made it).
 #[must_use]

@@ -59,10 +59,12 @@ pub struct planish_d1rc_options {
     /// Set by planish_d1rc_options_init().
     pub struct_size: usize,
     /// sharp_edge_count pairs of nodes joined by an edge; NULL (default) for none. Edges on the boundary do nothing.
+    /// Array: [sharp_edge_count, 2].
     pub sharp_edges: *const u32,
     /// Pairs in sharp_edges. Default 0.
     pub sharp_edge_count: usize,
     /// corner_count nodes to be interpolated; NULL (default) for none.
+    /// Array: [corner_count].
     pub corners: *const u32,
     /// Nodes in corners. Default 0.
     pub corner_count: usize,
@@ -86,12 +88,15 @@ pub struct planish_d1rc_options {
     /// and sharp edges kept.
     pub control_mesh: *const planish_mesh,
     /// Fits only: a positive weight for each node; NULL (default) for all 1.
+    /// Array: [nodes].
     pub weights: *const f64,
     /// Fits only: receives the (u,v) at which the error of each node is measured: two numbers for each node, or NULL
     /// (default). Written on success only.
+    /// Array: [nodes, 2].
     pub out_parameters: *mut f64,
     /// Fits only: receives the error of each node in model units: one number for each node, or NULL (default).
     /// Written on success only.
+    /// Array: [nodes].
     pub out_errors: *mut f64,
     /// Fits only: vertices of the control mesh that is made, at least 3; 0 (default) for as many as the tolerance
     /// takes.
@@ -276,8 +281,9 @@ pub unsafe extern "C" fn planish_d1rc_degree(surface: *const planish_surface) ->
 /// surface:      not NULL; changed.
 /// sharp_edges:  edge_count pairs of control points joined by an edge.
 /// edge_count:   may be 0.
-/// corners:      corner_count control points to be interpolated.
+/// corners:      corner_count control points to be interpolated; NULL if there are none.
 /// corner_count: may be 0.
+/// Arrays: sharp_edges[edge_count, 2], corners[corner_count].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX,
 /// PLANISH_STATUS_TOPOLOGY or PLANISH_STATUS_DEGENERATE, with the index, as planish_d1rc_new().
 #[must_use]
@@ -303,6 +309,7 @@ pub unsafe extern "C" fn planish_d1rc_set_sharp_edges(
 /// out_edges: receives pairs of control points; NULL asks how many there are.
 /// count:     pairs that out_edges has room for.
 /// out_count: receives how many there are.
+/// Arrays: out_edges[count, 2], out_count[1].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
 /// PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
@@ -330,6 +337,7 @@ pub unsafe extern "C" fn planish_d1rc_copy_sharp_edges(
 /// surface:    not NULL.
 /// out_points: receives planish_surface_coefficient_count() rows of dim numbers.
 /// count:      rows that out_points has room for.
+/// Arrays: out_points[surface_coefficient_count, surface_dim].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
 /// PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
@@ -355,6 +363,7 @@ pub unsafe extern "C" fn planish_d1rc_copy_control_points(
 /// vertices: count control points.
 /// count:    may be 0.
 /// points:   count rows of dim numbers.
+/// Arrays: vertices[count], points[count, surface_dim].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX or
 /// PLANISH_STATUS_NOT_FINITE (the index is the row).
 #[must_use]
@@ -383,6 +392,7 @@ pub unsafe extern "C" fn planish_d1rc_set_control_points(
 /// edges:      count pairs of control points joined by an edge.
 /// count:      may be 0.
 /// out_orders: receives count numbers.
+/// Arrays: edges[count, 2], out_orders[count].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX (no such
 /// control point) or PLANISH_STATUS_TOPOLOGY (no edge); the index is the pair.
 #[must_use]
@@ -411,6 +421,7 @@ pub unsafe extern "C" fn planish_d1rc_edge_continuity(
 /// out_faces: receives the numbers; NULL asks how many there are.
 /// count:     numbers that out_faces has room for.
 /// out_count: receives how many there are.
+/// Arrays: out_faces[count], out_count[1].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX or
 /// PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
@@ -442,6 +453,7 @@ pub unsafe extern "C" fn planish_d1rc_copy_influence(
 /// uv:         count rows of u, v.
 /// count:      may be 0.
 /// out_values: receives count numbers.
+/// Arrays: uv[count, 2], out_values[count].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX (vertex),
 /// PLANISH_STATUS_NOT_FINITE or PLANISH_STATUS_OUTSIDE (the index is the point).
 #[must_use]
@@ -475,6 +487,7 @@ pub unsafe extern "C" fn planish_d1rc_knot_count(surface: *const planish_surface
 /// surface: not NULL.
 /// out_uv:  receives planish_d1rc_knot_count() rows of u, v.
 /// count:   rows that out_uv has room for.
+/// Arrays: out_uv[d1rc_knot_count, 2].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
 /// PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
@@ -508,6 +521,7 @@ pub unsafe extern "C" fn planish_d1rc_configuration_count(surface: *const planis
 /// out_edges: receives pairs of knots, with X on their left; NULL asks how many there are.
 /// count:     pairs that out_edges has room for.
 /// out_count: receives how many there are.
+/// Arrays: out_knots[d1rc_degree], out_edges[count, 2], out_count[1].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX or
 /// PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]

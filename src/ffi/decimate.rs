@@ -21,14 +21,16 @@ pub struct planish_decimate_options {
     /// Edges whose triangles turn by more than this are sharp, in radians, at most pi; 0 (default) looks for none.
     pub sharp_angle: f64,
     /// Where the boundary or a chain of sharp edges turns by more than this, in radians, at most pi, its node
-    /// stays. Default a quarter of pi.
+    /// stays. Default pi / 4.
     pub corner_angle: f64,
     /// Further sharp edges: two nodes each, counted from 0; NULL (default) for none.
+    /// Array: [sharp_edge_count, 2].
     pub sharp_edges: *const u32,
     /// Edges in sharp_edges. Default 0.
     pub sharp_edge_count: usize,
     /// Receives the sharp edges of the new mesh, two nodes each, counted from 0, the smaller first; or NULL
     /// (default). Written on success only.
+    /// Array: [out_sharp_edge_count, 2].
     pub out_sharp_edges: *mut u32,
     /// Edges that out_sharp_edges has room for; there are at most as many as sharp edges before. Default 0.
     pub out_sharp_edge_count: usize,

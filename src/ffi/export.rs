@@ -135,6 +135,7 @@ pub unsafe extern "C" fn planish_surface_save_size(surface: *const planish_surfa
 /// surface: not NULL.
 /// buffer:  receives planish_surface_save_size() bytes.
 /// size:    bytes that the buffer has room for.
+/// Arrays: buffer[size].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
 #[unsafe(no_mangle)]
@@ -161,6 +162,7 @@ pub unsafe extern "C" fn planish_surface_save(
 ///
 /// buffer:      size bytes.
 /// out_surface: receives a new surface; destroy with planish_surface_free().
+/// Arrays: buffer[size].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_FORMAT (the index is the byte) or
 /// PLANISH_STATUS_VERSION (a later library made it).
 #[must_use]

@@ -49,12 +49,15 @@ pub struct planish_field_options {
     /// How a mesh without parameters gets them; NULL (default) for the defaults. Not used for points.
     pub parameterize: *const planish_parameterize_options,
     /// A positive weight for each node; NULL (default) for all 1.
+    /// Array: [nodes].
     pub weights: *const f64,
     /// For each node 1 if fields have values there, 0 if not: those values are never looked at and may be NaN. NULL
     /// (default) for values at all nodes.
+    /// Array: [nodes].
     pub mask: *const u8,
     /// A field for which grid and smoothing are found that meet the tolerance: sample_dim numbers for each node; NULL
     /// (default) for none. grid_u and grid_v must then be 0.
+    /// Array: [nodes, sample_dim].
     pub sample_values: *const f64,
     /// Numbers of a value of sample_values.
     pub sample_dim: usize,
@@ -210,6 +213,7 @@ pub unsafe extern "C" fn planish_field_fitter_new(
 /// count:      at least 3.
 /// options:    NULL for the defaults.
 /// out_fitter: receives a new fitter; destroy with planish_field_fitter_free().
+/// Arrays: uv[count, 2].
 /// Returns what planish_field_fitter_new() returns, but for PLANISH_STATUS_TOPOLOGY.
 #[must_use]
 #[unsafe(no_mangle)]
@@ -254,6 +258,7 @@ pub unsafe extern "C" fn planish_field_fitter_point_count(fitter: *const planish
 ///
 /// fitter:   not NULL.
 /// out_grid: receives 2 numbers: knots along u and v.
+/// Arrays: out_grid[2].
 /// Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
 #[must_use]
 #[unsafe(no_mangle)]
@@ -274,6 +279,7 @@ pub unsafe extern "C" fn planish_field_fitter_grid(
 /// fitter: not NULL.
 /// out_uv: receives planish_field_fitter_point_count() rows of u, v.
 /// count:  rows that out_uv has room for.
+/// Arrays: out_uv[field_fitter_point_count, 2].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
 #[unsafe(no_mangle)]
@@ -316,6 +322,7 @@ unsafe fn field_values<'a>(
 /// dim:         numbers of a value, at least 1.
 /// out_surface: receives a new surface over the (u,v) of the nodes; destroy with planish_surface_free().
 /// out_report:  receives how good it is, measured on the surface; NULL for no report, which saves the measuring.
+/// Arrays: values[count, dim].
 /// Returns PLANISH_STATUS_OK, with a report also PLANISH_STATUS_TOLERANCE_NOT_MET, or an error:
 /// PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (count, dim), PLANISH_STATUS_NOT_FINITE (the index is
 /// the node), PLANISH_STATUS_SINGULAR (numbers overflow) or PLANISH_STATUS_TOO_LARGE.
@@ -356,6 +363,7 @@ pub unsafe extern "C" fn planish_field_fitter_fit(
 /// values:  count rows of dim numbers, one a node.
 /// count:   planish_field_fitter_point_count().
 /// dim:     planish_surface_dim() of the surface.
+/// Arrays: values[count, dim].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INVALID_ARGUMENT
 /// (count, dim, a surface of another grid), PLANISH_STATUS_NOT_FINITE (the index is the node) or
 /// PLANISH_STATUS_SINGULAR (numbers overflow).
@@ -383,6 +391,7 @@ pub unsafe extern "C" fn planish_field_fitter_update(
 /// factors:     count factors; NULL for all 1.
 /// count:       at least 1.
 /// out_surface: receives a new surface with the trims of the first; destroy with planish_surface_free().
+/// Arrays: surfaces[count], factors[count].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INVALID_ARGUMENT
 /// (count, or a surface does not fit the first; the index is the surface) or PLANISH_STATUS_NOT_FINITE (a factor, or
 /// the sum overflows; the index is the factor).
@@ -418,6 +427,7 @@ pub unsafe extern "C" fn planish_tensor_combine(
 /// thread_count:  threads to use, at most 1024; 0 for all cores.
 /// out_gradients: receives count times dim rows of 3 numbers, dim being that of the field; NaN where the shape has no
 ///                tangent plane.
+/// Arrays: uv[count, 2], out_gradients[count, surface_dim, 3].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension of shape,
 /// thread_count), PLANISH_STATUS_NOT_FINITE, PLANISH_STATUS_OUTSIDE (the index is the point for both) or
 /// PLANISH_STATUS_TOO_LARGE.

@@ -49,6 +49,7 @@ pub struct planish_mesh_options {
     pub out_repairs: *mut planish_mesh_repairs,
     /// Receives for each node given the node of the mesh that it became, counted from 0: point_count
     /// elements, or NULL (default). Filled on success only. Must be NULL for files.
+    /// Array: [nodes].
     pub out_node_map: *mut u32,
     /// 1 turns triangles over until neighbours agree; with 0 (default) disagreement is an error.
     pub orient: u32,
@@ -186,6 +187,7 @@ pub unsafe extern "C" fn planish_mesh_options_init(
 /// triangle_count: at least 1.
 /// options:        NULL for the defaults.
 /// out_mesh:       receives a new mesh; destroy with planish_mesh_free().
+/// Arrays: points[point_count, 3], triangles[triangle_count, 3].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_INPUT_REPAIRED (something was welded or turned over, see
 /// options->out_repairs) or an error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (empty
 /// arrays, a stride, the weld distance), PLANISH_STATUS_NOT_FINITE (a coordinate; the index is the node),
@@ -362,6 +364,7 @@ pub unsafe extern "C" fn planish_mesh_loop_point_count(mesh: *const planish_mesh
 /// mesh:       not NULL.
 /// out_points: receives planish_mesh_point_count() rows of x, y, z.
 /// count:      rows that out_points has room for.
+/// Arrays: out_points[mesh_point_count, 3].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
 #[unsafe(no_mangle)]
@@ -384,6 +387,7 @@ pub unsafe extern "C" fn planish_mesh_copy_points(
 /// mesh:          not NULL.
 /// out_triangles: receives planish_mesh_triangle_count() rows of three nodes, counted from 0.
 /// count:         rows that out_triangles has room for.
+/// Arrays: out_triangles[mesh_triangle_count, 3].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
 #[unsafe(no_mangle)]
@@ -407,6 +411,7 @@ pub unsafe extern "C" fn planish_mesh_copy_triangles(
 /// loop:      below planish_mesh_loop_count(); loop 0 is the longest in space.
 /// out_nodes: receives planish_mesh_loop_point_count() nodes, counted from 0.
 /// count:     nodes that out_nodes has room for.
+/// Arrays: out_nodes[mesh_loop_point_count].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INDEX (the loop) or
 /// PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
@@ -438,6 +443,7 @@ pub unsafe extern "C" fn planish_mesh_field_count(mesh: *const planish_mesh) -> 
 /// field: below planish_mesh_field_count().
 /// name:  receives the name in UTF-8, cut off if it is too long and always terminated; NULL if size is 0.
 /// size:  bytes that name has room for, the NUL included.
+/// Arrays: name[size].
 /// Returns the length of the whole name in bytes without the NUL; 0 for NULL or a field that does not exist.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_mesh_field_name(
@@ -463,6 +469,7 @@ pub unsafe extern "C" fn planish_mesh_field_name(
 /// name:       the field's name in UTF-8, terminated.
 /// out_values: receives planish_mesh_point_count() values; NaN where nothing is known.
 /// count:      values that out_values has room for.
+/// Arrays: out_values[mesh_point_count].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (no such field, or
 /// name is not UTF-8) or PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
@@ -489,6 +496,7 @@ pub unsafe extern "C" fn planish_mesh_copy_field(
 /// name:   the field's name in UTF-8, terminated.
 /// values: count values, one for each node; NaN where nothing is known. Copied.
 /// count:  planish_mesh_point_count().
+/// Arrays: values[count].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (count, or name is
 /// not UTF-8), PLANISH_STATUS_TOO_LARGE or PLANISH_STATUS_OUT_OF_MEMORY.
 #[must_use]
@@ -519,6 +527,7 @@ pub unsafe extern "C" fn planish_mesh_has_parameters(mesh: *const planish_mesh) 
 /// mesh:  not NULL; changed.
 /// uv:    count rows of u, v. Copied.
 /// count: planish_mesh_point_count().
+/// Arrays: uv[count, 2].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (count),
 /// PLANISH_STATUS_NOT_FINITE (the index is the node), PLANISH_STATUS_TOO_LARGE or PLANISH_STATUS_OUT_OF_MEMORY.
 #[must_use]
@@ -540,6 +549,7 @@ pub unsafe extern "C" fn planish_mesh_set_parameters(
 /// mesh:   not NULL.
 /// out_uv: receives planish_mesh_point_count() rows of u, v.
 /// count:  rows that out_uv has room for.
+/// Arrays: out_uv[mesh_point_count, 2].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the mesh has no
 /// parameters) or PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
@@ -566,6 +576,7 @@ pub unsafe extern "C" fn planish_mesh_copy_parameters(
 /// triangles: count triangles to leave out, counted from 0, in any order.
 /// count:     may be 0.
 /// out_mesh:  receives a new mesh; destroy with planish_mesh_free().
+/// Arrays: triangles[count].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INDEX (no such triangle; it is the
 /// index) or PLANISH_STATUS_INVALID_ARGUMENT (nothing is left).
 #[must_use]
@@ -596,6 +607,7 @@ pub unsafe extern "C" fn planish_mesh_remove_triangles(
 /// nodes:    count nodes of the path in order, counted from 0; see planish_mesh_shortest_path().
 /// count:    at least 2.
 /// out_mesh: receives a new mesh; destroy with planish_mesh_free().
+/// Arrays: nodes[count].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (count),
 /// PLANISH_STATUS_INDEX (no such node; it is the index) or PLANISH_STATUS_TOPOLOGY (two nodes that follow each
 /// other have no common edge, the index is the first; or the path opens nothing).
@@ -624,6 +636,7 @@ pub unsafe extern "C" fn planish_mesh_cut_along(
 /// out_meshes: receives planish_mesh_component_count() new meshes, all or none; destroy each with
 ///             planish_mesh_free().
 /// count:      meshes that out_meshes has room for.
+/// Arrays: out_meshes[mesh_component_count].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
 #[unsafe(no_mangle)]
@@ -652,6 +665,7 @@ pub unsafe extern "C" fn planish_mesh_split_components(
 /// out_nodes: receives the nodes of the path, both ends included; NULL if count is 0.
 /// count:     nodes that out_nodes has room for; 0 asks for the length only.
 /// out_count: receives the number of nodes of the path; not NULL.
+/// Arrays: out_nodes[count], out_count[1].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INDEX (no such node; it is the
 /// index), PLANISH_STATUS_TOPOLOGY (no path joins them) or PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]

@@ -55,6 +55,7 @@ pub struct planish_parameterize_options {
     /// Set by planish_parameterize_options_init().
     pub struct_size: usize,
     /// A positive number for each node: large where more parameter area is wanted. NULL (default) for all 1.
+    /// Array: [nodes].
     pub node_weights: *const f64,
     /// Hears of the progress and may cancel; NULL (default) for nobody.
     pub progress: planish_progress,

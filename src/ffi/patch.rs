@@ -106,6 +106,7 @@ pub unsafe extern "C" fn planish_surface_patch_at(surface: *const planish_surfac
 /// out_ordinates: receives the patch's ordinate_count rows of ordinate_width numbers, v running fastest; NULL for
 ///                none: ask for the sizes first.
 /// count:         rows that out_ordinates has room for.
+/// Arrays: out_ordinates[out_patch.ordinate_count, out_patch.ordinate_width].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INDEX, PLANISH_STATUS_WRONG_KIND (the
 /// family has no patches), PLANISH_STATUS_INVALID_ARGUMENT (struct_size) or PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]

@@ -50,6 +50,7 @@ pub struct planish_pht_options {
     /// NULL. Not used for points.
     pub parameterize: *const planish_parameterize_options,
     /// A positive weight for each datum; NULL (default) for all 1.
+    /// Array: [data].
     pub weights: *const f64,
     /// Hears of the progress and may cancel; NULL (default) for nobody.
     pub progress: planish_progress,
@@ -57,9 +58,11 @@ pub struct planish_pht_options {
     pub user: *mut c_void,
     /// Receives the (u,v) at which the error of each datum is measured: two numbers for each datum, or NULL
     /// (default). Written on success only.
+    /// Array: [data, 2].
     pub out_parameters: *mut f64,
     /// Receives the error of each datum in model units: one number for each datum, or NULL (default). Written
     /// on success only.
+    /// Array: [data].
     pub out_errors: *mut f64,
     /// Most cells, at least the initial ones. Default 200000.
     pub max_cells: usize,
@@ -248,6 +251,7 @@ pub unsafe extern "C" fn planish_pht_fit(
 /// options:     NULL for the defaults; parameterize, regularize and correction_sweeps are not used.
 /// out_surface: receives a new surface; destroy with planish_surface_free().
 /// out_report:  receives what the fit did and how good it is; NULL for no report.
+/// Arrays: uv[count, 2], values[count, dim].
 /// Returns what planish_pht_fit() returns; PLANISH_STATUS_NOT_FINITE also for uv and values (the index is the
 /// datum), PLANISH_STATUS_TOO_LARGE (count times dim) and PLANISH_STATUS_OUT_OF_MEMORY.
 #[must_use]
@@ -280,6 +284,7 @@ pub unsafe extern "C" fn planish_pht_fit_points(
 /// options:     NULL for the defaults; correction_sweeps is not used.
 /// out_surface: receives a new surface; destroy with planish_surface_free().
 /// out_report:  receives what the fit did and how good it is; NULL for no report.
+/// Arrays: values[count, dim].
 /// Returns what planish_pht_fit() returns; PLANISH_STATUS_INVALID_ARGUMENT also for count,
 /// PLANISH_STATUS_NOT_FINITE also for values (the index is the node), and PLANISH_STATUS_TOO_LARGE.
 #[must_use]
@@ -329,6 +334,8 @@ unsafe fn cells(at: *const u32, count: usize) -> Result<Vec<Cell>, ArgumentError
 ///                (dim + 1 with weights); NULL for zeros, and weights of 1: the vertices are known afterwards.
 /// data_count:    numbers in data; 0 if it is NULL.
 /// out_surface:   receives a new surface; destroy with planish_surface_free().
+/// Arrays: lines_u[line_count_u], lines_v[line_count_v], cells[split_count, 3],
+///         data[data_count, 4, dim + is_rational].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (dim, a count, a line
 /// that does not increase, a weight that is not positive everywhere), PLANISH_STATUS_NOT_FINITE (the index is the
 /// line or the vertex), PLANISH_STATUS_INDEX (a cell that is no leaf when its turn comes; the index is its row),
@@ -371,6 +378,7 @@ pub unsafe extern "C" fn planish_pht_new(
 /// surface: not NULL; changed.
 /// cells:   count rows of level, i, j: leaves when their turn comes, so quarters may follow their cell.
 /// count:   may be 0.
+/// Arrays: cells[count, 3].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX (a cell
 /// is no leaf; the index is its row), PLANISH_STATUS_TOO_LARGE (a level above 20) or
 /// PLANISH_STATUS_OUT_OF_MEMORY.
@@ -391,6 +399,7 @@ pub unsafe extern "C" fn planish_pht_split(
 /// surface: not NULL; changed.
 /// cells:   count rows of level, i, j: cells whose quarters are four leaves when their turn comes.
 /// count:   may be 0.
+/// Arrays: cells[count, 3].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX (the
 /// quarters are not four leaves; the index is the row) or PLANISH_STATUS_OUT_OF_MEMORY.
 #[must_use]
@@ -409,6 +418,7 @@ pub unsafe extern "C" fn planish_pht_merge(
 /// surface:       not NULL; changed.
 /// tolerance:     in model units, not negative.
 /// out_deviation: receives a bound of how far a point has moved; NULL for none.
+/// Arrays: out_deviation[1].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
 /// PLANISH_STATUS_INVALID_ARGUMENT (tolerance).
 #[must_use]
@@ -436,6 +446,7 @@ pub unsafe extern "C" fn planish_pht_simplify(
 /// region:    least u, largest u, least v, largest v.
 /// level:     at most 20.
 /// max_cells: with more cells the call fails.
+/// Arrays: region[4].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
 /// PLANISH_STATUS_TOO_LARGE (level, cells).
 #[must_use]
@@ -551,6 +562,7 @@ pub unsafe extern "C" fn planish_pht_from_surface(
 /// out_surfaces: receives new surfaces; destroy each with planish_surface_free(). NULL asks for the number.
 /// count:        handles that out_surfaces has room for.
 /// out_count:    receives the number of surfaces.
+/// Arrays: out_surfaces[count], out_count[1].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND,
 /// PLANISH_STATUS_BUFFER_TOO_SMALL (nothing is made) or PLANISH_STATUS_NOT_FINITE (a number would overflow).
 #[must_use]

@@ -57,6 +57,7 @@ pub unsafe extern "C" fn planish_pht_width(surface: *const planish_surface) -> u
 /// surface:   not NULL.
 /// out_cells: receives planish_pht_cell_count() rows of level, i, j.
 /// count:     rows that out_cells has room for.
+/// Arrays: out_cells[pht_cell_count, 3].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
 /// PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
@@ -83,6 +84,7 @@ pub unsafe extern "C" fn planish_pht_copy_cells(
 /// surface: not NULL.
 /// out_uv:  receives planish_pht_vertex_count() rows of u, v.
 /// count:   rows that out_uv has room for.
+/// Arrays: out_uv[pht_vertex_count, 2].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
 /// PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
@@ -109,6 +111,7 @@ pub unsafe extern "C" fn planish_pht_copy_vertices(
 /// out_uv:    receives planish_pht_hanging_count() rows of u, v; NULL for none.
 /// out_hosts: receives as many numbers of cells; NULL for none.
 /// count:     rows that each has room for.
+/// Arrays: out_uv[pht_hanging_count, 2], out_hosts[pht_hanging_count].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
 /// PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
@@ -158,6 +161,7 @@ fn leaf(pht: &PhtSurface, index: usize) -> Result<NodeId, ArgumentError> {
 /// out_cells: receives the numbers; NULL asks how many there are.
 /// count:     numbers that out_cells has room for.
 /// out_count: receives how many there are.
+/// Arrays: out_cells[count], out_count[1].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX or
 /// PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
@@ -191,6 +195,7 @@ pub unsafe extern "C" fn planish_pht_copy_neighbours(
 /// out_data: receives for each of planish_pht_vertex_count() vertices four rows f, f_u, f_v, f_uv of
 ///           planish_pht_width() numbers; with weights those of (w x, .., w).
 /// count:    vertices that out_data has room for.
+/// Arrays: out_data[pht_vertex_count, 4, pht_width].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
 /// PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
@@ -216,6 +221,7 @@ pub unsafe extern "C" fn planish_pht_copy_data(
 /// vertices: count numbers below planish_pht_vertex_count().
 /// count:    may be 0.
 /// data:     for each of them four rows f, f_u, f_v, f_uv of planish_pht_width() numbers.
+/// Arrays: vertices[count], data[count, 4, pht_width].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX,
 /// PLANISH_STATUS_NOT_FINITE (the index is the vertex), PLANISH_STATUS_INVALID_ARGUMENT (a weight would not be
 /// positive everywhere; the index is the cell) or PLANISH_STATUS_TOO_LARGE.
@@ -242,6 +248,7 @@ pub unsafe extern "C" fn planish_pht_set_data(
 /// out_points: receives for each of planish_pht_vertex_count() vertices four rows --, +-, -+, ++ (towards less or
 ///             more u, then v) of planish_pht_width() numbers; with weights those of (w x, .., w).
 /// count:      vertices that out_points has room for.
+/// Arrays: out_points[pht_vertex_count, 4, pht_width].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND,
 /// PLANISH_STATUS_INVALID_ARGUMENT (basis) or PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
@@ -269,6 +276,7 @@ pub unsafe extern "C" fn planish_pht_copy_control_points(
 /// count:    may be 0.
 /// basis:    a planish_pht_basis.
 /// points:   for each of them four rows --, +-, -+, ++ of planish_pht_width() numbers.
+/// Arrays: vertices[count], points[count, 4, pht_width].
 /// Returns what planish_pht_set_data() returns; PLANISH_STATUS_INVALID_ARGUMENT also for basis.
 #[must_use]
 #[unsafe(no_mangle)]
@@ -298,6 +306,7 @@ pub unsafe extern "C" fn planish_pht_set_control_points(
 /// out_matrix:   receives 16 rows, v running fastest, of four numbers for each vertex; NULL for none.
 /// count:        vertices that both have room for.
 /// out_count:    receives how many there are.
+/// Arrays: out_vertices[count], out_matrix[16, 4 * count], out_count[1].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_INDEX,
 /// PLANISH_STATUS_INVALID_ARGUMENT (basis) or PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]

@@ -146,9 +146,10 @@ pub struct planish_project_options {
     pub struct_size: usize,
     /// A row u, v near the answer for each point, or NULL (default). It saves time and may choose between
     /// equally near places; the answer is the nearest place all the same. Borrowed.
+    /// Array: [points, 2].
     pub guesses: *const f64,
     /// Points farther from the surface than this get NaN, and the call returns
-    /// PLANISH_STATUS_POINTS_OUTSIDE. Not negative; default infinity.
+    /// PLANISH_STATUS_POINTS_OUTSIDE. Not negative. Default infinity.
     pub max_distance: f64,
     /// 1 (default) looks for the nearest place inside the trims, 0 in the whole domain.
     pub keep_trims: u32,
@@ -195,6 +196,7 @@ pub unsafe extern "C" fn planish_project_options_init(
 /// options:       NULL for the defaults.
 /// out_uv:        receives count rows u, v; NULL for none.
 /// out_distances: receives count distances; NULL for none.
+/// Arrays: points[count, surface_dim], out_uv[count, 2], out_distances[count].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_POINTS_OUTSIDE (some points are farther than max_distance),
 /// PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_NOT_FINITE (the index is the point),
 /// PLANISH_STATUS_INVALID_ARGUMENT, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOO_LARGE or
@@ -351,6 +353,7 @@ pub unsafe extern "C" fn planish_deviation_options_init(
 /// out_distances: receives planish_mesh_point_count() distances; NULL for none.
 /// count:         doubles that out_distances has room for.
 /// out_report:    receives the sizes of the distances; NULL for none.
+/// Arrays: out_distances[count].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, or the
 /// dimension), PLANISH_STATUS_BUFFER_TOO_SMALL, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOPOLOGY or
 /// PLANISH_STATUS_TOO_LARGE (measuring back only), or PLANISH_STATUS_VERSION.

@@ -92,6 +92,7 @@ pub unsafe extern "C" fn planish_sample_rows_options_init(
 /// out_points:      receives rows of x, y, z, row after row; NULL to learn the counts only.
 /// point_count:     points that out_points has room for.
 /// out_point_count: receives the number of points of all rows.
+/// Arrays: out_row_counts[row_count], out_points[point_count, 3], out_point_count[1].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, the number of
 /// rows, or both sources share a node, which is the index), PLANISH_STATUS_INDEX (no such loop or node),
 /// PLANISH_STATUS_TOPOLOGY (the mesh has several pieces; or a row is not one closed curve, as on a mesh with handles or

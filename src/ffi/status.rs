@@ -139,6 +139,7 @@ fn name(status: i32) -> &'static CStr {
 ///
 /// text: receives the sentence in UTF-8, cut off if it is too long and always terminated; NULL if size is 0.
 /// size: bytes that text has room for, the NUL included.
+/// Arrays: text[size].
 /// Returns the length of the whole sentence in bytes without the NUL; 0 if nothing has failed yet.
 /// planish_error_message(NULL, 0) asks for it.
 #[unsafe(no_mangle)]

@@ -217,6 +217,7 @@ pub struct planish_eval_options {
     /// exactly so many. What lies between is left alone.
     pub out_stride: usize,
     /// Receives bits of planish_flag, one element for each point; NULL (default) for none.
+    /// Array: [points].
     pub out_flags: *mut u8,
     /// A planish_outside. Default PLANISH_OUTSIDE_FAIL.
     pub outside: u32,
@@ -344,6 +345,7 @@ pub unsafe extern "C" fn planish_surface_coefficient_count(surface: *const plani
 ///
 /// surface: not NULL.
 /// out_box: receives 4 numbers: least u, largest u, least v, largest v.
+/// Arrays: out_box[4].
 /// Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
 #[must_use]
 #[unsafe(no_mangle)]
@@ -364,6 +366,7 @@ pub unsafe extern "C" fn planish_surface_domain(
 ///
 /// surface: not NULL.
 /// out_box: receives 4 numbers: least u, largest u, least v, largest v.
+/// Arrays: out_box[4].
 /// Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
 #[must_use]
 #[unsafe(no_mangle)]
@@ -392,6 +395,7 @@ fn write_box(domain: Domain, out: &mut [f64]) {
 /// options:    NULL for the defaults.
 /// out_values: receives count rows of dim numbers; rows start options->out_stride doubles apart. It must not
 ///             overlap uv.
+/// Arrays: uv[count, 2], out_values[count, surface_dim].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_POINTS_OUTSIDE (with PLANISH_OUTSIDE_FLAG; the values of those
 /// points are NaN) or an error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option),
 /// PLANISH_STATUS_OUTSIDE (with PLANISH_OUTSIDE_FAIL; the index is the first such point),
@@ -419,6 +423,7 @@ pub unsafe extern "C" fn planish_surface_eval(
 /// options:        NULL for the defaults.
 /// out:            receives for each point 1, 3 or 6 rows of dim numbers: S; Su, Sv; Suu, Suv, Svv. Points
 ///                 start options->out_stride doubles apart. It must not overlap uv.
+/// Arrays: uv[count, 2], out[count, *, surface_dim].
 /// Returns what planish_surface_eval() returns; PLANISH_STATUS_INVALID_ARGUMENT also for max_derivative.
 #[must_use]
 #[unsafe(no_mangle)]
@@ -449,6 +454,7 @@ pub unsafe extern "C" fn planish_surface_eval_derivatives(
 /// options:    NULL for the defaults; uv_stride must be 0.
 /// out_values: receives u_count * v_count rows of dim numbers, v running fastest; rows start
 ///             options->out_stride doubles apart. It must not overlap u or v.
+/// Arrays: u[u_count], v[v_count], out_values[u_count, v_count, surface_dim].
 /// Returns what planish_surface_eval() returns; the index of a point counts as the rows of out_values do.
 #[must_use]
 #[unsafe(no_mangle)]
@@ -483,6 +489,7 @@ pub unsafe extern "C" fn planish_surface_eval_grid(
 /// options:     NULL for the defaults.
 /// out_normals: receives count rows of 3 numbers, NaN where Su and Sv are parallel; rows start
 ///              options->out_stride doubles apart. It must not overlap uv.
+/// Arrays: uv[count, 2], out_normals[count, 3].
 /// Returns what planish_surface_eval() returns; PLANISH_STATUS_INVALID_ARGUMENT also if dim is not 3.
 #[must_use]
 #[unsafe(no_mangle)]
@@ -508,6 +515,7 @@ pub unsafe extern "C" fn planish_surface_normals(
 /// out:     receives count rows of 8 numbers: k1, k2 with k1 >= k2, positive where the surface bends towards
 ///          its normal, then the unit tangents d1 and d2 of 3 numbers each, with d1 x d2 the normal; NaN where
 ///          there is no normal. Rows start options->out_stride doubles apart. It must not overlap uv.
+/// Arrays: uv[count, 2], out[count, 8].
 /// Returns what planish_surface_eval() returns; PLANISH_STATUS_INVALID_ARGUMENT also if dim is not 3.
 #[must_use]
 #[unsafe(no_mangle)]
@@ -554,6 +562,7 @@ pub unsafe extern "C" fn planish_surface_trim_point_count(
 /// trim:    below planish_surface_trim_count(); trim 0 is the outer one.
 /// out_uv:  receives planish_surface_trim_point_count() rows of u, v.
 /// count:   rows that out_uv has room for.
+/// Arrays: out_uv[surface_trim_point_count, 2].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INDEX (the trim) or
 /// PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
@@ -580,6 +589,7 @@ pub unsafe extern "C" fn planish_surface_copy_trim(
 ///               Copied.
 /// point_counts: trim_count numbers of points, each at least 3.
 /// trim_count:   0 removes all trims.
+/// Arrays: uv[*, 2], point_counts[trim_count].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (a trim of fewer
 /// than 3 points), PLANISH_STATUS_NOT_FINITE, PLANISH_STATUS_OUTSIDE (the index is the trim for all three),
 /// PLANISH_STATUS_TOO_LARGE or PLANISH_STATUS_OUT_OF_MEMORY.

@@ -100,6 +100,7 @@ pub struct planish_tensor_options {
     /// and thread_count are not looked at, and node_weights must be NULL. Not used for points.
     pub parameterize: *const planish_parameterize_options,
     /// A positive weight for each datum; NULL (default) for all 1.
+    /// Array: [data].
     pub weights: *const f64,
     /// Hears of the progress and may cancel; NULL (default) for nobody.
     pub progress: planish_progress,
@@ -107,9 +108,11 @@ pub struct planish_tensor_options {
     pub user: *mut c_void,
     /// Receives the (u,v) at which the error of each datum is measured: two numbers for each datum, or NULL
     /// (default). Written on success only.
+    /// Array: [data, 2].
     pub out_parameters: *mut f64,
     /// Receives the error of each datum in model units: one number for each datum, or NULL (default). Written
     /// on success only.
+    /// Array: [data].
     pub out_errors: *mut f64,
     /// Most unknowns of one grid, at least 4. Default 66049.
     pub max_coefficients: usize,
@@ -299,6 +302,7 @@ pub unsafe extern "C" fn planish_tensor_fit(
 /// options:     NULL for the defaults; parameterize and regularize are not used.
 /// out_surface: receives a new surface; destroy with planish_surface_free().
 /// out_report:  receives what the fit did and how good it is; NULL for no report.
+/// Arrays: uv[count, 2], values[count, dim].
 /// Returns what planish_tensor_fit() returns; PLANISH_STATUS_NOT_FINITE also for uv and values (the index is
 /// the datum), PLANISH_STATUS_TOO_LARGE (count times dim) and PLANISH_STATUS_OUT_OF_MEMORY.
 #[must_use]
@@ -331,6 +335,7 @@ pub unsafe extern "C" fn planish_tensor_fit_points(
 /// options:     NULL for the defaults.
 /// out_surface: receives a new surface; destroy with planish_surface_free().
 /// out_report:  receives what the fit did and how good it is; NULL for no report.
+/// Arrays: values[count, dim].
 /// Returns what planish_tensor_fit() returns; PLANISH_STATUS_INVALID_ARGUMENT also for count,
 /// PLANISH_STATUS_NOT_FINITE also for values (the index is the node), and PLANISH_STATUS_TOO_LARGE.
 #[must_use]
@@ -370,6 +375,9 @@ pub unsafe extern "C" fn planish_tensor_fit_field(
 /// control_points: rows of dim numbers, v running fastest, not multiplied by weights.
 /// weights:        one positive number for each control point in the same order; NULL for a polynomial surface.
 /// out_surface:    receives a new surface; destroy with planish_surface_free().
+/// Arrays: knots_u[knot_count_u], knots_v[knot_count_v],
+///         control_points[knot_count_u - degree_u - 1, knot_count_v - degree_v - 1, dim],
+///         weights[knot_count_u - degree_u - 1, knot_count_v - degree_v - 1].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (dim, a degree, a
 /// count, a knot, a weight; the index is the knot or the control point), PLANISH_STATUS_NOT_FINITE (likewise),
 /// PLANISH_STATUS_DEGENERATE (the knots span no interval), PLANISH_STATUS_TOO_LARGE or
@@ -455,6 +463,7 @@ pub unsafe extern "C" fn planish_tensor_control_point_count(
 /// axis:      a planish_axis.
 /// out_knots: receives planish_tensor_knot_count() knots.
 /// count:     knots that out_knots has room for.
+/// Arrays: out_knots[tensor_knot_count].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the axis),
 /// PLANISH_STATUS_WRONG_KIND or PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
@@ -479,6 +488,7 @@ pub unsafe extern "C" fn planish_tensor_copy_knots(
 /// out_control_points: receives planish_surface_coefficient_count() rows of dim numbers, v running fastest, not
 ///                     multiplied by weights.
 /// count:              rows that out_control_points has room for.
+/// Arrays: out_control_points[surface_coefficient_count, surface_dim].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
 /// PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
@@ -511,6 +521,7 @@ pub unsafe extern "C" fn planish_tensor_has_weights(surface: *const planish_surf
 /// surface:     not NULL.
 /// out_weights: receives planish_surface_coefficient_count() weights, in the order of the control points.
 /// count:       weights that out_weights has room for.
+/// Arrays: out_weights[surface_coefficient_count].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
 /// PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
@@ -540,6 +551,7 @@ pub unsafe extern "C" fn planish_tensor_copy_weights(
 /// knots:   count parameters in the domain, in any order. Inside the domain no knot may occur more than degree
 ///          times afterwards; at its ends degree + 1 times, which clamps.
 /// count:   may be 0.
+/// Arrays: knots[count].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND,
 /// PLANISH_STATUS_INVALID_ARGUMENT (the axis, or a knot would occur too often), PLANISH_STATUS_NOT_FINITE (the
 /// index is that of knots) or PLANISH_STATUS_OUTSIDE.

@@ -206,6 +206,7 @@ pub unsafe extern "C" fn planish_transfer_options_init(
 /// options:      NULL for the defaults.
 /// out_transfer: receives a new transfer; destroy with planish_transfer_free().
 /// out_report:   receives how well the two lie on one another; NULL for no report.
+/// Arrays: targets[count, 3].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_POINTS_OUTSIDE (targets beyond max_distance were kept), or an error:
 /// PLANISH_STATUS_OUTSIDE (a target lies beyond it; the index is the target), PLANISH_STATUS_NOT_FINITE (a target; the
 /// index), PLANISH_STATUS_INVALID_ARGUMENT (an option), or what planish_field_fitter_new() returns.
@@ -272,6 +273,7 @@ pub unsafe extern "C" fn planish_transfer_target_count(transfer: *const planish_
 /// transfer: not NULL.
 /// out_uv:   receives planish_transfer_target_count() rows of u, v.
 /// count:    rows that out_uv has room for.
+/// Arrays: out_uv[transfer_target_count, 2].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
 #[unsafe(no_mangle)]
@@ -293,6 +295,7 @@ pub unsafe extern "C" fn planish_transfer_copy_parameters(
 /// transfer:      not NULL.
 /// out_distances: receives planish_transfer_target_count() distances.
 /// count:         distances that out_distances has room for.
+/// Arrays: out_distances[transfer_target_count].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
 #[unsafe(no_mangle)]
@@ -334,6 +337,7 @@ unsafe fn all_rows<'a>(
 /// count:      planish_transfer_source_count().
 /// dim:        numbers of a value, at least 1.
 /// out_values: receives planish_transfer_target_count() rows of dim numbers; it must not overlap values.
+/// Arrays: values[count, dim], out_values[transfer_target_count, dim].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (count, dim),
 /// PLANISH_STATUS_NOT_FINITE (the index is the node) or PLANISH_STATUS_TOO_LARGE.
 #[must_use]
@@ -363,6 +367,7 @@ pub unsafe extern "C" fn planish_transfer_apply(
 /// dim:        numbers of a force, at least 1.
 /// out_forces: receives planish_transfer_source_count() rows of dim numbers, 0 for nodes without values; it must not
 ///             overlap forces.
+/// Arrays: forces[count, dim], out_forces[transfer_source_count, dim].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (count, dim),
 /// PLANISH_STATUS_NOT_FINITE (the index is the target) or PLANISH_STATUS_TOO_LARGE.
 #[must_use]
@@ -392,6 +397,7 @@ pub unsafe extern "C" fn planish_transfer_apply_transpose(
 /// target_count:  planish_transfer_target_count().
 /// about:         3 numbers: the point that moments are about; NULL for the origin.
 /// out_report:    not NULL; receives the sums.
+/// Arrays: displacements[source_count, 3], forces[target_count, 3], about[3].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (a count),
 /// PLANISH_STATUS_NOT_FINITE (the index is the node or the target) or PLANISH_STATUS_TOO_LARGE.
 #[must_use]

@@ -130,11 +130,14 @@ pub struct planish_skin_options {
     /// For each row two vectors of dim numbers, the slopes at its begin and its end, derivatives with respect to
     /// chord length (a unit tangent keeps the pace); NULL (default) unless ends is PLANISH_SECTION_ENDS_SLOPES. Not
     /// used for curves.
+    /// Array: [rows, 2, dim].
     pub end_slopes: *const f64,
     /// For each point of the first row, or each different knot of the first curve, a vector of dim numbers: the
     /// derivative across it with respect to length along v; NULL (default) for no curvature there.
+    /// Array: [*, dim].
     pub begin_tangents: *const f64,
     /// The same at the last row.
+    /// Array: [*, dim].
     pub end_tangents: *const f64,
     /// Hears of the progress and may cancel; NULL (default) for nobody.
     pub progress: planish_progress,
@@ -142,9 +145,11 @@ pub struct planish_skin_options {
     pub user: *mut c_void,
     /// Receives the (u,v) at which the error of each point is measured: two numbers for each point, or NULL
     /// (default; for curves it must be). Written on success only.
+    /// Array: [data, 2].
     pub out_parameters: *mut f64,
     /// Receives the error of each point in model units, or NULL (default; for curves it must be). Written on success
     /// only.
+    /// Array: [data].
     pub out_errors: *mut f64,
     /// Receives what only skins report, or NULL (default). Set its struct_size before. Filled on success only.
     pub out_report: *mut planish_skin_report,
@@ -325,6 +330,7 @@ pub unsafe extern "C" fn planish_skin_options_init(
 /// out_surface: receives a new T-spline; destroy with planish_surface_free().
 /// out_report:  receives what the fit did and how good it is; grid_u is the largest number of knots of a control
 ///              curve. NULL for no report.
+/// Arrays: points[*, options.dim], row_counts[row_count].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_TOLERANCE_NOT_MET, PLANISH_STATUS_STAGNATED (points are so near to one
 /// another that no knot fits between), PLANISH_STATUS_INPUT_REPAIRED (points on the one before were merged) or an
 /// error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, too few rows, or a row without
@@ -363,6 +369,7 @@ pub unsafe extern "C" fn planish_tspline_skin(
 /// options:     NULL for the defaults. closed says that the curves are closed, and smooth there.
 /// out_surface: receives a new T-spline; destroy with planish_surface_free().
 /// out_report:  receives what the fit did and how good it is; NULL for no report.
+/// Arrays: curves[curve_count].
 /// Returns what planish_tspline_skin() returns; PLANISH_STATUS_INVALID_ARGUMENT also for a curve of another dimension
 /// than the first, the index is the curve.
 #[must_use]
@@ -412,6 +419,7 @@ unsafe fn curves(curves: *const *const planish_curve, count: usize) -> Result<Ve
 ///              one dimension; none of them NULL.
 /// curve_count: knot_count - 4.
 /// out_surface: receives a new surface; destroy with planish_surface_free().
+/// Arrays: knots[knot_count], curves[curve_count].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (knots or curves, the index
 /// is the one), PLANISH_STATUS_NOT_FINITE or PLANISH_STATUS_DEGENERATE (the knots span no interval).
 #[must_use]
@@ -475,6 +483,7 @@ pub unsafe extern "C" fn planish_tspline_knot_count(surface: *const planish_surf
 /// surface:   not NULL.
 /// out_knots: receives planish_tspline_knot_count() knots.
 /// count:     knots that out_knots has room for.
+/// Arrays: out_knots[tspline_knot_count].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
 /// PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
@@ -535,6 +544,7 @@ pub unsafe extern "C" fn planish_tspline_insert_knot_v(
 /// tolerance: in model units; 0 or more, or the knot stays.
 /// out_error: receives a bound of the distance that the surface moves at any (u,v), or would have moved; NULL for
 ///            none.
+/// Arrays: out_error[1].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_TOLERANCE_NOT_MET (the knot stays) or an error:
 /// PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or PLANISH_STATUS_INDEX (no such curve, or no such knot
 /// inside the domain).

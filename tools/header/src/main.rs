@@ -1,35 +1,48 @@
-//! Writes `include/planish.h` from `src/ffi`; with `--verify` it only tells whether the file is up to date.
+//! Writes what follows from `src/ffi`; with `--verify` it only tells whether the files are up to date:
+//!
+//! | file | for |
+//! |---|---|
+//! | `include/planish.h` | C and C++ |
+//! | `bindings/planish.api.json` | programs that write or check bindings |
+//! | `bindings/planish_c.f90` | Fortran: names, records and interfaces below `include/planish.f90` |
+//! | `python/planish/_abi.py` | Python: the same for ctypes |
+//!
+//! Rust's declarations say the most; the rest is read from their documentation, where readers of the header need
+//! it too. What is missing is an error, which names the place.
+//!
+//! * **Arrays.** One line before `Returns` (or at the end) gives the extents of each array among the arguments,
+//!   slowest first; what is `const` comes in, the rest goes out. A pointer to a single number is an array of one.
+//!   ```text
+//!   /// Arrays: uv[count, 2], out_values[count, surface_dim], out_count[1].
+//!   ```
+//!   An extent is a number, an argument, a field `options.dim`, a function without its `planish_`
+//!   (`mesh_point_count`), sums and products of these, or `*` where only the text can tell. The line may go on in
+//!   the next, indented. Texts, handles, records and `void *user` are none of its business, arrays of handles are.
+//!   A record's array has the line for itself, with words such as `data`, `nodes` or `points` for what a call is given:
+//!   ```text
+//!   /// A positive weight for each datum; NULL (default) for all 1.
+//!   /// Array: [data].
+//!   pub weights: *const f64,
+//!   ```
+//! * **Choices.** The text of a number that stands for an enumerator says so: "A planish_axis", "bits of planish_flag".
+//! * **Defaults.** The text of an option has "X (default)" or "Default X": a number, an enumerator, NULL, infinity.
+//!   Zero and NULL need not be told.
+//! * **NULL.** An argument whose text speaks of NULL otherwise than as "not NULL" may be NULL.
+//! * **Freeing.** A new handle, `out_x: *mut *mut planish_x`, is destroyed by `planish_x_free`, which must exist.
 
+mod api;
+mod documentation;
+mod fortran;
+mod header;
+mod json;
+mod python;
+mod sources;
+
+use api::Api;
 use std::error::Error;
 use std::fs;
 use std::path::Path;
 use std::process::ExitCode;
-
-/// The files of `src/ffi` in the order of the header.
-const SOURCES: &[&str] = &[
-    "status.rs",
-    "progress.rs",
-    "mesh.rs",
-    "decimate.rs",
-    "parameterize.rs",
-    "report.rs",
-    "surface.rs",
-    "patch.rs",
-    "tensor.rs",
-    "field.rs",
-    "transfer.rs",
-    "query.rs",
-    "rows.rs",
-    "export.rs",
-    "step.rs",
-    "curve.rs",
-    "curve_query.rs",
-    "tspline.rs",
-    "pht.rs",
-    "pht_parts.rs",
-    "d1rc.rs",
-    "d1rc_fit.rs",
-];
 
 fn main() -> ExitCode {
     let verify = match std::env::args().skip(1).collect::<Vec<_>>().as_slice() {
@@ -51,39 +64,44 @@ fn main() -> ExitCode {
 
 fn run(verify: bool) -> Result<ExitCode, Box<dyn Error>> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize()?;
-    let path = root.join("include/planish.h");
-    let header = header(&root)?;
-    let committed = fs::read_to_string(&path).unwrap_or_default();
-    if committed == header {
-        return Ok(ExitCode::SUCCESS);
+    let version = version(&fs::read_to_string(root.join("Cargo.toml"))?)?;
+    let files = sources::read(&root.join("src/ffi"))?;
+    let api = Api::new(&files, &version)?;
+    let written = [
+        ("include/planish.h", header::text(&root, &files, &api)?),
+        ("bindings/planish.api.json", json::text(&api)),
+        ("bindings/planish_c.f90", fortran::text(&api)),
+        ("python/planish/_abi.py", python::text(&api)),
+    ];
+    let mut same = true;
+    for (name, text) in &written {
+        same &= if verify { is_up_to_date(&root, name, text) } else { renew(&root, name, text)? };
     }
-    if !verify {
-        fs::create_dir_all(root.join("include"))?;
-        fs::write(&path, header)?;
-        return Ok(ExitCode::SUCCESS);
-    }
-    let same = committed.lines().zip(header.lines()).take_while(|(old, new)| old == new).count();
-    eprintln!("include/planish.h is not what src/ffi says; they part at line {}:", same + 1);
-    eprintln!("  committed: {}", committed.lines().nth(same).unwrap_or("(end of file)"));
-    eprintln!("  generated: {}", header.lines().nth(same).unwrap_or("(end of file)"));
-    eprintln!("`cargo run -p planish-header` renews it");
-    Ok(ExitCode::FAILURE)
+    Ok(if same { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-/// The text of the header.
-fn header(root: &Path) -> Result<String, Box<dyn Error>> {
-    let mut config = cbindgen::Config::from_file(root.join("cbindgen.toml"))?;
-    let version = version(&fs::read_to_string(root.join("Cargo.toml"))?)?;
-    let macros = config.after_includes.take().unwrap_or_default();
-    let [major, minor, patch] = version;
-    let macros = macros.replace("@MAJOR@", &major).replace("@MINOR@", &minor).replace("@PATCH@", &patch);
-    config.after_includes = Some(macros);
-    let sources = SOURCES.iter().map(|name| root.join("src/ffi").join(name));
-    // file by file, not the crate: the core's public constants are none of the header's business
-    let builder = sources.fold(cbindgen::Builder::new().with_config(config), |b, path| b.with_src(path));
-    let mut text = Vec::new();
-    builder.generate()?.write(&mut text);
-    Ok(String::from_utf8(text)?)
+/// Writes a file, unless it is what it should be: its time of change then stays too.
+fn renew(root: &Path, name: &str, text: &str) -> Result<bool, Box<dyn Error>> {
+    let path = root.join(name);
+    if fs::read_to_string(&path).ok().as_deref() != Some(text) {
+        fs::create_dir_all(path.parent().unwrap_or(root))?;
+        fs::write(&path, text)?;
+    }
+    Ok(true)
+}
+
+/// Compares a file with what it should be, and tells where they part.
+fn is_up_to_date(root: &Path, name: &str, text: &str) -> bool {
+    let committed = fs::read_to_string(root.join(name)).unwrap_or_default();
+    if committed == text {
+        return true;
+    }
+    let same = committed.lines().zip(text.lines()).take_while(|(old, new)| old == new).count();
+    eprintln!("{name} is not what src/ffi says; they part at line {}:", same + 1);
+    eprintln!("  committed: {}", committed.lines().nth(same).unwrap_or("(end of file)"));
+    eprintln!("  generated: {}", text.lines().nth(same).unwrap_or("(end of file)"));
+    eprintln!("`cargo run -p planish-header` renews it");
+    false
 }
 
 /// Major, minor and patch version of the library.

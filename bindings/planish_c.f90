@@ -1,0 +1,2553 @@
+! SPDX-License-Identifier: MIT OR Apache-2.0
+! Generated from src/ffi: do not edit. `cargo run -p planish-header` renews it.
+
+!> Names and records of planish.h, which users see through the module planish. Records are the same bytes as in C, born
+!> with the defaults. A pointer in one is set by an argument of the call, and indices count from 1.
+module planish_records
+  use, intrinsic :: iso_c_binding
+  implicit none
+  private
+
+  !> Bytes of a pointer, and of a size_t.
+  integer(c_size_t), parameter :: word = storage_size(0_c_size_t) / 8
+  !> IEEE's infinity, which has no literal.
+  real(c_double), parameter :: infinity = transfer(int(z'7FF0000000000000', c_int64_t), 1.0_c_double)
+
+  !> The value of stretch_steps that goes on until the stretch no longer falls
+  integer(c_int32_t), parameter, public :: PLANISH_UNLIMITED = -1
+
+  !> What a call came to: 0 or positive is success, negative is an error.
+  integer(c_int), parameter, public :: PLANISH_STATUS_OK = 0 !! All went well
+  !> The surface misses the tolerance; it is the best one found
+  integer(c_int), parameter, public :: PLANISH_STATUS_TOLERANCE_NOT_MET = 1
+  !> The fit ended because refinement no longer lowered the error
+  integer(c_int), parameter, public :: PLANISH_STATUS_STAGNATED = 2
+  !> Some points lie outside the domain; their values are NaN
+  integer(c_int), parameter, public :: PLANISH_STATUS_POINTS_OUTSIDE = 3
+  !> The mesh is not what was given: nodes were welded, triangles dropped or turned over, or texture coordinates that
+  !> are no parameters left out
+  integer(c_int), parameter, public :: PLANISH_STATUS_INPUT_REPAIRED = 4
+  !> Some triangles are turned over or flat in the parameter plane: a surface over them may fold
+  integer(c_int), parameter, public :: PLANISH_STATUS_FOLDED_PARAMETERS = 5
+  integer(c_int), parameter, public :: PLANISH_STATUS_NULL_POINTER = -1 !! An argument that must not be NULL is
+  !> An argument or option is out of its range, or contradicts another
+  integer(c_int), parameter, public :: PLANISH_STATUS_INVALID_ARGUMENT = -2
+  integer(c_int), parameter, public :: PLANISH_STATUS_NOT_FINITE = -3 !! A number is NaN or infinite
+  integer(c_int), parameter, public :: PLANISH_STATUS_INDEX = -4 !! An index is out of range
+  integer(c_int), parameter, public :: PLANISH_STATUS_TOPOLOGY = -5 !! The mesh is not connected as the call needs it
+  !> The geometry is degenerate: lengths, areas or ranges are zero
+  integer(c_int), parameter, public :: PLANISH_STATUS_DEGENERATE = -6
+  integer(c_int), parameter, public :: PLANISH_STATUS_OUTSIDE = -7 !! A parameter lies outside the domain
+  integer(c_int), parameter, public :: PLANISH_STATUS_SINGULAR = -8 !! The data do not determine the result
+  !> The call does not apply to this family of surface
+  integer(c_int), parameter, public :: PLANISH_STATUS_WRONG_KIND = -9
+  !> The caller's array is too short for the result
+  integer(c_int), parameter, public :: PLANISH_STATUS_BUFFER_TOO_SMALL = -10
+  !> A size exceeds a limit, or what memory can address
+  integer(c_int), parameter, public :: PLANISH_STATUS_TOO_LARGE = -11
+  integer(c_int), parameter, public :: PLANISH_STATUS_FILE = -12 !! A file cannot be opened, read or written
+  !> The content of a file is not what it claims to be
+  integer(c_int), parameter, public :: PLANISH_STATUS_FORMAT = -13
+  !> A record has fields that this version of the library does not know, and they are not zero
+  integer(c_int), parameter, public :: PLANISH_STATUS_VERSION = -14
+  integer(c_int), parameter, public :: PLANISH_STATUS_CANCELLED = -15 !! The progress callback asked to stop
+  !> Memory for a copy of the caller's arrays could not be had
+  integer(c_int), parameter, public :: PLANISH_STATUS_OUT_OF_MEMORY = -16
+  integer(c_int), parameter, public :: PLANISH_STATUS_INTERNAL = -17 !! A bug in the library
+
+  !> Which weights an interior node gives its neighbours.
+  !> Mean value coordinates: no triangle turns over over a convex border
+  integer(c_int32_t), parameter, public :: PLANISH_MAP_METHOD_MEAN_VALUE = 0
+  !> Cotangents: the conformal map of a flat sheet
+  integer(c_int32_t), parameter, public :: PLANISH_MAP_METHOD_HARMONIC = 1
+
+  !> Where the longest boundary loop goes.
+  !> The one of circle, square by turns, square by arc and (if `unroll` says so) free with the least L2 stretch
+  integer(c_int32_t), parameter, public :: PLANISH_BORDER_AUTO = 0
+  !> The circle inscribed in the unit square, spaced by chord length
+  integer(c_int32_t), parameter, public :: PLANISH_BORDER_CIRCLE = 1
+  !> The unit square with corners at the four sharpest turns of the loop
+  integer(c_int32_t), parameter, public :: PLANISH_BORDER_SQUARE_BY_TURNS = 2
+  !> The unit square with corners at each quarter of the loop's length
+  integer(c_int32_t), parameter, public :: PLANISH_BORDER_SQUARE_BY_ARC = 3
+  !> The unit square with the nodes `corners` at (0,0), (1,0), (1,1), (0,1)
+  integer(c_int32_t), parameter, public :: PLANISH_BORDER_CORNERS = 4
+  !> All boundary nodes, those of holes too, keep the parameters that the mesh has
+  integer(c_int32_t), parameter, public :: PLANISH_BORDER_KEPT = 5
+  !> No border at all: unrolled so that lengths are kept best, in the units of the mesh
+  integer(c_int32_t), parameter, public :: PLANISH_BORDER_FREE = 6
+
+  !> Things worth knowing about a map or a fit: the bits of `remarks` in reports, several may hold.
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_TOLERANCE_NOT_MET = 1 !! The surface misses the tolerance
+  !> The fit ended because refinement no longer lowered the error
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_STAGNATED = 2
+  !> Some triangles are turned over or flat in the parameter plane: the surface may fold there
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_FOLDED_PARAMETERS = 4
+  !> The mesh had no parameters and was parameterized first
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_PARAMETERIZED = 8
+  !> Given parameters were uneven and have been regularized
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_REGULARIZED = 16
+  !> The tolerance was below what double precision can keep and was raised
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_TOLERANCE_RAISED = 32
+  !> Some cells hold no data; the surface is extrapolated there
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_EMPTY_CELLS = 64
+  !> Between the nodes the surface departs from the facets by more than tolerance and facet sagitta
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_ROUGH_BETWEEN_NODES = 128
+  !> The map is so compressed that one chart is the wrong tool: cut the mesh into several
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_SEGMENTATION_ADVISED = 256
+  !> The data do not determine the beam energy's null space; the plate energy was used instead
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_PLATE_ENERGY_USED = 512
+  !> Points that lay on the one before them in their row have been merged with it
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_MERGED_POINTS = 1048576
+  !> A row looks reversed or shifted against the one before it: see align in planish_skin_options
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_TWISTED_ROWS = 2097152
+  !> Some rows are much nearer to one another than to the next: control curves overshoot
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_CLUSTERED_ROWS = 4194304
+  !> The end points of rows are too near to those of the next to say how far apart rows are; mean distances do
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_MEAN_STEPS = 8388608
+  !> Holes were closed by fans of triangles while the map was computed
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_HOLES_FILLED = 65536
+  !> Triangles without area in space were left out of the map's weights
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_ZERO_AREA_TRIANGLES = 131072
+
+  !> Why a fit ended.
+  integer(c_int32_t), parameter, public :: PLANISH_STOP_REASON_TOLERANCE_MET = 0 !! The tolerance is met
+  !> The caller fixed the grid, so there was nothing to refine
+  integer(c_int32_t), parameter, public :: PLANISH_STOP_REASON_FIXED_GRID = 1
+  !> The limit on grid or coefficients is reached
+  integer(c_int32_t), parameter, public :: PLANISH_STOP_REASON_LIMIT = 2
+  !> There would be more coefficients than data
+  integer(c_int32_t), parameter, public :: PLANISH_STOP_REASON_DATA_EXHAUSTED = 3
+  integer(c_int32_t), parameter, public :: PLANISH_STOP_REASON_STAGNATED = 4 !! Refinement no longer lowered the error
+
+  !> The family of a surface.
+  integer(c_int32_t), parameter, public :: PLANISH_KIND_NONE = 0 !! No surface: the answer for NULL
+  integer(c_int32_t), parameter, public :: PLANISH_KIND_TENSOR = 1 !! Tensor product B-spline, with or without weights
+  integer(c_int32_t), parameter, public :: PLANISH_KIND_TSPLINE = 2 !! T-spline with control curves
+  integer(c_int32_t), parameter, public :: PLANISH_KIND_PHT = 3 !! Bicubic spline over a hierarchical T-mesh
+  integer(c_int32_t), parameter, public :: PLANISH_KIND_D1RC = 4 !! Spline over a triangular control mesh
+
+  !> What to do with points outside the domain.
+  integer(c_int32_t), parameter, public :: PLANISH_OUTSIDE_FAIL = 0 !! Refuse all points, before one value is written
+  !> NaN and a flag; the call returns PLANISH_STATUS_POINTS_OUTSIDE
+  integer(c_int32_t), parameter, public :: PLANISH_OUTSIDE_FLAG = 1
+  !> The polynomial at the domain's end is continued, and the point flagged
+  integer(c_int32_t), parameter, public :: PLANISH_OUTSIDE_EXTRAPOLATE = 2
+
+  !> Flags of a point: bits of the elements of out_flags.
+  integer(c_int8_t), parameter, public :: PLANISH_FLAG_OUTSIDE_DOMAIN = 1 !! The parameters lie outside the domain
+  !> The point lies outside the trims: in a hole, or beyond the boundary of the data
+  integer(c_int8_t), parameter, public :: PLANISH_FLAG_OUTSIDE_TRIMS = 2
+  !> The parameters lie in the domain but beyond the box of the data: the surface is extrapolated there
+  integer(c_int8_t), parameter, public :: PLANISH_FLAG_IN_BUFFER = 4
+  !> The surface has no normal there, so that normal and curvatures are NaN
+  integer(c_int8_t), parameter, public :: PLANISH_FLAG_NO_NORMAL = 8
+
+  !> A parameter direction.
+  integer(c_int32_t), parameter, public :: PLANISH_AXIS_U = 0 !! The first parameter
+  integer(c_int32_t), parameter, public :: PLANISH_AXIS_V = 1 !! The second parameter
+
+  !> What a tolerance is measured in.
+  !> The diagonal of the data's bounding box; for a field, of the box of its values
+  integer(c_int32_t), parameter, public :: PLANISH_TOLERANCE_SCALE_RELATIVE = 0
+  integer(c_int32_t), parameter, public :: PLANISH_TOLERANCE_SCALE_ABSOLUTE = 1 !! Model units
+
+  !> Which equations determine a tensor surface on a grid.
+  !> Least squares in the spline space
+  integer(c_int32_t), parameter, public :: PLANISH_TENSOR_METHOD_LEAST_SQUARES = 0
+  !> The equations of Dannenhoffer and Haimes, 2009: less accurate on fine grids, for comparison
+  integer(c_int32_t), parameter, public :: PLANISH_TENSOR_METHOD_FERGUSON = 1
+
+  !> What happens at the ends of the knots.
+  integer(c_int32_t), parameter, public :: PLANISH_ENDS_NATURAL = 0 !! Zero curvature across the ends
+  integer(c_int32_t), parameter, public :: PLANISH_ENDS_FREE = 1 !! Two more unknowns a direction
+
+  !> Which second derivatives cost energy.
+  integer(c_int32_t), parameter, public :: PLANISH_ENERGY_BEAM = 0 !! Elastic beams along the knot lines
+  integer(c_int32_t), parameter, public :: PLANISH_ENERGY_PLATE = 1 !! An elastic plate over the cells
+
+  !> What to do with parameters that came with a mesh.
+  !> Even them out if they are uneven and it helps
+  integer(c_int32_t), parameter, public :: PLANISH_REGULARIZE_AUTO = 0
+  integer(c_int32_t), parameter, public :: PLANISH_REGULARIZE_NEVER = 1 !! Take them as they are
+  integer(c_int32_t), parameter, public :: PLANISH_REGULARIZE_ALWAYS = 2 !! Even them out
+
+  !> What happens to targets beyond max_distance.
+  !> The first of them is an error, PLANISH_STATUS_OUTSIDE
+  integer(c_int32_t), parameter, public :: PLANISH_FAR_RULE_REFUSE = 0
+  !> They take part like all others; the call returns PLANISH_STATUS_POINTS_OUTSIDE
+  integer(c_int32_t), parameter, public :: PLANISH_FAR_RULE_KEEP = 1
+
+  !> What the rows of planish_mesh_sample_rows() lie between.
+  integer(c_int32_t), parameter, public :: PLANISH_ROW_SOURCE_LOOP = 0 !! A boundary loop
+  integer(c_int32_t), parameter, public :: PLANISH_ROW_SOURCE_NODE = 1 !! A node
+
+  !> What a VTK file holds of a surface.
+  !> Triangles of the part inside the trims, or of deviation_from
+  integer(c_int32_t), parameter, public :: PLANISH_VTK_CONTENT_TRIANGLES = 0
+  !> Its Bezier patches as cells of type VTK_BEZIER_QUADRILATERAL (VTK 9): the surface itself
+  integer(c_int32_t), parameter, public :: PLANISH_VTK_CONTENT_PATCHES = 1
+  !> Its control points, joined by polylines as neighbours in the control net
+  integer(c_int32_t), parameter, public :: PLANISH_VTK_CONTENT_CONTROL_NET = 2
+
+  !> The application protocol of a STEP file.
+  !> AP214, automotive design: read by every CAD system
+  integer(c_int32_t), parameter, public :: PLANISH_STEP_SCHEMA_AP214 = 0
+  integer(c_int32_t), parameter, public :: PLANISH_STEP_SCHEMA_AP242 = 1 !! AP242, managed model-based 3D engineering
+
+  !> What one model unit is.
+  integer(c_int32_t), parameter, public :: PLANISH_UNIT_MILLIMETRE = 0 !! A millimetre
+  integer(c_int32_t), parameter, public :: PLANISH_UNIT_METRE = 1 !! A metre
+  integer(c_int32_t), parameter, public :: PLANISH_UNIT_INCH = 2 !! An inch, 25.4 mm
+
+  !> What a STEP file holds of a T-spline or PHT-spline.
+  integer(c_int32_t), parameter, public :: PLANISH_STEP_FORM_TENSOR = 0 !! The same surface as one tensor surface
+  !> One face for each span of v, over the knots of four control curves: far fewer control points
+  integer(c_int32_t), parameter, public :: PLANISH_STEP_FORM_STRIPS = 1
+  !> A PHT-spline as a shell of faces that share edges, each over a rectangle of cells whose levels differ by at most
+  !> level_spread
+  integer(c_int32_t), parameter, public :: PLANISH_STEP_FORM_PATCHES = 2
+
+  !> Which knots the control curves of a skin get.
+  !> Each its own, as few as the tolerance allows
+  integer(c_int32_t), parameter, public :: PLANISH_SKIN_METHOD_CONTROL_CURVES = 0
+  !> All the same: the classical skin, for comparison
+  integer(c_int32_t), parameter, public :: PLANISH_SKIN_METHOD_COMMON_KNOTS = 1
+
+  !> What happens at the ends of rows.
+  !> Periodic for closed rows, parabolic for open ones
+  integer(c_int32_t), parameter, public :: PLANISH_SECTION_ENDS_AUTO = 0
+  !> The slope of the parabola through three points; at the seam of closed rows a kink may remain
+  integer(c_int32_t), parameter, public :: PLANISH_SECTION_ENDS_PARABOLIC = 1
+  integer(c_int32_t), parameter, public :: PLANISH_SECTION_ENDS_NATURAL = 2 !! No curvature
+  integer(c_int32_t), parameter, public :: PLANISH_SECTION_ENDS_SLOPES = 3 !! The slopes in end_slopes
+  !> Closed rows go on over the seam without a break in two derivatives
+  integer(c_int32_t), parameter, public :: PLANISH_SECTION_ENDS_PERIODIC = 4
+
+  !> How far apart rows are along v.
+  !> As their first and last points are; where that gives a step of next to nothing, as PLANISH_V_RULE_MEAN
+  integer(c_int32_t), parameter, public :: PLANISH_V_RULE_ENDPOINTS = 0
+  !> As points at equal fractions of their lengths are on average
+  integer(c_int32_t), parameter, public :: PLANISH_V_RULE_MEAN = 1
+
+  !> What determines a PHT-spline at its vertices.
+  !> Least squares over all data with a weak bending energy: fewest coefficients
+  integer(c_int32_t), parameter, public :: PLANISH_PHT_ESTIMATOR_GLOBAL = 0
+  !> A quadratic fit around each datum, interpolated linearly (Deng et al., 2008): for comparison
+  integer(c_int32_t), parameter, public :: PLANISH_PHT_ESTIMATOR_LOCAL_QUADRATIC = 1
+  !> A weighted cubic fit around each vertex: no system to solve, for very large data
+  integer(c_int32_t), parameter, public :: PLANISH_PHT_ESTIMATOR_LOCAL_CUBIC = 2
+
+  !> An edge of a surface's domain.
+  integer(c_int32_t), parameter, public :: PLANISH_BORDER_SIDE_LOW_U = 0 !! Least u
+  integer(c_int32_t), parameter, public :: PLANISH_BORDER_SIDE_HIGH_U = 1 !! Largest u
+  integer(c_int32_t), parameter, public :: PLANISH_BORDER_SIDE_LOW_V = 2 !! Least v
+  integer(c_int32_t), parameter, public :: PLANISH_BORDER_SIDE_HIGH_V = 3 !! Largest v
+
+  !> Which control points a PHT-spline has.
+  !> Of the cells at the birth of a vertex (Deng et al., 2008): independent of later splits
+  integer(c_int32_t), parameter, public :: PLANISH_PHT_BASIS_CANONICAL = 0
+  !> Of the widest cell of a vertex's support on each side: well conditioned whatever the levels
+  integer(c_int32_t), parameter, public :: PLANISH_PHT_BASIS_SUPPORT_SIZED = 1
+
+  !> Which functions a D1RC-spline has.
+  !> They sum to one and reproduce polynomials, on the whole domain; the surface is polynomial on pieces
+  integer(c_int32_t), parameter, public :: PLANISH_D1RC_MODE_REPRODUCING = 0
+  !> As printed (Cao, Zheng, 2016): rational, only inner vertices count, the surface ends before the mesh does
+  integer(c_int32_t), parameter, public :: PLANISH_D1RC_MODE_PAPER = 1
+
+  !> The border of a D1RC-spline of PLANISH_D1RC_MODE_REPRODUCING.
+  !> Smooth everywhere; the border follows the boundary polygon as a B-spline follows its control points
+  integer(c_int32_t), parameter, public :: PLANISH_D1RC_BOUNDARY_PHANTOM = 0
+  !> The boundary polygon is interpolated; across the edges that touch it the surface is only continuous
+  integer(c_int32_t), parameter, public :: PLANISH_D1RC_BOUNDARY_CLAMPED = 1
+  !> The domain ends some faces before the mesh does
+  integer(c_int32_t), parameter, public :: PLANISH_D1RC_BOUNDARY_OPEN = 2
+
+  !> What happens at sharp edges of a D1RC-spline.
+  !> PLANISH_D1RC_SHARP_CUT, in PLANISH_D1RC_MODE_PAPER PLANISH_D1RC_SHARP_ADDITIVE
+  integer(c_int32_t), parameter, public :: PLANISH_D1RC_SHARP_AUTOMATIC = 0
+  !> The crease is the control polyline, at its full angle
+  integer(c_int32_t), parameter, public :: PLANISH_D1RC_SHARP_CUT = 1
+  !> Functions of the crease, and smooth functions only on their side of it
+  integer(c_int32_t), parameter, public :: PLANISH_D1RC_SHARP_SECTOR = 2
+  !> Functions of the crease beside all smooth ones: a soft crease
+  integer(c_int32_t), parameter, public :: PLANISH_D1RC_SHARP_ADDITIVE = 3
+
+  !> How arrays or files become a mesh.
+  type, bind(c), public :: planish_mesh_options
+    integer(c_size_t) :: struct_size = 5 * word + 16
+    !> Doubles from one node to the next in `points`; at least 3, or 0 (default) for 3
+    integer(c_size_t) :: point_stride = 0
+    !> Indices from one triangle to the next in `triangles`; at least 3, or 0 (default) for 3
+    integer(c_size_t) :: triangle_stride = 0
+    real(c_double) :: weld_distance = 0 !! Nodes not further apart than this become one, in model units
+    type(c_ptr) :: out_repairs = c_null_ptr !! Receives what was repaired, or NULL (default)
+    !> Receives for each node given the node of the mesh that it became, counted from 1: point_count elements, or NULL
+    !> (default)
+    type(c_ptr) :: out_node_map = c_null_ptr
+    !> 1 turns triangles over until neighbours agree; with 0 (default) disagreement is an error
+    integer(c_int32_t) :: orient = 0
+    !> The number that `triangles` uses for the first node, such as 1 from Fortran
+    integer(c_int32_t) :: index_base = 0
+  end type
+
+  !> What was done to arrays or a file to make a mesh of them.
+  type, bind(c), public :: planish_mesh_repairs
+    integer(c_size_t) :: struct_size = 4 * word + 8
+    integer(c_size_t) :: welded_node_count = 0 !! Nodes that vanished because they were welded to others
+    !> Triangles that vanished because welding made two of their nodes one
+    integer(c_size_t) :: dropped_triangle_count = 0
+    integer(c_size_t) :: flipped_triangle_count = 0 !! Triangles that were turned over
+    !> 1 if the file has texture coordinates that are no parameters, because a node has several or none
+    integer(c_int32_t) :: dropped_parameters = 0
+    integer(c_int32_t) :: reserved = 0
+  end type
+
+  !> How coarse a mesh becomes, and what stays.
+  type, bind(c), public :: planish_decimate_options
+    integer(c_size_t) :: struct_size = 8 * word + 24
+    integer(c_size_t) :: target_count = 1000 !! Nodes that are to be left, at least 3
+    !> Edges whose triangles turn by more than this are sharp, in radians, at most pi; 0 (default) looks for none
+    real(c_double) :: sharp_angle = 0
+    !> Where the boundary or a chain of sharp edges turns by more than this, in radians, at most pi, its node stays
+    real(c_double) :: corner_angle = acos(-1.0_c_double) / 4
+    !> Further sharp edges: two nodes each, counted from 1; NULL (default) for none
+    type(c_ptr) :: sharp_edges = c_null_ptr
+    integer(c_size_t) :: sharp_edge_count = 0 !! Edges in sharp_edges
+    !> Receives the sharp edges of the new mesh, two nodes each, counted from 1, the smaller first; or NULL (default)
+    type(c_ptr) :: out_sharp_edges = c_null_ptr
+    !> Edges that out_sharp_edges has room for; there are at most as many as sharp edges before
+    integer(c_size_t) :: out_sharp_edge_count = 0
+    type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
+    type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> 1 (default) lets no triangle turn over in the parameter plane, if the mesh has parameters; 0 does not look
+    integer(c_int32_t) :: keep_map = 1
+    integer(c_int32_t) :: reserved = 0
+  end type
+
+  !> What was done to make a mesh coarser.
+  type, bind(c), public :: planish_decimate_report
+    integer(c_size_t) :: struct_size = 4 * word + 8
+    integer(c_size_t) :: collapse_count = 0 !! Edges that were collapsed
+    !> Nodes beyond the target that had to stay, because nothing more can be collapsed
+    integer(c_size_t) :: excess_count = 0
+    integer(c_size_t) :: sharp_edge_count = 0 !! Sharp edges of the new mesh
+    real(c_double) :: seconds = 0 !! Wall time in seconds
+  end type
+
+  !> How a mesh gets its parameters.
+  type, bind(c), public :: planish_parameterize_options
+    integer(c_size_t) :: struct_size = 4 * word + 64
+    !> A positive number for each node: large where more parameter area is wanted
+    type(c_ptr) :: node_weights = c_null_ptr
+    type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
+    type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Outward bulge of a square's sides, in sides, 0 to 0.5: keeps triangles between nodes of one side open
+    real(c_double) :: bulge = 0.02_c_double
+    real(c_double) :: boundary_slide = 0 !! How far border nodes slide with the stretch, 0 to 1
+    integer(c_int32_t) :: method = PLANISH_MAP_METHOD_MEAN_VALUE !! A planish_map_method
+    integer(c_int32_t) :: border = PLANISH_BORDER_AUTO !! A planish_border
+    !> For PLANISH_BORDER_CORNERS: four nodes of the longest boundary loop in its order, counted from 1
+    integer(c_int32_t) :: corners(4) = 0
+    !> Most steps that lower the stretch after the first map: 0 for none, PLANISH_UNLIMITED (default) until it no
+    !> longer falls
+    integer(c_int32_t) :: stretch_steps = PLANISH_UNLIMITED
+    integer(c_int32_t) :: rings = 0 !! Sweeps that smooth the logarithm of the stretch before each step
+    !> 1 (default) closes holes by fans of triangles while the map is computed; 0 lets them become convex
+    integer(c_int32_t) :: fill_holes = 1
+    !> With PLANISH_BORDER_AUTO: 1 (default) also unrolls the map with a free border, and takes that if it neither
+    !> folds nor overlaps itself and stretches less; 0 does not
+    integer(c_int32_t) :: unroll = 1
+    integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 (default) for all cores
+    integer(c_int32_t) :: reserved = 0
+  end type
+
+  !> How good a map is and what it took.
+  type, bind(c), public :: planish_parameterize_report
+    integer(c_size_t) :: struct_size = 5 * word + 48
+    !> L2 stretch of all triangles: 1 is an isometry; infinite if a triangle has no parameter area
+    real(c_double) :: stretch = 0
+    real(c_double) :: max_stretch = 0 !! The largest stretch in any direction anywhere, in the same scale
+    !> The largest ratio of a triangle's area in space to that in the parameters, by the smallest
+    real(c_double) :: area_ratio = 0
+    real(c_double) :: seconds = 0 !! Wall time in seconds
+    integer(c_size_t) :: flipped_count = 0 !! Triangles turned over against the rest: folds of the map
+    integer(c_size_t) :: degenerate_count = 0 !! Triangles of exactly zero parameter area
+    integer(c_size_t) :: solve_count = 0 !! Factorizations of the linear system, all candidates together
+    integer(c_size_t) :: step_count = 0 !! Steps that lowered the stretch of the map returned
+    integer(c_int64_t) :: remarks = 0 !! Everything worth knowing: bits of planish_remark
+    integer(c_int32_t) :: border = 0 !! The border that was taken: a planish_border
+    integer(c_int32_t) :: border_slid = 0 !! 1 if the border slid with the stretch
+  end type
+
+  !> What a fit did and how good it is.
+  type, bind(c), public :: planish_fit_report
+    integer(c_size_t) :: struct_size = 9 * word + 120
+    !> Largest distance between a datum and the surface at the datum's (u,v): what the tolerance bounds
+    real(c_double) :: max_error = 0
+    real(c_double) :: rms_error = 0 !! Square root of the mean of its square
+    real(c_double) :: mean_error = 0 !! Its mean
+    real(c_double) :: tolerance = 0 !! The tolerance that was kept or missed
+    real(c_double) :: diagonal = 0 !! Diagonal of the data's bounding box: an error divided by it is relative
+    !> Largest distance from a triangle's centroid or an edge's middle to the surface's tangent plane at the mean of
+    !> the nodes' (u,v) (for a field: to its value there); 0 for data without triangles
+    real(c_double) :: max_interior_error = 0
+    real(c_double) :: facet_sagitta = 0 !! The part of max_interior_error that flat facets on a curved shape explain
+    !> Largest closest-point distance from a node to the surface; NaN unless measure_distance asked for it
+    real(c_double) :: max_distance = 0
+    real(c_double) :: smoothing = 0 !! Weight of the smoothing energy in the surface returned
+    real(c_double) :: stretch = 0 !! L2 stretch of the map: 1 is an isometry; 0 for data without triangles
+    real(c_double) :: parameterize_seconds = 0 !! Wall time spent on the map, in seconds
+    real(c_double) :: seconds = 0 !! Wall time in all, in seconds
+    integer(c_size_t) :: worst_index = 0 !! The datum with the largest error, counted from 1
+    integer(c_size_t) :: grid_u = 0 !! Different knots along u
+    integer(c_size_t) :: grid_v = 0 !! Different knots along v
+    integer(c_size_t) :: coefficient_count = 0 !! Unknowns of the fit
+    integer(c_size_t) :: empty_cell_count = 0 !! Cells without data inside the trims
+    integer(c_size_t) :: flipped_count = 0 !! Triangles that are turned over or flat in the parameter plane
+    integer(c_int64_t) :: remarks = 0 !! Everything worth knowing: bits of planish_remark
+    integer(c_int32_t) :: pass_count = 0 !! Rounds of fitting and measuring
+    integer(c_int32_t) :: stop_reason = 0 !! Why the fit ended: a planish_stop_reason
+    integer(c_size_t) :: cell_count = 0 !! Cells of an adaptive mesh; 0 for a grid
+    integer(c_size_t) :: rough_cell_count = 0 !! Cells of it in which an error exceeds the tolerance
+    integer(c_int32_t) :: deepest_level = 0 !! The deepest level of its cells: how often one of the first was halved
+    integer(c_int32_t) :: reserved = 0
+  end type
+
+  !> How points are evaluated.
+  type, bind(c), public :: planish_eval_options
+    integer(c_size_t) :: struct_size = 4 * word + 8
+    integer(c_size_t) :: uv_stride = 0 !! Doubles from one point to the next in `uv`; at least 2, or 0 (default) for 2
+    !> Doubles from one point's results to the next; at least as many as a point has, or 0 (default) for exactly so
+    !> many
+    integer(c_size_t) :: out_stride = 0
+    !> Receives bits of planish_flag, one element for each point; NULL (default) for none
+    type(c_ptr) :: out_flags = c_null_ptr
+    integer(c_int32_t) :: outside = PLANISH_OUTSIDE_FAIL !! A planish_outside
+    integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 (default) for all cores
+  end type
+
+  !> A Bezier patch: the polynomial or rational piece of a surface over a rectangle of parameters.
+  type, bind(c), public :: planish_patch
+    integer(c_size_t) :: struct_size = 3 * word + 48
+    real(c_double) :: u_min = 0 !! Least u of the rectangle
+    real(c_double) :: u_max = 0 !! Largest u of the rectangle
+    real(c_double) :: v_min = 0 !! Least v of the rectangle
+    real(c_double) :: v_max = 0 !! Largest v of the rectangle
+    integer(c_size_t) :: ordinate_count = 0 !! Number of ordinates: (degree_u + 1) * (degree_v + 1)
+    integer(c_size_t) :: ordinate_width = 0 !! Numbers of an ordinate: dim, or dim + 1 if the patch is rational
+    integer(c_int32_t) :: degree_u = 0 !! Degree along u
+    integer(c_int32_t) :: degree_v = 0 !! Degree along v
+    !> 1 if the last number of each ordinate is a weight, and the others are multiplied by it; else 0
+    integer(c_int32_t) :: is_rational = 0
+    integer(c_int32_t) :: reserved = 0
+  end type
+
+  !> How a surface is converted.
+  type, bind(c), public :: planish_convert_options
+    integer(c_size_t) :: struct_size = 2 * word
+    integer(c_size_t) :: max_coefficients = 4000000 !! Most control points of the result; with more the call fails
+  end type
+
+  !> Options of tensor fits.
+  type, bind(c), public :: planish_tensor_options
+    integer(c_size_t) :: struct_size = 8 * word + 72
+    !> The largest error allowed at the data, positive, measured in tolerance_scale
+    real(c_double) :: tolerance = 1e-3_c_double
+    !> Weight of the bending energy; 0 (default) takes the largest of 1e-3, 1e-4, 1e-5, 1e-6 that meets the tolerance
+    !> (for PLANISH_TENSOR_METHOD_FERGUSON 1e-3)
+    real(c_double) :: smoothing = 0
+    !> How far the knots reach beyond the data, as a fraction of the data's range, 0 to 10
+    real(c_double) :: buffer = 0.1_c_double
+    !> How a mesh without parameters gets them; NULL (default) for the defaults
+    type(c_ptr) :: parameterize = c_null_ptr
+    type(c_ptr) :: weights = c_null_ptr !! A positive weight for each datum; NULL (default) for all 1
+    type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
+    type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Receives the (u,v) at which the error of each datum is measured: two numbers for each datum, or NULL (default)
+    type(c_ptr) :: out_parameters = c_null_ptr
+    !> Receives the error of each datum in model units: one number for each datum, or NULL (default)
+    type(c_ptr) :: out_errors = c_null_ptr
+    integer(c_size_t) :: max_coefficients = 66049 !! Most unknowns of one grid, at least 4
+    integer(c_int32_t) :: tolerance_scale = PLANISH_TOLERANCE_SCALE_RELATIVE !! A planish_tolerance_scale
+    integer(c_int32_t) :: method = PLANISH_TENSOR_METHOD_LEAST_SQUARES !! A planish_tensor_method
+    integer(c_int32_t) :: ends = PLANISH_ENDS_NATURAL !! A planish_ends
+    integer(c_int32_t) :: energy = PLANISH_ENERGY_BEAM !! A planish_energy
+    integer(c_int32_t) :: regularize = PLANISH_REGULARIZE_AUTO !! A planish_regularize
+    integer(c_int32_t) :: max_grid = 257 !! Most knots along one direction, at least 2
+    !> Knots along u to use without refinement, 2 to 8193; 0 (default, then grid_v too) refines
+    integer(c_int32_t) :: grid_u = 0
+    !> Knots along v to use without refinement, 2 to 8193; 0 (default, then grid_u too) refines
+    integer(c_int32_t) :: grid_v = 0
+    !> Sweeps of parameter correction on each grid: data move to their foot points, then the fit is repeated
+    integer(c_int32_t) :: correction_sweeps = 0
+    integer(c_int32_t) :: measure_distance = 0 !! 1 measures the closest-point distance of the nodes for the report
+    integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 (default) for all cores
+    integer(c_int32_t) :: reserved = 0
+  end type
+
+  !> How fields are fitted.
+  type, bind(c), public :: planish_field_options
+    integer(c_size_t) :: struct_size = 8 * word + 48
+    !> What reports compare the errors with, positive, measured in tolerance_scale
+    real(c_double) :: tolerance = 1e-3_c_double
+    real(c_double) :: smoothing = 1e-6_c_double !! Weight of the bending energy, positive
+    !> How far the knots reach beyond the nodes, as a fraction of their range, 0 to 10
+    real(c_double) :: buffer = 0.1_c_double
+    !> How a mesh without parameters gets them; NULL (default) for the defaults
+    type(c_ptr) :: parameterize = c_null_ptr
+    type(c_ptr) :: weights = c_null_ptr !! A positive weight for each node; NULL (default) for all 1
+    !> For each node 1 if fields have values there, 0 if not: those values are never looked at and may be NaN
+    type(c_ptr) :: mask = c_null_ptr
+    !> A field for which grid and smoothing are found that meet the tolerance: sample_dim numbers for each node; NULL
+    !> (default) for none
+    type(c_ptr) :: sample_values = c_null_ptr
+    integer(c_size_t) :: sample_dim = 0 !! Numbers of a value of sample_values
+    !> Hears of the progress of making the fitter and may cancel; NULL (default) for nobody
+    type(c_funptr) :: progress = c_null_funptr
+    type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    integer(c_int32_t) :: tolerance_scale = PLANISH_TOLERANCE_SCALE_RELATIVE !! A planish_tolerance_scale
+    integer(c_int32_t) :: ends = PLANISH_ENDS_NATURAL !! A planish_ends
+    integer(c_int32_t) :: energy = PLANISH_ENERGY_BEAM !! A planish_energy
+    !> Knots along u, 2 to 8193; 0 (default, then grid_v too) for as many as the nodes bear, at most 129
+    integer(c_int32_t) :: grid_u = 0
+    !> Knots along v, 2 to 8193; 0 (default, then grid_u too) for as many as the nodes bear, at most 129
+    integer(c_int32_t) :: grid_v = 0
+    integer(c_int32_t) :: thread_count = 0 !! Threads to keep, at most 1024; 0 (default) for all cores
+  end type
+
+  !> How values are carried.
+  type, bind(c), public :: planish_transfer_options
+    integer(c_size_t) :: struct_size = 2 * word + 16
+    !> How fields on the source are fitted: the grid (given, found for a sample field, or chosen from the number of
+    !> nodes, about four of them a coefficient), mask, weights; also threads and progress of the transfer
+    type(c_ptr) :: field = c_null_ptr
+    !> How far from the source's surface a target may lie, measured in distance_scale, not negative; infinity for
+    !> anywhere
+    real(c_double) :: max_distance = 0.05_c_double
+    !> A planish_tolerance_scale: of the diagonal of the source's points, or model units
+    integer(c_int32_t) :: distance_scale = PLANISH_TOLERANCE_SCALE_RELATIVE
+    integer(c_int32_t) :: far_rule = PLANISH_FAR_RULE_REFUSE !! A planish_far_rule
+  end type
+
+  !> How well source and targets lie on one another.
+  type, bind(c), public :: planish_transfer_report
+    integer(c_size_t) :: struct_size = 6 * word + 56
+    real(c_double) :: max_distance = 0 !! The largest distance of a target to the source's surface
+    real(c_double) :: rms_distance = 0 !! Square root of the mean of its square
+    real(c_double) :: limit = 0 !! The distance that was allowed
+    !> The largest distance between a node of the source and its surface at the node's (u,v)
+    real(c_double) :: max_shape_error = 0
+    real(c_double) :: rms_shape_error = 0 !! Square root of the mean of its square
+    real(c_double) :: seconds = 0 !! Wall time in all, in seconds
+    integer(c_size_t) :: farthest_index = 0 !! The target with the largest distance, counted from 1
+    integer(c_size_t) :: far_count = 0 !! Targets beyond the limit
+    integer(c_size_t) :: grid_u = 0 !! Knots of the grid along u
+    integer(c_size_t) :: grid_v = 0 !! Knots of the grid along v
+    integer(c_size_t) :: coefficient_count = 0 !! Unknowns of a fit on the grid
+    integer(c_int64_t) :: remarks = 0 !! Everything worth knowing of the source's surface: bits of planish_remark
+  end type
+
+  !> What a transfer keeps of forces, moments and work.
+  type, bind(c), public :: planish_balance_report
+    integer(c_size_t) :: struct_size = 1 * word + 144
+    real(c_double) :: force_given(3) = 0 !! Sum of the forces on the targets
+    real(c_double) :: force_arrived(3) = 0 !! Sum of the forces that arrive at the nodes of the source
+    !> Length of the difference, as a fraction of the sum of the lengths of the forces given: roundoff
+    real(c_double) :: force_error = 0
+    real(c_double) :: moment_given(3) = 0 !! Moment of the forces on the targets
+    real(c_double) :: moment_arrived(3) = 0 !! Moment of the forces that arrive
+    real(c_double) :: moment_error = 0 !! Length of the difference
+    !> What moment_error cannot exceed but by roundoff: the sum over the targets of the force's length times the
+    !> distance to the source's surface
+    real(c_double) :: moment_bound = 0
+    real(c_double) :: work_given = 0 !! Work of the forces given along the displacements that arrive at the targets
+    real(c_double) :: work_arrived = 0 !! Work of the forces that arrive along the displacements given
+    !> The difference, as a fraction of the sum of the targets' works without their signs: roundoff
+    real(c_double) :: work_error = 0
+  end type
+
+  !> How fine a tessellation is.
+  type, bind(c), public :: planish_tessellate_options
+    integer(c_size_t) :: struct_size = 3 * word + 24
+    !> Largest distance between the surface and the middles of the edges, in model units, positive; 0 (default) takes
+    !> 1e-3 of the surface's diagonal
+    real(c_double) :: chord_tolerance = 0
+    real(c_double) :: max_edge_length = 0 !! Longest edge in model units, positive; 0 (default) for no limit
+    integer(c_size_t) :: max_point_count = 4000000 !! Most nodes; with more the call fails
+    integer(c_int32_t) :: keep_trims = 1 !! 1 (default) keeps to the part inside the trims, 0 covers the whole domain
+    integer(c_int32_t) :: reserved = 0
+    type(c_ptr) :: out_report = c_null_ptr !! Receives how good the mesh is, or NULL (default)
+  end type
+
+  !> How good a tessellation is.
+  type, bind(c), public :: planish_tessellate_report
+    integer(c_size_t) :: struct_size = 1 * word + 16
+    real(c_double) :: smallest_angle = 0 !! Smallest angle of a triangle in space, in radians
+    !> Largest distance measured between the middle of an edge and the surface, in model units
+    real(c_double) :: chord_error = 0
+  end type
+
+  !> How points are projected.
+  type, bind(c), public :: planish_project_options
+    integer(c_size_t) :: struct_size = 2 * word + 16
+    type(c_ptr) :: guesses = c_null_ptr !! A row u, v near the answer for each point, or NULL (default)
+    !> Points farther from the surface than this get NaN, and the call returns PLANISH_STATUS_POINTS_OUTSIDE
+    real(c_double) :: max_distance = infinity
+    !> 1 (default) looks for the nearest place inside the trims, 0 in the whole domain
+    integer(c_int32_t) :: keep_trims = 1
+    integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 (default) for all cores
+  end type
+
+  !> How a surface is compared with a mesh.
+  type, bind(c), public :: planish_deviation_options
+    integer(c_size_t) :: struct_size = 1 * word + 32
+    !> Chord tolerance of the tessellation that is measured back from, in model units; 0 (default) takes 1e-3 of the
+    !> surface's diagonal
+    real(c_double) :: chord_tolerance = 0
+    !> Longest edge of that tessellation in model units; 0 (default) takes 1e-2 of the mesh's diagonal
+    real(c_double) :: max_edge_length = 0
+    integer(c_int32_t) :: keep_trims = 1 !! 1 (default): only the part of the surface inside its trims counts
+    !> 1 (default): the mesh's parameters, if it has any, are where searches start
+    integer(c_int32_t) :: use_parameters = 1
+    !> 1: measure from the surface to the mesh as well, which notices filled holes and surplus sheets
+    integer(c_int32_t) :: measure_back = 0
+    integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 (default) for all cores
+  end type
+
+  !> Distances between a surface and a mesh, in model units.
+  type, bind(c), public :: planish_deviation_report
+    integer(c_size_t) :: struct_size = 3 * word + 48
+    real(c_double) :: max_distance = 0 !! Largest distance from a node to its nearest place on the surface
+    real(c_double) :: rms_distance = 0 !! Square root of the mean of its square
+    real(c_double) :: mean_distance = 0 !! Its mean
+    !> Largest distance from a place on the surface to the mesh; NaN unless measure_back asked for it
+    real(c_double) :: max_back_distance = 0
+    real(c_double) :: worst_back_u = 0 !! u of that place; NaN unless asked for
+    real(c_double) :: worst_back_v = 0 !! v of that place; NaN unless asked for
+    integer(c_size_t) :: worst_index = 0 !! The node farthest from the surface
+    integer(c_size_t) :: back_count = 0 !! Places on the surface that were measured back from
+  end type
+
+  !> What rows to take from a mesh.
+  type, bind(c), public :: planish_sample_rows_options
+    integer(c_size_t) :: struct_size = 5 * word + 16
+    !> About how far apart points are along a row, in model units; 0 (default) takes the mean length of edges
+    real(c_double) :: spacing = 0
+    integer(c_size_t) :: begin_index = 0 !! The loop or node that the first row is nearest to
+    integer(c_size_t) :: end_index = 1 !! The loop or node that the last row is nearest to
+    type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
+    type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    integer(c_int32_t) :: begin = PLANISH_ROW_SOURCE_LOOP !! A planish_row_source: what begin_index counts
+    integer(c_int32_t) :: end = PLANISH_ROW_SOURCE_LOOP !! A planish_row_source: what end_index counts
+  end type
+
+  !> What a VTK file shows.
+  type, bind(c), public :: planish_vtk_options
+    integer(c_size_t) :: struct_size = 3 * word + 8
+    type(c_ptr) :: deviation_from = c_null_ptr !! A mesh to compare with, or NULL (default)
+    !> How the surface is tessellated otherwise; NULL (default) for the defaults
+    type(c_ptr) :: tessellate = c_null_ptr
+    integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 (default) for all cores
+    integer(c_int32_t) :: content = PLANISH_VTK_CONTENT_TRIANGLES !! A planish_vtk_content
+  end type
+
+  !> What was written to a STEP file.
+  type, bind(c), public :: planish_step_report
+    integer(c_size_t) :: struct_size = 5 * word + 24
+    !> Largest distance between an edge's curve in space and the image of its p-curve, measured on the curves written,
+    !> in model units
+    real(c_double) :: curve_deviation = 0
+    !> The uncertainty that the file states, in model units: 1e-7 of the diagonal, or more if the curves need it
+    real(c_double) :: uncertainty = 0
+    real(c_double) :: diagonal = 0 !! Diagonal of the box around the part of the surface inside the trims
+    integer(c_size_t) :: loop_count = 0 !! Bounds of all faces, the outer ones included
+    integer(c_size_t) :: edge_count = 0 !! Edges; one between two faces counts once
+    integer(c_size_t) :: face_count = 0 !! Faces
+    integer(c_size_t) :: pole_count = 0 !! Control points of the surfaces of all faces
+  end type
+
+  !> What a STEP file says beside the shape.
+  type, bind(c), public :: planish_step_options
+    integer(c_size_t) :: struct_size = 7 * word + 24
+    type(c_ptr) :: product = c_null_ptr !! Name of the product; NULL (default) for "surface"
+    type(c_ptr) :: author = c_null_ptr !! Who made it; NULL (default) for nobody
+    type(c_ptr) :: organization = c_null_ptr !! For whom; NULL (default) for nobody
+    !> When, such as "2026-01-31T12:00:00"; NULL (default) for 1970-01-01T00:00:00, so that equal input gives equal
+    !> bytes
+    type(c_ptr) :: timestamp = c_null_ptr
+    type(c_ptr) :: out_report = c_null_ptr !! Receives what was written, or NULL (default)
+    !> A planish_step_schema; PLANISH_STEP_SCHEMA_AP214 (default)
+    integer(c_int32_t) :: schema = PLANISH_STEP_SCHEMA_AP214
+    !> A planish_unit, what one model unit is; PLANISH_UNIT_MILLIMETRE (default)
+    integer(c_int32_t) :: unit = PLANISH_UNIT_MILLIMETRE
+    integer(c_size_t) :: max_coefficients = 4000000 !! Most control points of PLANISH_STEP_FORM_TENSOR
+    !> A planish_step_form, what is written of a T-spline or PHT-spline; PLANISH_STEP_FORM_TENSOR (default), which is
+    !> also taken where the form is of another family
+    integer(c_int32_t) :: form = PLANISH_STEP_FORM_TENSOR
+    !> By how much the levels of cells in one face of PLANISH_STEP_FORM_PATCHES may differ
+    integer(c_int32_t) :: level_spread = 1
+    !> A D1RC-spline is written as a tensor surface fitted within this, in model units, at the nodes of a fine
+    !> tessellation; 0 (default) takes 1e-3 of the diagonal
+    real(c_double) :: tolerance = 0
+  end type
+
+  !> How points are interpolated.
+  type, bind(c), public :: planish_interpolate_options
+    integer(c_size_t) :: struct_size = 2 * word + 8
+    !> For PLANISH_SECTION_ENDS_SLOPES: 2 rows of dim numbers, the derivatives with respect to u at the first and at
+    !> the last point; otherwise NULL (default)
+    type(c_ptr) :: end_slopes = c_null_ptr
+    integer(c_int32_t) :: ends = PLANISH_SECTION_ENDS_AUTO !! A planish_section_ends
+    integer(c_int32_t) :: reserved = 0
+  end type
+
+  !> What a skin did beside what every fit reports.
+  type, bind(c), public :: planish_skin_report
+    integer(c_size_t) :: struct_size = 10 * word + 32
+    real(c_double) :: overshoot = 0 !! By how much control curves may be larger than the rows, 1 at least
+    !> A bound of the distance between the surface and the skin through the section curves at any (u,v); NaN unless
+    !> certify asked for it, or if a section is no cubic
+    real(c_double) :: certified_distance = 0
+    real(c_double) :: v_error = 0 !! The part of the error that fewer knots along v leave; 0 with a knot for each row
+    !> The first row that looks reversed or shifted against the one before it, counted from 1; -1 if there is none
+    integer(c_int64_t) :: twisted_row = 0
+    integer(c_size_t) :: curve_count = 0 !! Control curves of the surface
+    integer(c_size_t) :: least_count = 0 !! Control points of the shortest control curve
+    integer(c_size_t) :: largest_count = 0 !! Control points of the longest control curve
+    !> Control points of the same surface as a tensor surface: what planish_surface_to_tensor() makes
+    integer(c_size_t) :: tensor_count = 0
+    !> Control points of the same surface in strips: what PLANISH_STEP_FORM_STRIPS writes
+    integer(c_size_t) :: strip_count = 0
+    !> Control points of the skin over common knots; 0 unless compare asked for it
+    integer(c_size_t) :: common_count = 0
+    integer(c_size_t) :: removed_knot_count = 0 !! Knots that the removal pass took out
+    integer(c_size_t) :: merged_point_count = 0 !! Points that lay on the one before them
+    integer(c_size_t) :: aligned_row_count = 0 !! Rows that were turned round or given another first point
+  end type
+
+  !> Options of skins.
+  type, bind(c), public :: planish_skin_options
+    integer(c_size_t) :: struct_size = 10 * word + 64
+    !> The largest error allowed at the points, positive, measured in tolerance_scale
+    real(c_double) :: tolerance = 1e-3_c_double
+    !> For each row two vectors of dim numbers, the slopes at its begin and its end, derivatives with respect to chord
+    !> length (a unit tangent keeps the pace); NULL (default) unless ends is PLANISH_SECTION_ENDS_SLOPES
+    type(c_ptr) :: end_slopes = c_null_ptr
+    !> For each point of the first row, or each different knot of the first curve, a vector of dim numbers: the
+    !> derivative across it with respect to length along v; NULL (default) for no curvature there
+    type(c_ptr) :: begin_tangents = c_null_ptr
+    type(c_ptr) :: end_tangents = c_null_ptr !! The same at the last row
+    type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
+    type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Receives the (u,v) at which the error of each point is measured: two numbers for each point, or NULL (default;
+    !> for curves it must be)
+    type(c_ptr) :: out_parameters = c_null_ptr
+    !> Receives the error of each point in model units, or NULL (default; for curves it must be)
+    type(c_ptr) :: out_errors = c_null_ptr
+    type(c_ptr) :: out_report = c_null_ptr !! Receives what only skins report, or NULL (default)
+    integer(c_size_t) :: dim = 3 !! Numbers of a point, at least 1
+    integer(c_int32_t) :: tolerance_scale = PLANISH_TOLERANCE_SCALE_RELATIVE !! A planish_tolerance_scale
+    integer(c_int32_t) :: method = PLANISH_SKIN_METHOD_CONTROL_CURVES !! A planish_skin_method
+    integer(c_int32_t) :: closed = 0 !! 1 if rows are closed: their first point is not repeated
+    integer(c_int32_t) :: ends = PLANISH_SECTION_ENDS_AUTO !! A planish_section_ends
+    !> 1 if the last row is followed by the first one; needs three rows, and no tangents
+    integer(c_int32_t) :: closed_v = 0
+    integer(c_int32_t) :: v_rule = PLANISH_V_RULE_ENDPOINTS !! A planish_v_rule
+    !> 1 turns rows round, and moves the first point of closed ones, where that brings them nearer to the row before
+    integer(c_int32_t) :: align = 0
+    integer(c_int32_t) :: approximate_v = 0 !! 1 looks for fewer knots along v than rows
+    !> Places between two data at which a control curve is checked too, at most 100; 0 as in the paper
+    integer(c_int32_t) :: extra_checks = 3
+    !> 1 inserts a knot into every span that needs one in each pass: faster, some more control points
+    integer(c_int32_t) :: batch = 0
+    integer(c_int32_t) :: removal = 0 !! 1 takes knots out again that turn out not to be needed
+    integer(c_int32_t) :: certify = 0 !! 1 bounds the distance from the skin through the section curves
+    !> 1 counts the control points of PLANISH_SKIN_METHOD_COMMON_KNOTS for the report
+    integer(c_int32_t) :: compare = 0
+    integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 (default) for all cores
+  end type
+
+  !> Options of PHT fits.
+  type, bind(c), public :: planish_pht_options
+    integer(c_size_t) :: struct_size = 8 * word + 64
+    !> The largest error allowed at the data, positive, measured in tolerance_scale
+    real(c_double) :: tolerance = 1e-3_c_double
+    !> Weight of the bending energy of each cell, mapped to the unit cell; lowered where cells cannot be split any
+    !> more
+    real(c_double) :: smoothing = 1e-3_c_double
+    !> How a mesh without parameters gets them; NULL (default) for a circle, with one stretch step unless the
+    !> tolerance is fine and the plain map even
+    type(c_ptr) :: parameterize = c_null_ptr
+    type(c_ptr) :: weights = c_null_ptr !! A positive weight for each datum; NULL (default) for all 1
+    type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
+    type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Receives the (u,v) at which the error of each datum is measured: two numbers for each datum, or NULL (default)
+    type(c_ptr) :: out_parameters = c_null_ptr
+    !> Receives the error of each datum in model units: one number for each datum, or NULL (default)
+    type(c_ptr) :: out_errors = c_null_ptr
+    integer(c_size_t) :: max_cells = 200000 !! Most cells, at least the initial ones
+    integer(c_int32_t) :: tolerance_scale = PLANISH_TOLERANCE_SCALE_RELATIVE !! A planish_tolerance_scale
+    integer(c_int32_t) :: estimator = PLANISH_PHT_ESTIMATOR_GLOBAL !! A planish_pht_estimator
+    integer(c_int32_t) :: regularize = PLANISH_REGULARIZE_AUTO !! A planish_regularize
+    integer(c_int32_t) :: grid_u = 1 !! Cells along u to start from, 1 to 4095
+    integer(c_int32_t) :: grid_v = 1 !! Cells along v to start from, 1 to 4095
+    integer(c_int32_t) :: max_level = 12 !! Deepest level of a cell, at most 20
+    integer(c_int32_t) :: min_samples = 2 !! A cell with fewer samples is not split, at least 1
+    integer(c_int32_t) :: grade = 1 !! Levels by which cells that share an edge may differ; 0 for any number
+    integer(c_int32_t) :: correction_sweeps = 1 !! Sweeps of parameter correction in each round of the fit of a shape
+    integer(c_int32_t) :: measure_distance = 0 !! 1 measures the closest-point distance of the nodes for the report
+    integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 (default) for all cores
+    integer(c_int32_t) :: reserved = 0
+  end type
+
+  !> How a tensor surface becomes a PHT-spline.
+  type, bind(c), public :: planish_pht_convert_options
+    integer(c_size_t) :: struct_size = 2 * word + 16
+    !> Largest distance at equal parameters, in model units; 0 (default) takes all knot lines, which is exact up to
+    !> degree 3
+    real(c_double) :: tolerance = 0
+    integer(c_size_t) :: max_cells = 200000 !! Most cells; with more the call fails
+    integer(c_int32_t) :: max_level = 12 !! Deepest level of a cell, at most 20
+    integer(c_int32_t) :: reserved = 0
+  end type
+
+  !> Options of D1RC-splines and of fits by them.
+  type, bind(c), public :: planish_d1rc_options
+    integer(c_size_t) :: struct_size = 14 * word + 64
+    !> sharp_edge_count pairs of nodes joined by an edge; NULL (default) for none
+    type(c_ptr) :: sharp_edges = c_null_ptr
+    integer(c_size_t) :: sharp_edge_count = 0 !! Pairs in sharp_edges
+    type(c_ptr) :: corners = c_null_ptr !! corner_count nodes to be interpolated; NULL (default) for none
+    integer(c_size_t) :: corner_count = 0 !! Nodes in corners
+    !> Edges whose faces meet at more than this angle in radians are sharp as well, up to pi; 0 (default) for none
+    real(c_double) :: sharp_angle = 0
+    !> Weight of the functions that sharp edges and corners add with PLANISH_D1RC_SHARP_SECTOR and
+    !> PLANISH_D1RC_SHARP_ADDITIVE, positive
+    real(c_double) :: sharp_weight = 1
+    !> How a mesh without parameters gets them; NULL (default) for the defaults
+    type(c_ptr) :: parameterize = c_null_ptr
+    !> Hears of the progress of the parameters and may cancel; NULL (default) for nobody
+    type(c_funptr) :: progress = c_null_funptr
+    type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Fits only: the largest error allowed at the nodes, positive, measured in tolerance_scale
+    real(c_double) :: tolerance = 1e-3_c_double
+    !> Fits only: weight of the energy that determines control points without data, positive
+    real(c_double) :: smoothing = 1e-5_c_double
+    !> Fits only: the control mesh to use as it is; NULL (default) for the mesh itself with fewer nodes, its boundary
+    !> and sharp edges kept
+    type(c_ptr) :: control_mesh = c_null_ptr
+    type(c_ptr) :: weights = c_null_ptr !! Fits only: a positive weight for each node; NULL (default) for all 1
+    !> Fits only: receives the (u,v) at which the error of each node is measured: two numbers for each node, or NULL
+    !> (default)
+    type(c_ptr) :: out_parameters = c_null_ptr
+    !> Fits only: receives the error of each node in model units: one number for each node, or NULL (default)
+    type(c_ptr) :: out_errors = c_null_ptr
+    !> Fits only: vertices of the control mesh that is made, at least 3; 0 (default) for as many as the tolerance
+    !> takes
+    integer(c_size_t) :: control_count = 0
+    !> Fits only: most vertices of a control mesh that is made, at least 3
+    integer(c_size_t) :: max_control_count = 100000
+    integer(c_int32_t) :: degree = 3 !! 1, 2 or 3
+    integer(c_int32_t) :: mode = PLANISH_D1RC_MODE_REPRODUCING !! A planish_d1rc_mode
+    integer(c_int32_t) :: boundary = PLANISH_D1RC_BOUNDARY_PHANTOM !! A planish_d1rc_boundary
+    integer(c_int32_t) :: sharp = PLANISH_D1RC_SHARP_AUTOMATIC !! A planish_d1rc_sharp
+    integer(c_int32_t) :: tolerance_scale = PLANISH_TOLERANCE_SCALE_RELATIVE !! Fits only: a planish_tolerance_scale
+    !> Fits only: sweeps in each round in which nodes move to their foot points and those with large errors gain
+    !> weight
+    integer(c_int32_t) :: correction_sweeps = 3
+    integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 (default) for all cores
+    integer(c_int32_t) :: reserved = 0
+  end type
+
+end module
+
+!> The functions of planish.h as they are: planish_x of C is c_x. NULL is an absent argument.
+module planish_calls
+  use, intrinsic :: iso_c_binding
+  use planish_records
+  implicit none
+  public
+
+  interface
+    type(c_ptr) function c_version() bind(c, name="planish_version")
+      import
+      implicit none
+    end function
+
+    type(c_ptr) function c_status_name(status) bind(c, name="planish_status_name")
+      import
+      implicit none
+      integer(c_int32_t), value :: status
+    end function
+
+    integer(c_size_t) function c_error_message(text, size) bind(c, name="planish_error_message")
+      import
+      implicit none
+      character(kind=c_char), intent(inout), optional :: text(*)
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int64_t) function c_error_index() bind(c, name="planish_error_index")
+      import
+      implicit none
+    end function
+
+    integer(c_int) function c_mesh_options_init(options, struct_size) bind(c, name="planish_mesh_options_init")
+      import
+      implicit none
+      type(planish_mesh_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_mesh_new( &
+        points, point_count, triangles, triangle_count, options, out_mesh) &
+        bind(c, name="planish_mesh_new")
+      import
+      implicit none
+      real(c_double), intent(in) :: points(*)
+      integer(c_size_t), value :: point_count
+      integer(c_int32_t), intent(in) :: triangles(*)
+      integer(c_size_t), value :: triangle_count
+      type(planish_mesh_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_mesh
+    end function
+
+    integer(c_int) function c_mesh_read(path, options, out_mesh) bind(c, name="planish_mesh_read")
+      import
+      implicit none
+      character(kind=c_char), intent(in) :: path(*)
+      type(planish_mesh_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_mesh
+    end function
+
+    integer(c_int) function c_mesh_clone(mesh, out_mesh) bind(c, name="planish_mesh_clone")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      type(c_ptr), intent(inout) :: out_mesh
+    end function
+
+    subroutine c_mesh_free(mesh) bind(c, name="planish_mesh_free")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+    end subroutine
+
+    pure integer(c_size_t) function c_mesh_point_count(mesh) bind(c, name="planish_mesh_point_count")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+    end function
+
+    pure integer(c_size_t) function c_mesh_triangle_count(mesh) bind(c, name="planish_mesh_triangle_count")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+    end function
+
+    pure integer(c_size_t) function c_mesh_edge_count(mesh) bind(c, name="planish_mesh_edge_count")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+    end function
+
+    pure integer(c_size_t) function c_mesh_component_count(mesh) bind(c, name="planish_mesh_component_count")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+    end function
+
+    pure integer(c_size_t) function c_mesh_genus(mesh) bind(c, name="planish_mesh_genus")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+    end function
+
+    pure integer(c_int64_t) function c_mesh_euler_characteristic( &
+        mesh) &
+        bind(c, name="planish_mesh_euler_characteristic")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+    end function
+
+    pure integer(c_size_t) function c_mesh_loop_count(mesh) bind(c, name="planish_mesh_loop_count")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+    end function
+
+    pure integer(c_size_t) function c_mesh_loop_point_count(mesh, loop) bind(c, name="planish_mesh_loop_point_count")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_size_t), value :: loop
+    end function
+
+    integer(c_int) function c_mesh_copy_points(mesh, out_points, count) bind(c, name="planish_mesh_copy_points")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      real(c_double), intent(inout) :: out_points(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_mesh_copy_triangles( &
+        mesh, out_triangles, count) &
+        bind(c, name="planish_mesh_copy_triangles")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int32_t), intent(inout) :: out_triangles(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_mesh_copy_loop(mesh, loop, out_nodes, count) bind(c, name="planish_mesh_copy_loop")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_size_t), value :: loop
+      integer(c_int32_t), intent(inout) :: out_nodes(*)
+      integer(c_size_t), value :: count
+    end function
+
+    pure integer(c_size_t) function c_mesh_field_count(mesh) bind(c, name="planish_mesh_field_count")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+    end function
+
+    integer(c_size_t) function c_mesh_field_name(mesh, field, name, size) bind(c, name="planish_mesh_field_name")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_size_t), value :: field
+      character(kind=c_char), intent(inout), optional :: name(*)
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_mesh_copy_field(mesh, name, out_values, count) bind(c, name="planish_mesh_copy_field")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      character(kind=c_char), intent(in) :: name(*)
+      real(c_double), intent(inout) :: out_values(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_mesh_set_field(mesh, name, values, count) bind(c, name="planish_mesh_set_field")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      character(kind=c_char), intent(in) :: name(*)
+      real(c_double), intent(in) :: values(*)
+      integer(c_size_t), value :: count
+    end function
+
+    pure integer(c_int32_t) function c_mesh_has_parameters(mesh) bind(c, name="planish_mesh_has_parameters")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+    end function
+
+    integer(c_int) function c_mesh_set_parameters(mesh, uv, count) bind(c, name="planish_mesh_set_parameters")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      real(c_double), intent(in) :: uv(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_mesh_copy_parameters(mesh, out_uv, count) bind(c, name="planish_mesh_copy_parameters")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      real(c_double), intent(inout) :: out_uv(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_mesh_remove_triangles( &
+        mesh, triangles, count, out_mesh) &
+        bind(c, name="planish_mesh_remove_triangles")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int32_t), intent(in) :: triangles(*)
+      integer(c_size_t), value :: count
+      type(c_ptr), intent(inout) :: out_mesh
+    end function
+
+    integer(c_int) function c_mesh_cut_along(mesh, nodes, count, out_mesh) bind(c, name="planish_mesh_cut_along")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int32_t), intent(in) :: nodes(*)
+      integer(c_size_t), value :: count
+      type(c_ptr), intent(inout) :: out_mesh
+    end function
+
+    integer(c_int) function c_mesh_split_components( &
+        mesh, out_meshes, count) &
+        bind(c, name="planish_mesh_split_components")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      type(c_ptr), intent(inout) :: out_meshes(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_mesh_shortest_path( &
+        mesh, from, to, out_nodes, count, out_count) &
+        bind(c, name="planish_mesh_shortest_path")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int32_t), value :: from
+      integer(c_int32_t), value :: to
+      integer(c_int32_t), intent(inout), optional :: out_nodes(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), intent(inout) :: out_count
+    end function
+
+    integer(c_int) function c_decimate_options_init( &
+        options, struct_size) &
+        bind(c, name="planish_decimate_options_init")
+      import
+      implicit none
+      type(planish_decimate_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_mesh_decimate(mesh, options, out_mesh, out_report) bind(c, name="planish_mesh_decimate")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      type(planish_decimate_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_mesh
+      type(planish_decimate_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_parameterize_options_init( &
+        options, struct_size) &
+        bind(c, name="planish_parameterize_options_init")
+      import
+      implicit none
+      type(planish_parameterize_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_mesh_parameterize(mesh, options, out_report) bind(c, name="planish_mesh_parameterize")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      type(planish_parameterize_options), intent(in), optional :: options
+      type(planish_parameterize_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_eval_options_init(options, struct_size) bind(c, name="planish_eval_options_init")
+      import
+      implicit none
+      type(planish_eval_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    pure integer(c_int32_t) function c_surface_kind(surface) bind(c, name="planish_surface_kind")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    pure integer(c_size_t) function c_surface_dim(surface) bind(c, name="planish_surface_dim")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    pure integer(c_size_t) function c_surface_coefficient_count( &
+        surface) &
+        bind(c, name="planish_surface_coefficient_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    integer(c_int) function c_surface_domain(surface, out_box) bind(c, name="planish_surface_domain")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(inout) :: out_box(*)
+    end function
+
+    integer(c_int) function c_surface_data_box(surface, out_box) bind(c, name="planish_surface_data_box")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(inout) :: out_box(*)
+    end function
+
+    integer(c_int) function c_surface_eval( &
+        surface, uv, count, options, out_values) &
+        bind(c, name="planish_surface_eval")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(in) :: uv(*)
+      integer(c_size_t), value :: count
+      type(planish_eval_options), intent(in), optional :: options
+      real(c_double), intent(inout) :: out_values(*)
+    end function
+
+    integer(c_int) function c_surface_eval_derivatives( &
+        surface, uv, count, max_derivative, options, out) &
+        bind(c, name="planish_surface_eval_derivatives")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(in) :: uv(*)
+      integer(c_size_t), value :: count
+      integer(c_int32_t), value :: max_derivative
+      type(planish_eval_options), intent(in), optional :: options
+      real(c_double), intent(inout) :: out(*)
+    end function
+
+    integer(c_int) function c_surface_eval_grid( &
+        surface, u, u_count, v, v_count, options, out_values) &
+        bind(c, name="planish_surface_eval_grid")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(in) :: u(*)
+      integer(c_size_t), value :: u_count
+      real(c_double), intent(in) :: v(*)
+      integer(c_size_t), value :: v_count
+      type(planish_eval_options), intent(in), optional :: options
+      real(c_double), intent(inout) :: out_values(*)
+    end function
+
+    integer(c_int) function c_surface_normals( &
+        surface, uv, count, options, out_normals) &
+        bind(c, name="planish_surface_normals")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(in) :: uv(*)
+      integer(c_size_t), value :: count
+      type(planish_eval_options), intent(in), optional :: options
+      real(c_double), intent(inout) :: out_normals(*)
+    end function
+
+    integer(c_int) function c_surface_curvatures( &
+        surface, uv, count, options, out) &
+        bind(c, name="planish_surface_curvatures")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(in) :: uv(*)
+      integer(c_size_t), value :: count
+      type(planish_eval_options), intent(in), optional :: options
+      real(c_double), intent(inout) :: out(*)
+    end function
+
+    pure integer(c_size_t) function c_surface_trim_count(surface) bind(c, name="planish_surface_trim_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    pure integer(c_size_t) function c_surface_trim_point_count( &
+        surface, trim) &
+        bind(c, name="planish_surface_trim_point_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_size_t), value :: trim
+    end function
+
+    integer(c_int) function c_surface_copy_trim( &
+        surface, trim, out_uv, count) &
+        bind(c, name="planish_surface_copy_trim")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_size_t), value :: trim
+      real(c_double), intent(inout) :: out_uv(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_surface_set_trims( &
+        surface, uv, point_counts, trim_count) &
+        bind(c, name="planish_surface_set_trims")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(in) :: uv(*)
+      integer(c_size_t), intent(in) :: point_counts(*)
+      integer(c_size_t), value :: trim_count
+    end function
+
+    integer(c_int) function c_surface_clone(surface, out_surface) bind(c, name="planish_surface_clone")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      type(c_ptr), intent(inout) :: out_surface
+    end function
+
+    subroutine c_surface_free(surface) bind(c, name="planish_surface_free")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end subroutine
+
+    pure integer(c_size_t) function c_surface_patch_count(surface) bind(c, name="planish_surface_patch_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    pure integer(c_size_t) function c_surface_patch_at(surface, u, v) bind(c, name="planish_surface_patch_at")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), value :: u
+      real(c_double), value :: v
+    end function
+
+    integer(c_int) function c_surface_copy_patch( &
+        surface, index, out_patch, out_ordinates, count) &
+        bind(c, name="planish_surface_copy_patch")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_size_t), value :: index
+      type(planish_patch), intent(inout), optional :: out_patch
+      real(c_double), intent(inout), optional :: out_ordinates(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_convert_options_init(options, size) bind(c, name="planish_convert_options_init")
+      import
+      implicit none
+      type(planish_convert_options), intent(inout) :: options
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_surface_to_tensor( &
+        surface, options, out_surface) &
+        bind(c, name="planish_surface_to_tensor")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      type(planish_convert_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+    end function
+
+    integer(c_int) function c_tensor_options_init(options, struct_size) bind(c, name="planish_tensor_options_init")
+      import
+      implicit none
+      type(planish_tensor_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_tensor_fit(mesh, options, out_surface, out_report) bind(c, name="planish_tensor_fit")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      type(planish_tensor_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+      type(planish_fit_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_tensor_fit_points( &
+        uv, values, count, dim, options, out_surface, out_report) &
+        bind(c, name="planish_tensor_fit_points")
+      import
+      implicit none
+      real(c_double), intent(in) :: uv(*)
+      real(c_double), intent(in) :: values(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), value :: dim
+      type(planish_tensor_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+      type(planish_fit_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_tensor_fit_field( &
+        mesh, values, count, dim, options, out_surface, out_report) &
+        bind(c, name="planish_tensor_fit_field")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      real(c_double), intent(in) :: values(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), value :: dim
+      type(planish_tensor_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+      type(planish_fit_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_tensor_new( &
+        dim, degree_u, degree_v, knots_u, knot_count_u, knots_v, knot_count_v, control_points, weights, &
+        out_surface) &
+        bind(c, name="planish_tensor_new")
+      import
+      implicit none
+      integer(c_size_t), value :: dim
+      integer(c_int32_t), value :: degree_u
+      integer(c_int32_t), value :: degree_v
+      real(c_double), intent(in) :: knots_u(*)
+      integer(c_size_t), value :: knot_count_u
+      real(c_double), intent(in) :: knots_v(*)
+      integer(c_size_t), value :: knot_count_v
+      real(c_double), intent(in) :: control_points(*)
+      real(c_double), intent(in), optional :: weights(*)
+      type(c_ptr), intent(inout) :: out_surface
+    end function
+
+    pure integer(c_int32_t) function c_tensor_degree(surface, axis) bind(c, name="planish_tensor_degree")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), value :: axis
+    end function
+
+    pure integer(c_size_t) function c_tensor_knot_count(surface, axis) bind(c, name="planish_tensor_knot_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), value :: axis
+    end function
+
+    pure integer(c_size_t) function c_tensor_control_point_count( &
+        surface, axis) &
+        bind(c, name="planish_tensor_control_point_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), value :: axis
+    end function
+
+    integer(c_int) function c_tensor_copy_knots( &
+        surface, axis, out_knots, count) &
+        bind(c, name="planish_tensor_copy_knots")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), value :: axis
+      real(c_double), intent(inout) :: out_knots(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_tensor_copy_control_points( &
+        surface, out_control_points, count) &
+        bind(c, name="planish_tensor_copy_control_points")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(inout) :: out_control_points(*)
+      integer(c_size_t), value :: count
+    end function
+
+    pure integer(c_int32_t) function c_tensor_has_weights(surface) bind(c, name="planish_tensor_has_weights")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    integer(c_int) function c_tensor_copy_weights( &
+        surface, out_weights, count) &
+        bind(c, name="planish_tensor_copy_weights")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(inout) :: out_weights(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_tensor_insert_knots( &
+        surface, axis, knots, count) &
+        bind(c, name="planish_tensor_insert_knots")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), value :: axis
+      real(c_double), intent(in) :: knots(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_tensor_elevate_degree( &
+        surface, axis, degree) &
+        bind(c, name="planish_tensor_elevate_degree")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), value :: axis
+      integer(c_int32_t), value :: degree
+    end function
+
+    integer(c_int) function c_tensor_reverse(surface, axis) bind(c, name="planish_tensor_reverse")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), value :: axis
+    end function
+
+    integer(c_int) function c_tensor_split( &
+        surface, axis, at, out_lower, out_upper) &
+        bind(c, name="planish_tensor_split")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), value :: axis
+      real(c_double), value :: at
+      type(c_ptr), intent(inout) :: out_lower
+      type(c_ptr), intent(inout) :: out_upper
+    end function
+
+    integer(c_int) function c_field_options_init(options, size) bind(c, name="planish_field_options_init")
+      import
+      implicit none
+      type(planish_field_options), intent(inout) :: options
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_field_fitter_new(mesh, options, out_fitter) bind(c, name="planish_field_fitter_new")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      type(planish_field_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_fitter
+    end function
+
+    integer(c_int) function c_field_fitter_new_points( &
+        uv, count, options, out_fitter) &
+        bind(c, name="planish_field_fitter_new_points")
+      import
+      implicit none
+      real(c_double), intent(in) :: uv(*)
+      integer(c_size_t), value :: count
+      type(planish_field_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_fitter
+    end function
+
+    subroutine c_field_fitter_free(fitter) bind(c, name="planish_field_fitter_free")
+      import
+      implicit none
+      type(c_ptr), value :: fitter
+    end subroutine
+
+    pure integer(c_size_t) function c_field_fitter_point_count( &
+        fitter) &
+        bind(c, name="planish_field_fitter_point_count")
+      import
+      implicit none
+      type(c_ptr), value :: fitter
+    end function
+
+    integer(c_int) function c_field_fitter_grid(fitter, out_grid) bind(c, name="planish_field_fitter_grid")
+      import
+      implicit none
+      type(c_ptr), value :: fitter
+      integer(c_size_t), intent(inout) :: out_grid(*)
+    end function
+
+    integer(c_int) function c_field_fitter_copy_parameters( &
+        fitter, out_uv, count) &
+        bind(c, name="planish_field_fitter_copy_parameters")
+      import
+      implicit none
+      type(c_ptr), value :: fitter
+      real(c_double), intent(inout) :: out_uv(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_field_fitter_fit( &
+        fitter, values, count, dim, out_surface, out_report) &
+        bind(c, name="planish_field_fitter_fit")
+      import
+      implicit none
+      type(c_ptr), value :: fitter
+      real(c_double), intent(in) :: values(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), value :: dim
+      type(c_ptr), intent(inout) :: out_surface
+      type(planish_fit_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_field_fitter_update( &
+        fitter, surface, values, count, dim) &
+        bind(c, name="planish_field_fitter_update")
+      import
+      implicit none
+      type(c_ptr), value :: fitter
+      type(c_ptr), value :: surface
+      real(c_double), intent(in) :: values(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), value :: dim
+    end function
+
+    integer(c_int) function c_tensor_combine( &
+        surfaces, factors, count, out_surface) &
+        bind(c, name="planish_tensor_combine")
+      import
+      implicit none
+      type(c_ptr), intent(in) :: surfaces(*)
+      real(c_double), intent(in), optional :: factors(*)
+      integer(c_size_t), value :: count
+      type(c_ptr), intent(inout) :: out_surface
+    end function
+
+    integer(c_int) function c_surface_field_gradient( &
+        shape, field, uv, count, thread_count, out_gradients) &
+        bind(c, name="planish_surface_field_gradient")
+      import
+      implicit none
+      type(c_ptr), value :: shape
+      type(c_ptr), value :: field
+      real(c_double), intent(in) :: uv(*)
+      integer(c_size_t), value :: count
+      integer(c_int32_t), value :: thread_count
+      real(c_double), intent(inout) :: out_gradients(*)
+    end function
+
+    integer(c_int) function c_transfer_options_init(options, size) bind(c, name="planish_transfer_options_init")
+      import
+      implicit none
+      type(planish_transfer_options), intent(inout) :: options
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_transfer_new( &
+        source, targets, count, options, out_transfer, out_report) &
+        bind(c, name="planish_transfer_new")
+      import
+      implicit none
+      type(c_ptr), value :: source
+      real(c_double), intent(in) :: targets(*)
+      integer(c_size_t), value :: count
+      type(planish_transfer_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_transfer
+      type(planish_transfer_report), intent(inout), optional :: out_report
+    end function
+
+    subroutine c_transfer_free(transfer) bind(c, name="planish_transfer_free")
+      import
+      implicit none
+      type(c_ptr), value :: transfer
+    end subroutine
+
+    pure integer(c_size_t) function c_transfer_source_count(transfer) bind(c, name="planish_transfer_source_count")
+      import
+      implicit none
+      type(c_ptr), value :: transfer
+    end function
+
+    pure integer(c_size_t) function c_transfer_target_count(transfer) bind(c, name="planish_transfer_target_count")
+      import
+      implicit none
+      type(c_ptr), value :: transfer
+    end function
+
+    integer(c_int) function c_transfer_copy_parameters( &
+        transfer, out_uv, count) &
+        bind(c, name="planish_transfer_copy_parameters")
+      import
+      implicit none
+      type(c_ptr), value :: transfer
+      real(c_double), intent(inout) :: out_uv(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_transfer_copy_distances( &
+        transfer, out_distances, count) &
+        bind(c, name="planish_transfer_copy_distances")
+      import
+      implicit none
+      type(c_ptr), value :: transfer
+      real(c_double), intent(inout) :: out_distances(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_transfer_apply( &
+        transfer, values, count, dim, out_values) &
+        bind(c, name="planish_transfer_apply")
+      import
+      implicit none
+      type(c_ptr), value :: transfer
+      real(c_double), intent(in) :: values(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), value :: dim
+      real(c_double), intent(inout) :: out_values(*)
+    end function
+
+    integer(c_int) function c_transfer_apply_transpose( &
+        transfer, forces, count, dim, out_forces) &
+        bind(c, name="planish_transfer_apply_transpose")
+      import
+      implicit none
+      type(c_ptr), value :: transfer
+      real(c_double), intent(in) :: forces(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), value :: dim
+      real(c_double), intent(inout) :: out_forces(*)
+    end function
+
+    integer(c_int) function c_transfer_balance( &
+        transfer, displacements, source_count, forces, target_count, about, out_report) &
+        bind(c, name="planish_transfer_balance")
+      import
+      implicit none
+      type(c_ptr), value :: transfer
+      real(c_double), intent(in) :: displacements(*)
+      integer(c_size_t), value :: source_count
+      real(c_double), intent(in) :: forces(*)
+      integer(c_size_t), value :: target_count
+      real(c_double), intent(in), optional :: about(*)
+      type(planish_balance_report), intent(inout) :: out_report
+    end function
+
+    integer(c_int) function c_tessellate_options_init(options, size) bind(c, name="planish_tessellate_options_init")
+      import
+      implicit none
+      type(planish_tessellate_options), intent(inout) :: options
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_surface_tessellate( &
+        surface, options, out_mesh) &
+        bind(c, name="planish_surface_tessellate")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      type(planish_tessellate_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_mesh
+    end function
+
+    integer(c_int) function c_project_options_init(options, size) bind(c, name="planish_project_options_init")
+      import
+      implicit none
+      type(planish_project_options), intent(inout) :: options
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_surface_project( &
+        surface, points, count, options, out_uv, out_distances) &
+        bind(c, name="planish_surface_project")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(in) :: points(*)
+      integer(c_size_t), value :: count
+      type(planish_project_options), intent(in), optional :: options
+      real(c_double), intent(inout), optional :: out_uv(*)
+      real(c_double), intent(inout), optional :: out_distances(*)
+    end function
+
+    integer(c_int) function c_deviation_options_init(options, size) bind(c, name="planish_deviation_options_init")
+      import
+      implicit none
+      type(planish_deviation_options), intent(inout) :: options
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_surface_deviation( &
+        surface, mesh, options, out_distances, count, out_report) &
+        bind(c, name="planish_surface_deviation")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      type(c_ptr), value :: mesh
+      type(planish_deviation_options), intent(in), optional :: options
+      real(c_double), intent(inout), optional :: out_distances(*)
+      integer(c_size_t), value :: count
+      type(planish_deviation_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_sample_rows_options_init(options, size) bind(c, name="planish_sample_rows_options_init")
+      import
+      implicit none
+      type(planish_sample_rows_options), intent(inout) :: options
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_mesh_sample_rows( &
+        mesh, options, out_row_counts, row_count, out_points, point_count, out_point_count) &
+        bind(c, name="planish_mesh_sample_rows")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      type(planish_sample_rows_options), intent(in), optional :: options
+      integer(c_size_t), intent(inout) :: out_row_counts(*)
+      integer(c_size_t), value :: row_count
+      real(c_double), intent(inout), optional :: out_points(*)
+      integer(c_size_t), value :: point_count
+      integer(c_size_t), intent(inout) :: out_point_count
+    end function
+
+    integer(c_int) function c_vtk_options_init(options, size) bind(c, name="planish_vtk_options_init")
+      import
+      implicit none
+      type(planish_vtk_options), intent(inout) :: options
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_surface_write_vtk(surface, path, options) bind(c, name="planish_surface_write_vtk")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      character(kind=c_char), intent(in) :: path(*)
+      type(planish_vtk_options), intent(in), optional :: options
+    end function
+
+    pure integer(c_size_t) function c_surface_save_size(surface) bind(c, name="planish_surface_save_size")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    integer(c_int) function c_surface_save(surface, buffer, size) bind(c, name="planish_surface_save")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int8_t), intent(inout) :: buffer(*)
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_surface_load(buffer, size, out_surface) bind(c, name="planish_surface_load")
+      import
+      implicit none
+      integer(c_int8_t), intent(in) :: buffer(*)
+      integer(c_size_t), value :: size
+      type(c_ptr), intent(inout) :: out_surface
+    end function
+
+    integer(c_int) function c_surface_save_file(surface, path) bind(c, name="planish_surface_save_file")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      character(kind=c_char), intent(in) :: path(*)
+    end function
+
+    integer(c_int) function c_surface_load_file(path, out_surface) bind(c, name="planish_surface_load_file")
+      import
+      implicit none
+      character(kind=c_char), intent(in) :: path(*)
+      type(c_ptr), intent(inout) :: out_surface
+    end function
+
+    integer(c_int) function c_step_options_init(options, size) bind(c, name="planish_step_options_init")
+      import
+      implicit none
+      type(planish_step_options), intent(inout) :: options
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_surface_write_step(surface, path, options) bind(c, name="planish_surface_write_step")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      character(kind=c_char), intent(in) :: path(*)
+      type(planish_step_options), intent(in), optional :: options
+    end function
+
+    integer(c_int) function c_curve_fit( &
+        u, values, count, dim, options, out_curve, out_report) &
+        bind(c, name="planish_curve_fit")
+      import
+      implicit none
+      real(c_double), intent(in) :: u(*)
+      real(c_double), intent(in) :: values(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), value :: dim
+      type(planish_tensor_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_curve
+      type(planish_fit_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_curve_new( &
+        dim, degree, knots, knot_count, control_points, out_curve) &
+        bind(c, name="planish_curve_new")
+      import
+      implicit none
+      integer(c_size_t), value :: dim
+      integer(c_int32_t), value :: degree
+      real(c_double), intent(in) :: knots(*)
+      integer(c_size_t), value :: knot_count
+      real(c_double), intent(in) :: control_points(*)
+      type(c_ptr), intent(inout) :: out_curve
+    end function
+
+    integer(c_int) function c_interpolate_options_init(options, size) bind(c, name="planish_interpolate_options_init")
+      import
+      implicit none
+      type(planish_interpolate_options), intent(inout) :: options
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_curve_interpolate( &
+        u, values, count, dim, options, out_curve) &
+        bind(c, name="planish_curve_interpolate")
+      import
+      implicit none
+      real(c_double), intent(in) :: u(*)
+      real(c_double), intent(in) :: values(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), value :: dim
+      type(planish_interpolate_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_curve
+    end function
+
+    pure integer(c_size_t) function c_curve_dim(curve) bind(c, name="planish_curve_dim")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+    end function
+
+    pure integer(c_int32_t) function c_curve_degree(curve) bind(c, name="planish_curve_degree")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+    end function
+
+    pure integer(c_size_t) function c_curve_knot_count(curve) bind(c, name="planish_curve_knot_count")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+    end function
+
+    pure integer(c_size_t) function c_curve_control_point_count( &
+        curve) &
+        bind(c, name="planish_curve_control_point_count")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+    end function
+
+    integer(c_int) function c_curve_copy_knots(curve, out_knots, count) bind(c, name="planish_curve_copy_knots")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+      real(c_double), intent(inout) :: out_knots(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_curve_copy_control_points( &
+        curve, out_control_points, count) &
+        bind(c, name="planish_curve_copy_control_points")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+      real(c_double), intent(inout) :: out_control_points(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_curve_domain(curve, out_interval) bind(c, name="planish_curve_domain")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+      real(c_double), intent(inout) :: out_interval(*)
+    end function
+
+    integer(c_int) function c_curve_eval( &
+        curve, u, count, max_derivative, options, out) &
+        bind(c, name="planish_curve_eval")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+      real(c_double), intent(in) :: u(*)
+      integer(c_size_t), value :: count
+      integer(c_int32_t), value :: max_derivative
+      type(planish_eval_options), intent(in), optional :: options
+      real(c_double), intent(inout) :: out(*)
+    end function
+
+    integer(c_int) function c_curve_clone(curve, out_curve) bind(c, name="planish_curve_clone")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+      type(c_ptr), intent(inout) :: out_curve
+    end function
+
+    subroutine c_curve_free(curve) bind(c, name="planish_curve_free")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+    end subroutine
+
+    pure real(c_double) function c_curve_length(curve) bind(c, name="planish_curve_length")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+    end function
+
+    integer(c_int) function c_curve_arc_lengths( &
+        curve, u, count, out_lengths) &
+        bind(c, name="planish_curve_arc_lengths")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+      real(c_double), intent(in) :: u(*)
+      integer(c_size_t), value :: count
+      real(c_double), intent(inout) :: out_lengths(*)
+    end function
+
+    integer(c_int) function c_curve_project( &
+        curve, points, count, options, out_u, out_distances) &
+        bind(c, name="planish_curve_project")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+      real(c_double), intent(in) :: points(*)
+      integer(c_size_t), value :: count
+      type(planish_project_options), intent(in), optional :: options
+      real(c_double), intent(inout), optional :: out_u(*)
+      real(c_double), intent(inout), optional :: out_distances(*)
+    end function
+
+    pure integer(c_size_t) function c_curve_save_size(curve) bind(c, name="planish_curve_save_size")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+    end function
+
+    integer(c_int) function c_curve_save(curve, buffer, size) bind(c, name="planish_curve_save")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+      integer(c_int8_t), intent(inout) :: buffer(*)
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_curve_load(buffer, size, out_curve) bind(c, name="planish_curve_load")
+      import
+      implicit none
+      integer(c_int8_t), intent(in) :: buffer(*)
+      integer(c_size_t), value :: size
+      type(c_ptr), intent(inout) :: out_curve
+    end function
+
+    integer(c_int) function c_curve_save_file(curve, path) bind(c, name="planish_curve_save_file")
+      import
+      implicit none
+      type(c_ptr), value :: curve
+      character(kind=c_char), intent(in) :: path(*)
+    end function
+
+    integer(c_int) function c_curve_load_file(path, out_curve) bind(c, name="planish_curve_load_file")
+      import
+      implicit none
+      character(kind=c_char), intent(in) :: path(*)
+      type(c_ptr), intent(inout) :: out_curve
+    end function
+
+    integer(c_int) function c_skin_options_init(options, size) bind(c, name="planish_skin_options_init")
+      import
+      implicit none
+      type(planish_skin_options), intent(inout) :: options
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_tspline_skin( &
+        points, row_counts, row_count, options, out_surface, out_report) &
+        bind(c, name="planish_tspline_skin")
+      import
+      implicit none
+      real(c_double), intent(in) :: points(*)
+      integer(c_size_t), intent(in) :: row_counts(*)
+      integer(c_size_t), value :: row_count
+      type(planish_skin_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+      type(planish_fit_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_tspline_skin_curves( &
+        curves, curve_count, options, out_surface, out_report) &
+        bind(c, name="planish_tspline_skin_curves")
+      import
+      implicit none
+      type(c_ptr), intent(in) :: curves(*)
+      integer(c_size_t), value :: curve_count
+      type(planish_skin_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+      type(planish_fit_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_tspline_new( &
+        knots, knot_count, curves, curve_count, out_surface) &
+        bind(c, name="planish_tspline_new")
+      import
+      implicit none
+      real(c_double), intent(in) :: knots(*)
+      integer(c_size_t), value :: knot_count
+      type(c_ptr), intent(in) :: curves(*)
+      integer(c_size_t), value :: curve_count
+      type(c_ptr), intent(inout) :: out_surface
+    end function
+
+    pure integer(c_size_t) function c_tspline_curve_count(surface) bind(c, name="planish_tspline_curve_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    integer(c_int) function c_tspline_clone_curve( &
+        surface, curve, out_curve) &
+        bind(c, name="planish_tspline_clone_curve")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_size_t), value :: curve
+      type(c_ptr), intent(inout) :: out_curve
+    end function
+
+    pure integer(c_size_t) function c_tspline_knot_count(surface) bind(c, name="planish_tspline_knot_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    integer(c_int) function c_tspline_copy_knots(surface, out_knots, count) bind(c, name="planish_tspline_copy_knots")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(inout) :: out_knots(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_tspline_insert_knot_u(surface, curve, u) bind(c, name="planish_tspline_insert_knot_u")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_size_t), value :: curve
+      real(c_double), value :: u
+    end function
+
+    integer(c_int) function c_tspline_insert_knot_v(surface, v) bind(c, name="planish_tspline_insert_knot_v")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), value :: v
+    end function
+
+    integer(c_int) function c_tspline_remove_knot_u( &
+        surface, curve, knot, tolerance, out_error) &
+        bind(c, name="planish_tspline_remove_knot_u")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_size_t), value :: curve
+      integer(c_size_t), value :: knot
+      real(c_double), value :: tolerance
+      real(c_double), intent(inout), optional :: out_error
+    end function
+
+    integer(c_int) function c_pht_options_init(options, struct_size) bind(c, name="planish_pht_options_init")
+      import
+      implicit none
+      type(planish_pht_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_pht_fit(mesh, options, out_surface, out_report) bind(c, name="planish_pht_fit")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      type(planish_pht_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+      type(planish_fit_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_pht_fit_points( &
+        uv, values, count, dim, options, out_surface, out_report) &
+        bind(c, name="planish_pht_fit_points")
+      import
+      implicit none
+      real(c_double), intent(in) :: uv(*)
+      real(c_double), intent(in) :: values(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), value :: dim
+      type(planish_pht_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+      type(planish_fit_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_pht_fit_field( &
+        mesh, values, count, dim, options, out_surface, out_report) &
+        bind(c, name="planish_pht_fit_field")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      real(c_double), intent(in) :: values(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), value :: dim
+      type(planish_pht_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+      type(planish_fit_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_pht_new( &
+        dim, is_rational, lines_u, line_count_u, lines_v, line_count_v, cells, split_count, data, data_count, &
+        out_surface) &
+        bind(c, name="planish_pht_new")
+      import
+      implicit none
+      integer(c_size_t), value :: dim
+      integer(c_int32_t), value :: is_rational
+      real(c_double), intent(in) :: lines_u(*)
+      integer(c_size_t), value :: line_count_u
+      real(c_double), intent(in) :: lines_v(*)
+      integer(c_size_t), value :: line_count_v
+      integer(c_int32_t), intent(in) :: cells(*)
+      integer(c_size_t), value :: split_count
+      real(c_double), intent(in), optional :: data(*)
+      integer(c_size_t), value :: data_count
+      type(c_ptr), intent(inout) :: out_surface
+    end function
+
+    integer(c_int) function c_pht_split(surface, cells, count) bind(c, name="planish_pht_split")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), intent(in) :: cells(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_pht_merge(surface, cells, count) bind(c, name="planish_pht_merge")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), intent(in) :: cells(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_pht_simplify(surface, tolerance, out_deviation) bind(c, name="planish_pht_simplify")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), value :: tolerance
+      real(c_double), intent(inout), optional :: out_deviation
+    end function
+
+    integer(c_int) function c_pht_refine_region( &
+        surface, region, level, max_cells) &
+        bind(c, name="planish_pht_refine_region")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(in) :: region(*)
+      integer(c_int32_t), value :: level
+      integer(c_size_t), value :: max_cells
+    end function
+
+    integer(c_int) function c_pht_convert_options_init( &
+        options, struct_size) &
+        bind(c, name="planish_pht_convert_options_init")
+      import
+      implicit none
+      type(planish_pht_convert_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_pht_from_surface(surface, options, out_surface) bind(c, name="planish_pht_from_surface")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      type(planish_pht_convert_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+    end function
+
+    integer(c_int) function c_pht_to_tensor_patches( &
+        surface, sigma, out_surfaces, count, out_count) &
+        bind(c, name="planish_pht_to_tensor_patches")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), value :: sigma
+      type(c_ptr), intent(inout), optional :: out_surfaces(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), intent(inout) :: out_count
+    end function
+
+    integer(c_int) function c_pht_stitch( &
+        first, first_side, second, second_side, is_reversed) &
+        bind(c, name="planish_pht_stitch")
+      import
+      implicit none
+      type(c_ptr), value :: first
+      integer(c_int32_t), value :: first_side
+      type(c_ptr), value :: second
+      integer(c_int32_t), value :: second_side
+      integer(c_int32_t), value :: is_reversed
+    end function
+
+    pure integer(c_size_t) function c_pht_cell_count(surface) bind(c, name="planish_pht_cell_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    pure integer(c_size_t) function c_pht_vertex_count(surface) bind(c, name="planish_pht_vertex_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    pure integer(c_size_t) function c_pht_hanging_count(surface) bind(c, name="planish_pht_hanging_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    pure integer(c_size_t) function c_pht_width(surface) bind(c, name="planish_pht_width")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    integer(c_int) function c_pht_copy_cells(surface, out_cells, count) bind(c, name="planish_pht_copy_cells")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), intent(inout) :: out_cells(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_pht_copy_vertices(surface, out_uv, count) bind(c, name="planish_pht_copy_vertices")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(inout) :: out_uv(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_pht_copy_hanging( &
+        surface, out_uv, out_hosts, count) &
+        bind(c, name="planish_pht_copy_hanging")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(inout), optional :: out_uv(*)
+      integer(c_int32_t), intent(inout), optional :: out_hosts(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_pht_copy_neighbours( &
+        surface, cell, out_cells, count, out_count) &
+        bind(c, name="planish_pht_copy_neighbours")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_size_t), value :: cell
+      integer(c_size_t), intent(inout), optional :: out_cells(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), intent(inout) :: out_count
+    end function
+
+    integer(c_int) function c_pht_copy_data(surface, out_data, count) bind(c, name="planish_pht_copy_data")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(inout) :: out_data(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_pht_set_data(surface, vertices, count, data) bind(c, name="planish_pht_set_data")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_size_t), intent(in) :: vertices(*)
+      integer(c_size_t), value :: count
+      real(c_double), intent(in) :: data(*)
+    end function
+
+    integer(c_int) function c_pht_copy_control_points( &
+        surface, basis, out_points, count) &
+        bind(c, name="planish_pht_copy_control_points")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), value :: basis
+      real(c_double), intent(inout) :: out_points(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_pht_set_control_points( &
+        surface, vertices, count, basis, points) &
+        bind(c, name="planish_pht_set_control_points")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_size_t), intent(in) :: vertices(*)
+      integer(c_size_t), value :: count
+      integer(c_int32_t), value :: basis
+      real(c_double), intent(in) :: points(*)
+    end function
+
+    integer(c_int) function c_pht_copy_extraction( &
+        surface, cell, basis, out_vertices, out_matrix, count, out_count) &
+        bind(c, name="planish_pht_copy_extraction")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_size_t), value :: cell
+      integer(c_int32_t), value :: basis
+      integer(c_int32_t), intent(inout), optional :: out_vertices(*)
+      real(c_double), intent(inout), optional :: out_matrix(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), intent(inout) :: out_count
+    end function
+
+    pure integer(c_size_t) function c_pht_cell_at(surface, u, v) bind(c, name="planish_pht_cell_at")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), value :: u
+      real(c_double), value :: v
+    end function
+
+    integer(c_int) function c_d1rc_options_init(options, struct_size) bind(c, name="planish_d1rc_options_init")
+      import
+      implicit none
+      type(planish_d1rc_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_d1rc_new(control_mesh, options, out_surface) bind(c, name="planish_d1rc_new")
+      import
+      implicit none
+      type(c_ptr), value :: control_mesh
+      type(planish_d1rc_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+    end function
+
+    pure integer(c_int32_t) function c_d1rc_degree(surface) bind(c, name="planish_d1rc_degree")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    integer(c_int) function c_d1rc_set_sharp_edges( &
+        surface, sharp_edges, edge_count, corners, corner_count) &
+        bind(c, name="planish_d1rc_set_sharp_edges")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), intent(in) :: sharp_edges(*)
+      integer(c_size_t), value :: edge_count
+      integer(c_int32_t), intent(in), optional :: corners(*)
+      integer(c_size_t), value :: corner_count
+    end function
+
+    integer(c_int) function c_d1rc_copy_sharp_edges( &
+        surface, out_edges, count, out_count) &
+        bind(c, name="planish_d1rc_copy_sharp_edges")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), intent(inout), optional :: out_edges(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), intent(inout) :: out_count
+    end function
+
+    integer(c_int) function c_d1rc_copy_control_points( &
+        surface, out_points, count) &
+        bind(c, name="planish_d1rc_copy_control_points")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(inout) :: out_points(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_d1rc_set_control_points( &
+        surface, vertices, count, points) &
+        bind(c, name="planish_d1rc_set_control_points")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), intent(in) :: vertices(*)
+      integer(c_size_t), value :: count
+      real(c_double), intent(in) :: points(*)
+    end function
+
+    integer(c_int) function c_d1rc_edge_continuity( &
+        surface, edges, count, out_orders) &
+        bind(c, name="planish_d1rc_edge_continuity")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), intent(in) :: edges(*)
+      integer(c_size_t), value :: count
+      integer(c_int32_t), intent(inout) :: out_orders(*)
+    end function
+
+    integer(c_int) function c_d1rc_copy_influence( &
+        surface, vertex, out_faces, count, out_count) &
+        bind(c, name="planish_d1rc_copy_influence")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), value :: vertex
+      integer(c_int32_t), intent(inout), optional :: out_faces(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), intent(inout) :: out_count
+    end function
+
+    integer(c_int) function c_d1rc_blending_values( &
+        surface, vertex, uv, count, out_values) &
+        bind(c, name="planish_d1rc_blending_values")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), value :: vertex
+      real(c_double), intent(in) :: uv(*)
+      integer(c_size_t), value :: count
+      real(c_double), intent(inout) :: out_values(*)
+    end function
+
+    pure integer(c_size_t) function c_d1rc_knot_count(surface) bind(c, name="planish_d1rc_knot_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    integer(c_int) function c_d1rc_copy_knots(surface, out_uv, count) bind(c, name="planish_d1rc_copy_knots")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(inout) :: out_uv(*)
+      integer(c_size_t), value :: count
+    end function
+
+    pure integer(c_size_t) function c_d1rc_configuration_count( &
+        surface) &
+        bind(c, name="planish_d1rc_configuration_count")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    integer(c_int) function c_d1rc_copy_configuration( &
+        surface, index, out_knots, out_edges, count, out_count) &
+        bind(c, name="planish_d1rc_copy_configuration")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_size_t), value :: index
+      integer(c_int32_t), intent(inout), optional :: out_knots(*)
+      integer(c_int32_t), intent(inout), optional :: out_edges(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), intent(inout) :: out_count
+    end function
+
+    integer(c_int) function c_d1rc_fit(mesh, options, out_surface, out_report) bind(c, name="planish_d1rc_fit")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      type(planish_d1rc_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+      type(planish_fit_report), intent(inout), optional :: out_report
+    end function
+  end interface
+end module

@@ -1,0 +1,1050 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+# Generated from src/ffi: do not edit. `cargo run -p planish-header` renews it.
+"""What planish.h declares, for ctypes: constants, enumerations, records and functions."""
+
+from ctypes import (CFUNCTYPE, Structure, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint8, c_uint32, c_uint64,
+                    c_void_p, sizeof)
+
+VERSION = "0.1.0"
+UNLIMITED = 4294967295
+
+#: The words of each enumeration and their values.
+ENUMERATIONS = {
+    "planish_status": {
+        "ok": 0,
+        "tolerance_not_met": 1,
+        "stagnated": 2,
+        "points_outside": 3,
+        "input_repaired": 4,
+        "folded_parameters": 5,
+        "null_pointer": -1,
+        "invalid_argument": -2,
+        "not_finite": -3,
+        "index": -4,
+        "topology": -5,
+        "degenerate": -6,
+        "outside": -7,
+        "singular": -8,
+        "wrong_kind": -9,
+        "buffer_too_small": -10,
+        "too_large": -11,
+        "file": -12,
+        "format": -13,
+        "version": -14,
+        "cancelled": -15,
+        "out_of_memory": -16,
+        "internal": -17,
+    },
+    "planish_map_method": {
+        "mean_value": 0,
+        "harmonic": 1,
+    },
+    "planish_border": {
+        "auto": 0,
+        "circle": 1,
+        "square_by_turns": 2,
+        "square_by_arc": 3,
+        "corners": 4,
+        "kept": 5,
+        "free": 6,
+    },
+    "planish_remark": {
+        "tolerance_not_met": 1,
+        "stagnated": 2,
+        "folded_parameters": 4,
+        "parameterized": 8,
+        "regularized": 16,
+        "tolerance_raised": 32,
+        "empty_cells": 64,
+        "rough_between_nodes": 128,
+        "segmentation_advised": 256,
+        "plate_energy_used": 512,
+        "merged_points": 1048576,
+        "twisted_rows": 2097152,
+        "clustered_rows": 4194304,
+        "mean_steps": 8388608,
+        "holes_filled": 65536,
+        "zero_area_triangles": 131072,
+    },
+    "planish_stop_reason": {
+        "tolerance_met": 0,
+        "fixed_grid": 1,
+        "limit": 2,
+        "data_exhausted": 3,
+        "stagnated": 4,
+    },
+    "planish_kind": {
+        "none": 0,
+        "tensor": 1,
+        "tspline": 2,
+        "pht": 3,
+        "d1rc": 4,
+    },
+    "planish_outside": {
+        "fail": 0,
+        "flag": 1,
+        "extrapolate": 2,
+    },
+    "planish_flag": {
+        "outside_domain": 1,
+        "outside_trims": 2,
+        "in_buffer": 4,
+        "no_normal": 8,
+    },
+    "planish_axis": {
+        "u": 0,
+        "v": 1,
+    },
+    "planish_tolerance_scale": {
+        "relative": 0,
+        "absolute": 1,
+    },
+    "planish_tensor_method": {
+        "least_squares": 0,
+        "ferguson": 1,
+    },
+    "planish_ends": {
+        "natural": 0,
+        "free": 1,
+    },
+    "planish_energy": {
+        "beam": 0,
+        "plate": 1,
+    },
+    "planish_regularize": {
+        "auto": 0,
+        "never": 1,
+        "always": 2,
+    },
+    "planish_far_rule": {
+        "refuse": 0,
+        "keep": 1,
+    },
+    "planish_row_source": {
+        "loop": 0,
+        "node": 1,
+    },
+    "planish_vtk_content": {
+        "triangles": 0,
+        "patches": 1,
+        "control_net": 2,
+    },
+    "planish_step_schema": {
+        "ap214": 0,
+        "ap242": 1,
+    },
+    "planish_unit": {
+        "millimetre": 0,
+        "metre": 1,
+        "inch": 2,
+    },
+    "planish_step_form": {
+        "tensor": 0,
+        "strips": 1,
+        "patches": 2,
+    },
+    "planish_skin_method": {
+        "control_curves": 0,
+        "common_knots": 1,
+    },
+    "planish_section_ends": {
+        "auto": 0,
+        "parabolic": 1,
+        "natural": 2,
+        "slopes": 3,
+        "periodic": 4,
+    },
+    "planish_v_rule": {
+        "endpoints": 0,
+        "mean": 1,
+    },
+    "planish_pht_estimator": {
+        "global": 0,
+        "local_quadratic": 1,
+        "local_cubic": 2,
+    },
+    "planish_border_side": {
+        "low_u": 0,
+        "high_u": 1,
+        "low_v": 2,
+        "high_v": 3,
+    },
+    "planish_pht_basis": {
+        "canonical": 0,
+        "support_sized": 1,
+    },
+    "planish_d1rc_mode": {
+        "reproducing": 0,
+        "paper": 1,
+    },
+    "planish_d1rc_boundary": {
+        "phantom": 0,
+        "clamped": 1,
+        "open": 2,
+    },
+    "planish_d1rc_sharp": {
+        "automatic": 0,
+        "cut": 1,
+        "sector": 2,
+        "additive": 3,
+    },
+}
+
+planish_progress = CFUNCTYPE(c_int32, c_double, c_double, c_void_p)
+
+
+class planish_mesh_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("point_stride", c_size_t),
+        ("triangle_stride", c_size_t),
+        ("weld_distance", c_double),
+        ("out_repairs", c_void_p),
+        ("out_node_map", c_void_p),
+        ("orient", c_uint32),
+        ("index_base", c_uint32),
+    ]
+    arrays = {
+        "out_node_map": ("nodes",),
+    }
+
+
+class planish_mesh_repairs(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("welded_node_count", c_size_t),
+        ("dropped_triangle_count", c_size_t),
+        ("flipped_triangle_count", c_size_t),
+        ("dropped_parameters", c_uint32),
+        ("reserved", c_uint32),
+    ]
+
+
+class planish_decimate_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("target_count", c_size_t),
+        ("sharp_angle", c_double),
+        ("corner_angle", c_double),
+        ("sharp_edges", c_void_p),
+        ("sharp_edge_count", c_size_t),
+        ("out_sharp_edges", c_void_p),
+        ("out_sharp_edge_count", c_size_t),
+        ("progress", planish_progress),
+        ("user", c_void_p),
+        ("keep_map", c_uint32),
+        ("reserved", c_uint32),
+    ]
+    arrays = {
+        "sharp_edges": ("sharp_edge_count", "2",),
+        "out_sharp_edges": ("out_sharp_edge_count", "2",),
+    }
+
+
+class planish_decimate_report(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("collapse_count", c_size_t),
+        ("excess_count", c_size_t),
+        ("sharp_edge_count", c_size_t),
+        ("seconds", c_double),
+    ]
+
+
+class planish_parameterize_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("node_weights", c_void_p),
+        ("progress", planish_progress),
+        ("user", c_void_p),
+        ("bulge", c_double),
+        ("boundary_slide", c_double),
+        ("method", c_uint32),
+        ("border", c_uint32),
+        ("corners", c_uint32 * 4),
+        ("stretch_steps", c_uint32),
+        ("rings", c_uint32),
+        ("fill_holes", c_uint32),
+        ("unroll", c_uint32),
+        ("thread_count", c_uint32),
+        ("reserved", c_uint32),
+    ]
+    choices = {
+        "method": "planish_map_method",
+        "border": "planish_border",
+    }
+    arrays = {
+        "node_weights": ("nodes",),
+    }
+
+
+class planish_parameterize_report(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("stretch", c_double),
+        ("max_stretch", c_double),
+        ("area_ratio", c_double),
+        ("seconds", c_double),
+        ("flipped_count", c_size_t),
+        ("degenerate_count", c_size_t),
+        ("solve_count", c_size_t),
+        ("step_count", c_size_t),
+        ("remarks", c_uint64),
+        ("border", c_uint32),
+        ("border_slid", c_uint32),
+    ]
+    choices = {
+        "border": "planish_border",
+    }
+    bits = {
+        "remarks": "planish_remark",
+    }
+
+
+class planish_fit_report(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("max_error", c_double),
+        ("rms_error", c_double),
+        ("mean_error", c_double),
+        ("tolerance", c_double),
+        ("diagonal", c_double),
+        ("max_interior_error", c_double),
+        ("facet_sagitta", c_double),
+        ("max_distance", c_double),
+        ("smoothing", c_double),
+        ("stretch", c_double),
+        ("parameterize_seconds", c_double),
+        ("seconds", c_double),
+        ("worst_index", c_size_t),
+        ("grid_u", c_size_t),
+        ("grid_v", c_size_t),
+        ("coefficient_count", c_size_t),
+        ("empty_cell_count", c_size_t),
+        ("flipped_count", c_size_t),
+        ("remarks", c_uint64),
+        ("pass_count", c_uint32),
+        ("stop_reason", c_uint32),
+        ("cell_count", c_size_t),
+        ("rough_cell_count", c_size_t),
+        ("deepest_level", c_uint32),
+        ("reserved", c_uint32),
+    ]
+    choices = {
+        "stop_reason": "planish_stop_reason",
+    }
+    bits = {
+        "remarks": "planish_remark",
+    }
+
+
+class planish_eval_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("uv_stride", c_size_t),
+        ("out_stride", c_size_t),
+        ("out_flags", c_void_p),
+        ("outside", c_uint32),
+        ("thread_count", c_uint32),
+    ]
+    choices = {
+        "outside": "planish_outside",
+    }
+    bits = {
+        "out_flags": "planish_flag",
+    }
+    arrays = {
+        "out_flags": ("points",),
+    }
+
+
+class planish_patch(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("u_min", c_double),
+        ("u_max", c_double),
+        ("v_min", c_double),
+        ("v_max", c_double),
+        ("ordinate_count", c_size_t),
+        ("ordinate_width", c_size_t),
+        ("degree_u", c_uint32),
+        ("degree_v", c_uint32),
+        ("is_rational", c_uint32),
+        ("reserved", c_uint32),
+    ]
+
+
+class planish_convert_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("max_coefficients", c_size_t),
+    ]
+
+
+class planish_tensor_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("tolerance", c_double),
+        ("smoothing", c_double),
+        ("buffer", c_double),
+        ("parameterize", c_void_p),
+        ("weights", c_void_p),
+        ("progress", planish_progress),
+        ("user", c_void_p),
+        ("out_parameters", c_void_p),
+        ("out_errors", c_void_p),
+        ("max_coefficients", c_size_t),
+        ("tolerance_scale", c_uint32),
+        ("method", c_uint32),
+        ("ends", c_uint32),
+        ("energy", c_uint32),
+        ("regularize", c_uint32),
+        ("max_grid", c_uint32),
+        ("grid_u", c_uint32),
+        ("grid_v", c_uint32),
+        ("correction_sweeps", c_uint32),
+        ("measure_distance", c_uint32),
+        ("thread_count", c_uint32),
+        ("reserved", c_uint32),
+    ]
+    choices = {
+        "tolerance_scale": "planish_tolerance_scale",
+        "method": "planish_tensor_method",
+        "ends": "planish_ends",
+        "energy": "planish_energy",
+        "regularize": "planish_regularize",
+    }
+    arrays = {
+        "weights": ("data",),
+        "out_parameters": ("data", "2",),
+        "out_errors": ("data",),
+    }
+
+
+class planish_field_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("tolerance", c_double),
+        ("smoothing", c_double),
+        ("buffer", c_double),
+        ("parameterize", c_void_p),
+        ("weights", c_void_p),
+        ("mask", c_void_p),
+        ("sample_values", c_void_p),
+        ("sample_dim", c_size_t),
+        ("progress", planish_progress),
+        ("user", c_void_p),
+        ("tolerance_scale", c_uint32),
+        ("ends", c_uint32),
+        ("energy", c_uint32),
+        ("grid_u", c_uint32),
+        ("grid_v", c_uint32),
+        ("thread_count", c_uint32),
+    ]
+    choices = {
+        "tolerance_scale": "planish_tolerance_scale",
+        "ends": "planish_ends",
+        "energy": "planish_energy",
+    }
+    arrays = {
+        "weights": ("nodes",),
+        "mask": ("nodes",),
+        "sample_values": ("nodes", "sample_dim",),
+    }
+
+
+class planish_transfer_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("field", c_void_p),
+        ("max_distance", c_double),
+        ("distance_scale", c_uint32),
+        ("far_rule", c_uint32),
+    ]
+    choices = {
+        "distance_scale": "planish_tolerance_scale",
+        "far_rule": "planish_far_rule",
+    }
+
+
+class planish_transfer_report(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("max_distance", c_double),
+        ("rms_distance", c_double),
+        ("limit", c_double),
+        ("max_shape_error", c_double),
+        ("rms_shape_error", c_double),
+        ("seconds", c_double),
+        ("farthest_index", c_size_t),
+        ("far_count", c_size_t),
+        ("grid_u", c_size_t),
+        ("grid_v", c_size_t),
+        ("coefficient_count", c_size_t),
+        ("remarks", c_uint64),
+    ]
+    bits = {
+        "remarks": "planish_remark",
+    }
+
+
+class planish_balance_report(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("force_given", c_double * 3),
+        ("force_arrived", c_double * 3),
+        ("force_error", c_double),
+        ("moment_given", c_double * 3),
+        ("moment_arrived", c_double * 3),
+        ("moment_error", c_double),
+        ("moment_bound", c_double),
+        ("work_given", c_double),
+        ("work_arrived", c_double),
+        ("work_error", c_double),
+    ]
+
+
+class planish_tessellate_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("chord_tolerance", c_double),
+        ("max_edge_length", c_double),
+        ("max_point_count", c_size_t),
+        ("keep_trims", c_uint32),
+        ("reserved", c_uint32),
+        ("out_report", c_void_p),
+    ]
+
+
+class planish_tessellate_report(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("smallest_angle", c_double),
+        ("chord_error", c_double),
+    ]
+
+
+class planish_project_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("guesses", c_void_p),
+        ("max_distance", c_double),
+        ("keep_trims", c_uint32),
+        ("thread_count", c_uint32),
+    ]
+    arrays = {
+        "guesses": ("points", "2",),
+    }
+
+
+class planish_deviation_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("chord_tolerance", c_double),
+        ("max_edge_length", c_double),
+        ("keep_trims", c_uint32),
+        ("use_parameters", c_uint32),
+        ("measure_back", c_uint32),
+        ("thread_count", c_uint32),
+    ]
+
+
+class planish_deviation_report(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("max_distance", c_double),
+        ("rms_distance", c_double),
+        ("mean_distance", c_double),
+        ("max_back_distance", c_double),
+        ("worst_back_u", c_double),
+        ("worst_back_v", c_double),
+        ("worst_index", c_size_t),
+        ("back_count", c_size_t),
+    ]
+
+
+class planish_sample_rows_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("spacing", c_double),
+        ("begin_index", c_size_t),
+        ("end_index", c_size_t),
+        ("progress", planish_progress),
+        ("user", c_void_p),
+        ("begin", c_uint32),
+        ("end", c_uint32),
+    ]
+    choices = {
+        "begin": "planish_row_source",
+        "end": "planish_row_source",
+    }
+
+
+class planish_vtk_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("deviation_from", c_void_p),
+        ("tessellate", c_void_p),
+        ("thread_count", c_uint32),
+        ("content", c_uint32),
+    ]
+    choices = {
+        "content": "planish_vtk_content",
+    }
+
+
+class planish_step_report(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("curve_deviation", c_double),
+        ("uncertainty", c_double),
+        ("diagonal", c_double),
+        ("loop_count", c_size_t),
+        ("edge_count", c_size_t),
+        ("face_count", c_size_t),
+        ("pole_count", c_size_t),
+    ]
+
+
+class planish_step_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("product", c_char_p),
+        ("author", c_char_p),
+        ("organization", c_char_p),
+        ("timestamp", c_char_p),
+        ("out_report", c_void_p),
+        ("schema", c_uint32),
+        ("unit", c_uint32),
+        ("max_coefficients", c_size_t),
+        ("form", c_uint32),
+        ("level_spread", c_uint32),
+        ("tolerance", c_double),
+    ]
+    choices = {
+        "schema": "planish_step_schema",
+        "unit": "planish_unit",
+        "form": "planish_step_form",
+    }
+
+
+class planish_interpolate_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("end_slopes", c_void_p),
+        ("ends", c_uint32),
+        ("reserved", c_uint32),
+    ]
+    choices = {
+        "ends": "planish_section_ends",
+    }
+    arrays = {
+        "end_slopes": ("2", "dim",),
+    }
+
+
+class planish_skin_report(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("overshoot", c_double),
+        ("certified_distance", c_double),
+        ("v_error", c_double),
+        ("twisted_row", c_int64),
+        ("curve_count", c_size_t),
+        ("least_count", c_size_t),
+        ("largest_count", c_size_t),
+        ("tensor_count", c_size_t),
+        ("strip_count", c_size_t),
+        ("common_count", c_size_t),
+        ("removed_knot_count", c_size_t),
+        ("merged_point_count", c_size_t),
+        ("aligned_row_count", c_size_t),
+    ]
+
+
+class planish_skin_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("tolerance", c_double),
+        ("end_slopes", c_void_p),
+        ("begin_tangents", c_void_p),
+        ("end_tangents", c_void_p),
+        ("progress", planish_progress),
+        ("user", c_void_p),
+        ("out_parameters", c_void_p),
+        ("out_errors", c_void_p),
+        ("out_report", c_void_p),
+        ("dim", c_size_t),
+        ("tolerance_scale", c_uint32),
+        ("method", c_uint32),
+        ("closed", c_uint32),
+        ("ends", c_uint32),
+        ("closed_v", c_uint32),
+        ("v_rule", c_uint32),
+        ("align", c_uint32),
+        ("approximate_v", c_uint32),
+        ("extra_checks", c_uint32),
+        ("batch", c_uint32),
+        ("removal", c_uint32),
+        ("certify", c_uint32),
+        ("compare", c_uint32),
+        ("thread_count", c_uint32),
+    ]
+    choices = {
+        "tolerance_scale": "planish_tolerance_scale",
+        "method": "planish_skin_method",
+        "ends": "planish_section_ends",
+        "v_rule": "planish_v_rule",
+    }
+    arrays = {
+        "end_slopes": ("rows", "2", "dim",),
+        "begin_tangents": ("*", "dim",),
+        "end_tangents": ("*", "dim",),
+        "out_parameters": ("data", "2",),
+        "out_errors": ("data",),
+    }
+
+
+class planish_pht_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("tolerance", c_double),
+        ("smoothing", c_double),
+        ("parameterize", c_void_p),
+        ("weights", c_void_p),
+        ("progress", planish_progress),
+        ("user", c_void_p),
+        ("out_parameters", c_void_p),
+        ("out_errors", c_void_p),
+        ("max_cells", c_size_t),
+        ("tolerance_scale", c_uint32),
+        ("estimator", c_uint32),
+        ("regularize", c_uint32),
+        ("grid_u", c_uint32),
+        ("grid_v", c_uint32),
+        ("max_level", c_uint32),
+        ("min_samples", c_uint32),
+        ("grade", c_uint32),
+        ("correction_sweeps", c_uint32),
+        ("measure_distance", c_uint32),
+        ("thread_count", c_uint32),
+        ("reserved", c_uint32),
+    ]
+    choices = {
+        "tolerance_scale": "planish_tolerance_scale",
+        "estimator": "planish_pht_estimator",
+        "regularize": "planish_regularize",
+    }
+    arrays = {
+        "weights": ("data",),
+        "out_parameters": ("data", "2",),
+        "out_errors": ("data",),
+    }
+
+
+class planish_pht_convert_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("tolerance", c_double),
+        ("max_cells", c_size_t),
+        ("max_level", c_uint32),
+        ("reserved", c_uint32),
+    ]
+
+
+class planish_d1rc_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("sharp_edges", c_void_p),
+        ("sharp_edge_count", c_size_t),
+        ("corners", c_void_p),
+        ("corner_count", c_size_t),
+        ("sharp_angle", c_double),
+        ("sharp_weight", c_double),
+        ("parameterize", c_void_p),
+        ("progress", planish_progress),
+        ("user", c_void_p),
+        ("tolerance", c_double),
+        ("smoothing", c_double),
+        ("control_mesh", c_void_p),
+        ("weights", c_void_p),
+        ("out_parameters", c_void_p),
+        ("out_errors", c_void_p),
+        ("control_count", c_size_t),
+        ("max_control_count", c_size_t),
+        ("degree", c_uint32),
+        ("mode", c_uint32),
+        ("boundary", c_uint32),
+        ("sharp", c_uint32),
+        ("tolerance_scale", c_uint32),
+        ("correction_sweeps", c_uint32),
+        ("thread_count", c_uint32),
+        ("reserved", c_uint32),
+    ]
+    choices = {
+        "mode": "planish_d1rc_mode",
+        "boundary": "planish_d1rc_boundary",
+        "sharp": "planish_d1rc_sharp",
+        "tolerance_scale": "planish_tolerance_scale",
+    }
+    arrays = {
+        "sharp_edges": ("sharp_edge_count", "2",),
+        "corners": ("corner_count",),
+        "weights": ("nodes",),
+        "out_parameters": ("nodes", "2",),
+        "out_errors": ("nodes",),
+    }
+
+
+#: Bytes of each record.
+SIZES = {
+    planish_mesh_options: 56,
+    planish_mesh_repairs: 40,
+    planish_decimate_options: 88,
+    planish_decimate_report: 40,
+    planish_parameterize_options: 96,
+    planish_parameterize_report: 88,
+    planish_fit_report: 192,
+    planish_eval_options: 40,
+    planish_patch: 72,
+    planish_convert_options: 16,
+    planish_tensor_options: 136,
+    planish_field_options: 112,
+    planish_transfer_options: 32,
+    planish_transfer_report: 104,
+    planish_balance_report: 152,
+    planish_tessellate_options: 48,
+    planish_tessellate_report: 24,
+    planish_project_options: 32,
+    planish_deviation_options: 40,
+    planish_deviation_report: 72,
+    planish_sample_rows_options: 56,
+    planish_vtk_options: 32,
+    planish_step_report: 64,
+    planish_step_options: 80,
+    planish_interpolate_options: 24,
+    planish_skin_report: 112,
+    planish_skin_options: 144,
+    planish_pht_options: 128,
+    planish_pht_convert_options: 32,
+    planish_d1rc_options: 176,
+}
+if sizeof(c_void_p) == 8:
+    for _record, _size in SIZES.items():
+        assert sizeof(_record) == _size, _record.__name__
+
+#: The types of each function's result and arguments.
+FUNCTIONS = {
+    "planish_version": (c_char_p,),
+    "planish_status_name": (c_char_p, c_int32),
+    "planish_error_message": (c_size_t, c_void_p, c_size_t),
+    "planish_error_index": (c_int64,),
+    "planish_mesh_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_mesh_new": (c_int32, c_void_p, c_size_t, c_void_p, c_size_t, c_void_p, c_void_p),
+    "planish_mesh_read": (c_int32, c_char_p, c_void_p, c_void_p),
+    "planish_mesh_clone": (c_int32, c_void_p, c_void_p),
+    "planish_mesh_free": (None, c_void_p),
+    "planish_mesh_point_count": (c_size_t, c_void_p),
+    "planish_mesh_triangle_count": (c_size_t, c_void_p),
+    "planish_mesh_edge_count": (c_size_t, c_void_p),
+    "planish_mesh_component_count": (c_size_t, c_void_p),
+    "planish_mesh_genus": (c_size_t, c_void_p),
+    "planish_mesh_euler_characteristic": (c_int64, c_void_p),
+    "planish_mesh_loop_count": (c_size_t, c_void_p),
+    "planish_mesh_loop_point_count": (c_size_t, c_void_p, c_size_t),
+    "planish_mesh_copy_points": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_mesh_copy_triangles": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_mesh_copy_loop": (c_int32, c_void_p, c_size_t, c_void_p, c_size_t),
+    "planish_mesh_field_count": (c_size_t, c_void_p),
+    "planish_mesh_field_name": (c_size_t, c_void_p, c_size_t, c_void_p, c_size_t),
+    "planish_mesh_copy_field": (c_int32, c_void_p, c_char_p, c_void_p, c_size_t),
+    "planish_mesh_set_field": (c_int32, c_void_p, c_char_p, c_void_p, c_size_t),
+    "planish_mesh_has_parameters": (c_uint32, c_void_p),
+    "planish_mesh_set_parameters": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_mesh_copy_parameters": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_mesh_remove_triangles": (c_int32, c_void_p, c_void_p, c_size_t, c_void_p),
+    "planish_mesh_cut_along": (c_int32, c_void_p, c_void_p, c_size_t, c_void_p),
+    "planish_mesh_split_components": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_mesh_shortest_path": (c_int32, c_void_p, c_uint32, c_uint32, c_void_p, c_size_t, c_void_p),
+    "planish_decimate_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_mesh_decimate": (c_int32, c_void_p, c_void_p, c_void_p, c_void_p),
+    "planish_parameterize_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_mesh_parameterize": (c_int32, c_void_p, c_void_p, c_void_p),
+    "planish_eval_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_surface_kind": (c_uint32, c_void_p),
+    "planish_surface_dim": (c_size_t, c_void_p),
+    "planish_surface_coefficient_count": (c_size_t, c_void_p),
+    "planish_surface_domain": (c_int32, c_void_p, c_void_p),
+    "planish_surface_data_box": (c_int32, c_void_p, c_void_p),
+    "planish_surface_eval": (c_int32, c_void_p, c_void_p, c_size_t, c_void_p, c_void_p),
+    "planish_surface_eval_derivatives": (c_int32, c_void_p, c_void_p, c_size_t, c_uint32, c_void_p, c_void_p),
+    "planish_surface_eval_grid": (c_int32, c_void_p, c_void_p, c_size_t, c_void_p, c_size_t, c_void_p, c_void_p),
+    "planish_surface_normals": (c_int32, c_void_p, c_void_p, c_size_t, c_void_p, c_void_p),
+    "planish_surface_curvatures": (c_int32, c_void_p, c_void_p, c_size_t, c_void_p, c_void_p),
+    "planish_surface_trim_count": (c_size_t, c_void_p),
+    "planish_surface_trim_point_count": (c_size_t, c_void_p, c_size_t),
+    "planish_surface_copy_trim": (c_int32, c_void_p, c_size_t, c_void_p, c_size_t),
+    "planish_surface_set_trims": (c_int32, c_void_p, c_void_p, c_void_p, c_size_t),
+    "planish_surface_clone": (c_int32, c_void_p, c_void_p),
+    "planish_surface_free": (None, c_void_p),
+    "planish_surface_patch_count": (c_size_t, c_void_p),
+    "planish_surface_patch_at": (c_size_t, c_void_p, c_double, c_double),
+    "planish_surface_copy_patch": (c_int32, c_void_p, c_size_t, c_void_p, c_void_p, c_size_t),
+    "planish_convert_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_surface_to_tensor": (c_int32, c_void_p, c_void_p, c_void_p),
+    "planish_tensor_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_tensor_fit": (c_int32, c_void_p, c_void_p, c_void_p, c_void_p),
+    "planish_tensor_fit_points": (c_int32, c_void_p, c_void_p, c_size_t, c_size_t, c_void_p, c_void_p, c_void_p),
+    "planish_tensor_fit_field": (c_int32, c_void_p, c_void_p, c_size_t, c_size_t, c_void_p, c_void_p, c_void_p),
+    "planish_tensor_new": (c_int32, c_size_t, c_uint32, c_uint32, c_void_p, c_size_t, c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
+    "planish_tensor_degree": (c_uint32, c_void_p, c_uint32),
+    "planish_tensor_knot_count": (c_size_t, c_void_p, c_uint32),
+    "planish_tensor_control_point_count": (c_size_t, c_void_p, c_uint32),
+    "planish_tensor_copy_knots": (c_int32, c_void_p, c_uint32, c_void_p, c_size_t),
+    "planish_tensor_copy_control_points": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_tensor_has_weights": (c_uint32, c_void_p),
+    "planish_tensor_copy_weights": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_tensor_insert_knots": (c_int32, c_void_p, c_uint32, c_void_p, c_size_t),
+    "planish_tensor_elevate_degree": (c_int32, c_void_p, c_uint32, c_uint32),
+    "planish_tensor_reverse": (c_int32, c_void_p, c_uint32),
+    "planish_tensor_split": (c_int32, c_void_p, c_uint32, c_double, c_void_p, c_void_p),
+    "planish_field_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_field_fitter_new": (c_int32, c_void_p, c_void_p, c_void_p),
+    "planish_field_fitter_new_points": (c_int32, c_void_p, c_size_t, c_void_p, c_void_p),
+    "planish_field_fitter_free": (None, c_void_p),
+    "planish_field_fitter_point_count": (c_size_t, c_void_p),
+    "planish_field_fitter_grid": (c_int32, c_void_p, c_void_p),
+    "planish_field_fitter_copy_parameters": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_field_fitter_fit": (c_int32, c_void_p, c_void_p, c_size_t, c_size_t, c_void_p, c_void_p),
+    "planish_field_fitter_update": (c_int32, c_void_p, c_void_p, c_void_p, c_size_t, c_size_t),
+    "planish_tensor_combine": (c_int32, c_void_p, c_void_p, c_size_t, c_void_p),
+    "planish_surface_field_gradient": (c_int32, c_void_p, c_void_p, c_void_p, c_size_t, c_uint32, c_void_p),
+    "planish_transfer_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_transfer_new": (c_int32, c_void_p, c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
+    "planish_transfer_free": (None, c_void_p),
+    "planish_transfer_source_count": (c_size_t, c_void_p),
+    "planish_transfer_target_count": (c_size_t, c_void_p),
+    "planish_transfer_copy_parameters": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_transfer_copy_distances": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_transfer_apply": (c_int32, c_void_p, c_void_p, c_size_t, c_size_t, c_void_p),
+    "planish_transfer_apply_transpose": (c_int32, c_void_p, c_void_p, c_size_t, c_size_t, c_void_p),
+    "planish_transfer_balance": (c_int32, c_void_p, c_void_p, c_size_t, c_void_p, c_size_t, c_void_p, c_void_p),
+    "planish_tessellate_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_surface_tessellate": (c_int32, c_void_p, c_void_p, c_void_p),
+    "planish_project_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_surface_project": (c_int32, c_void_p, c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
+    "planish_deviation_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_surface_deviation": (c_int32, c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p),
+    "planish_sample_rows_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_mesh_sample_rows": (c_int32, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p, c_size_t, c_void_p),
+    "planish_vtk_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_surface_write_vtk": (c_int32, c_void_p, c_char_p, c_void_p),
+    "planish_surface_save_size": (c_size_t, c_void_p),
+    "planish_surface_save": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_surface_load": (c_int32, c_void_p, c_size_t, c_void_p),
+    "planish_surface_save_file": (c_int32, c_void_p, c_char_p),
+    "planish_surface_load_file": (c_int32, c_char_p, c_void_p),
+    "planish_step_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_surface_write_step": (c_int32, c_void_p, c_char_p, c_void_p),
+    "planish_curve_fit": (c_int32, c_void_p, c_void_p, c_size_t, c_size_t, c_void_p, c_void_p, c_void_p),
+    "planish_curve_new": (c_int32, c_size_t, c_uint32, c_void_p, c_size_t, c_void_p, c_void_p),
+    "planish_interpolate_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_curve_interpolate": (c_int32, c_void_p, c_void_p, c_size_t, c_size_t, c_void_p, c_void_p),
+    "planish_curve_dim": (c_size_t, c_void_p),
+    "planish_curve_degree": (c_uint32, c_void_p),
+    "planish_curve_knot_count": (c_size_t, c_void_p),
+    "planish_curve_control_point_count": (c_size_t, c_void_p),
+    "planish_curve_copy_knots": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_curve_copy_control_points": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_curve_domain": (c_int32, c_void_p, c_void_p),
+    "planish_curve_eval": (c_int32, c_void_p, c_void_p, c_size_t, c_uint32, c_void_p, c_void_p),
+    "planish_curve_clone": (c_int32, c_void_p, c_void_p),
+    "planish_curve_free": (None, c_void_p),
+    "planish_curve_length": (c_double, c_void_p),
+    "planish_curve_arc_lengths": (c_int32, c_void_p, c_void_p, c_size_t, c_void_p),
+    "planish_curve_project": (c_int32, c_void_p, c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
+    "planish_curve_save_size": (c_size_t, c_void_p),
+    "planish_curve_save": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_curve_load": (c_int32, c_void_p, c_size_t, c_void_p),
+    "planish_curve_save_file": (c_int32, c_void_p, c_char_p),
+    "planish_curve_load_file": (c_int32, c_char_p, c_void_p),
+    "planish_skin_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_tspline_skin": (c_int32, c_void_p, c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
+    "planish_tspline_skin_curves": (c_int32, c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
+    "planish_tspline_new": (c_int32, c_void_p, c_size_t, c_void_p, c_size_t, c_void_p),
+    "planish_tspline_curve_count": (c_size_t, c_void_p),
+    "planish_tspline_clone_curve": (c_int32, c_void_p, c_size_t, c_void_p),
+    "planish_tspline_knot_count": (c_size_t, c_void_p),
+    "planish_tspline_copy_knots": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_tspline_insert_knot_u": (c_int32, c_void_p, c_size_t, c_double),
+    "planish_tspline_insert_knot_v": (c_int32, c_void_p, c_double),
+    "planish_tspline_remove_knot_u": (c_int32, c_void_p, c_size_t, c_size_t, c_double, c_void_p),
+    "planish_pht_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_pht_fit": (c_int32, c_void_p, c_void_p, c_void_p, c_void_p),
+    "planish_pht_fit_points": (c_int32, c_void_p, c_void_p, c_size_t, c_size_t, c_void_p, c_void_p, c_void_p),
+    "planish_pht_fit_field": (c_int32, c_void_p, c_void_p, c_size_t, c_size_t, c_void_p, c_void_p, c_void_p),
+    "planish_pht_new": (c_int32, c_size_t, c_uint32, c_void_p, c_size_t, c_void_p, c_size_t, c_void_p, c_size_t, c_void_p, c_size_t, c_void_p),
+    "planish_pht_split": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_pht_merge": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_pht_simplify": (c_int32, c_void_p, c_double, c_void_p),
+    "planish_pht_refine_region": (c_int32, c_void_p, c_void_p, c_uint32, c_size_t),
+    "planish_pht_convert_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_pht_from_surface": (c_int32, c_void_p, c_void_p, c_void_p),
+    "planish_pht_to_tensor_patches": (c_int32, c_void_p, c_uint32, c_void_p, c_size_t, c_void_p),
+    "planish_pht_stitch": (c_int32, c_void_p, c_uint32, c_void_p, c_uint32, c_uint32),
+    "planish_pht_cell_count": (c_size_t, c_void_p),
+    "planish_pht_vertex_count": (c_size_t, c_void_p),
+    "planish_pht_hanging_count": (c_size_t, c_void_p),
+    "planish_pht_width": (c_size_t, c_void_p),
+    "planish_pht_copy_cells": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_pht_copy_vertices": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_pht_copy_hanging": (c_int32, c_void_p, c_void_p, c_void_p, c_size_t),
+    "planish_pht_copy_neighbours": (c_int32, c_void_p, c_size_t, c_void_p, c_size_t, c_void_p),
+    "planish_pht_copy_data": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_pht_set_data": (c_int32, c_void_p, c_void_p, c_size_t, c_void_p),
+    "planish_pht_copy_control_points": (c_int32, c_void_p, c_uint32, c_void_p, c_size_t),
+    "planish_pht_set_control_points": (c_int32, c_void_p, c_void_p, c_size_t, c_uint32, c_void_p),
+    "planish_pht_copy_extraction": (c_int32, c_void_p, c_size_t, c_uint32, c_void_p, c_void_p, c_size_t, c_void_p),
+    "planish_pht_cell_at": (c_size_t, c_void_p, c_double, c_double),
+    "planish_d1rc_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_d1rc_new": (c_int32, c_void_p, c_void_p, c_void_p),
+    "planish_d1rc_degree": (c_uint32, c_void_p),
+    "planish_d1rc_set_sharp_edges": (c_int32, c_void_p, c_void_p, c_size_t, c_void_p, c_size_t),
+    "planish_d1rc_copy_sharp_edges": (c_int32, c_void_p, c_void_p, c_size_t, c_void_p),
+    "planish_d1rc_copy_control_points": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_d1rc_set_control_points": (c_int32, c_void_p, c_void_p, c_size_t, c_void_p),
+    "planish_d1rc_edge_continuity": (c_int32, c_void_p, c_void_p, c_size_t, c_void_p),
+    "planish_d1rc_copy_influence": (c_int32, c_void_p, c_uint32, c_void_p, c_size_t, c_void_p),
+    "planish_d1rc_blending_values": (c_int32, c_void_p, c_uint32, c_void_p, c_size_t, c_void_p),
+    "planish_d1rc_knot_count": (c_size_t, c_void_p),
+    "planish_d1rc_copy_knots": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_d1rc_configuration_count": (c_size_t, c_void_p),
+    "planish_d1rc_copy_configuration": (c_int32, c_void_p, c_size_t, c_void_p, c_void_p, c_size_t, c_void_p),
+    "planish_d1rc_fit": (c_int32, c_void_p, c_void_p, c_void_p, c_void_p),
+}
+
+#: Arguments that stand for an enumerator: function, argument, enumeration.
+CHOICES = {
+    ("planish_surface_kind", "return"): "planish_kind",
+    ("planish_tensor_degree", "axis"): "planish_axis",
+    ("planish_tensor_knot_count", "axis"): "planish_axis",
+    ("planish_tensor_control_point_count", "axis"): "planish_axis",
+    ("planish_tensor_copy_knots", "axis"): "planish_axis",
+    ("planish_tensor_insert_knots", "axis"): "planish_axis",
+    ("planish_tensor_elevate_degree", "axis"): "planish_axis",
+    ("planish_tensor_reverse", "axis"): "planish_axis",
+    ("planish_tensor_split", "axis"): "planish_axis",
+    ("planish_pht_stitch", "first_side"): "planish_border_side",
+    ("planish_pht_stitch", "second_side"): "planish_border_side",
+    ("planish_pht_copy_control_points", "basis"): "planish_pht_basis",
+    ("planish_pht_set_control_points", "basis"): "planish_pht_basis",
+    ("planish_pht_copy_extraction", "basis"): "planish_pht_basis",
+}
+
+
+def declare(library):
+    """Tells a loaded library the types of its functions' arguments and results."""
+    for name, (result, *arguments) in FUNCTIONS.items():
+        function = getattr(library, name)
+        function.restype = result
+        function.argtypes = arguments

@@ -1,0 +1,163 @@
+//! The files of `src/ffi`, with every `record!` written out: cbindgen does not look into macros.
+
+use std::error::Error;
+use std::fs;
+use std::path::Path;
+use syn::parse::{Parse, ParseStream};
+use syn::punctuated::Punctuated;
+use syn::{Attribute, Expr, Ident, Item, Token, Type, Visibility, parse_quote};
+
+/// The files in the order of the header.
+const ORDER: &[&str] = &[
+    "status.rs",
+    "progress.rs",
+    "mesh.rs",
+    "decimate.rs",
+    "parameterize.rs",
+    "report.rs",
+    "surface.rs",
+    "patch.rs",
+    "tensor.rs",
+    "field.rs",
+    "transfer.rs",
+    "query.rs",
+    "rows.rs",
+    "export.rs",
+    "step.rs",
+    "curve.rs",
+    "curve_query.rs",
+    "tspline.rs",
+    "pht.rs",
+    "pht_parts.rs",
+    "d1rc.rs",
+    "d1rc_fit.rs",
+];
+
+/// A file and what it declares.
+pub struct Source {
+    pub name: &'static str,
+    pub file: syn::File,
+}
+
+/// `record! { pub struct planish_x_options (init planish_x_options_init) { pub field: type = default, } }`
+struct Record {
+    attributes: Vec<Attribute>,
+    visibility: Visibility,
+    name: Ident,
+    init: Option<Ident>,
+    fields: Punctuated<Field, Token![,]>,
+}
+
+struct Field {
+    attributes: Vec<Attribute>,
+    visibility: Visibility,
+    name: Ident,
+    of: Type,
+}
+
+impl Parse for Record {
+    fn parse(input: ParseStream) -> syn::Result<Self> {
+        let attributes = input.call(Attribute::parse_outer)?;
+        let visibility = input.parse()?;
+        input.parse::<Token![struct]>()?;
+        let name = input.parse()?;
+        let mut init = None;
+        if input.peek(syn::token::Paren) {
+            let inner;
+            syn::parenthesized!(inner in input);
+            inner.parse::<Ident>()?;
+            init = Some(inner.parse()?);
+        }
+        let inner;
+        syn::braced!(inner in input);
+        let fields = inner.parse_terminated(Field::parse, Token![,])?;
+        Ok(Self { attributes, visibility, name, init, fields })
+    }
+}
+
+impl Parse for Field {
+    fn parse(input: ParseStream) -> syn::Result<Self> {
+        let attributes = input.call(Attribute::parse_outer)?;
+        let visibility = input.parse()?;
+        let name = input.parse()?;
+        input.parse::<Token![:]>()?;
+        let of = input.parse()?;
+        if input.parse::<Option<Token![=]>>()?.is_some() {
+            input.parse::<Expr>()?;
+        }
+        Ok(Self { attributes, visibility, name, of })
+    }
+}
+
+impl Record {
+    /// What the macro declares for C: the record, its size first, and the function that fills it.
+    fn items(&self) -> Vec<Item> {
+        let Self { attributes, visibility, name, .. } = self;
+        let told = match &self.init {
+            Some(init) => format!(" Set by {init}()."),
+            None => format!(" sizeof({name}) as the caller sees it."),
+        };
+        let fields = self.fields.iter().map(|field| {
+            let Field { attributes, visibility, name, of } = field;
+            quote::quote!(#(#attributes)* #visibility #name: #of)
+        });
+        let mut items = vec![parse_quote! {
+            #(#attributes)*
+            #[repr(C)]
+            #visibility struct #name {
+                #[doc = #told]
+                pub struct_size: usize,
+                #(#fields,)*
+            }
+        }];
+        if let Some(init) = &self.init {
+            let size = format!(" struct_size: sizeof({name}).");
+            items.push(parse_quote! {
+                /// Fills options with the defaults.
+                ///
+                /// options:     struct_size writable bytes.
+                #[doc = #size]
+                /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+                #[unsafe(no_mangle)]
+                pub unsafe extern "C" fn #init(options: *mut #name, struct_size: usize) -> planish_status {}
+            });
+        }
+        items
+    }
+}
+
+/// The items of a file with those of its records.
+fn written_out(items: Vec<Item>) -> syn::Result<Vec<Item>> {
+    let mut all = Vec::new();
+    for item in items {
+        match &item {
+            Item::Macro(call) if is_record(call) => {
+                all.extend(call.mac.parse_body::<Record>()?.items());
+            }
+            _ => all.push(item),
+        }
+    }
+    Ok(all)
+}
+
+fn is_record(call: &syn::ItemMacro) -> bool {
+    call.mac.path.is_ident("record") && matches!(call.mac.delimiter, syn::MacroDelimiter::Brace(_))
+}
+
+/// All files that have a part in the header. One that `mod.rs` publishes but ORDER does not know is an error.
+pub fn read(folder: &Path) -> Result<Vec<Source>, Box<dyn Error>> {
+    let published = fs::read_to_string(folder.join("mod.rs"))?;
+    let published = published.lines().filter_map(|line| line.strip_prefix("pub use ")?.strip_suffix("::*;"));
+    for module in published {
+        if !ORDER.iter().any(|name| name.strip_suffix(".rs") == Some(module)) {
+            return Err(format!("tools/header/src/sources.rs: ORDER lacks \"{module}.rs\"").into());
+        }
+    }
+    let parsed = ORDER.iter().map(|&name| -> Result<Source, Box<dyn Error>> {
+        let told = |error| format!("src/ffi/{name}: {error}");
+        let mut file = syn::parse_file(&fs::read_to_string(folder.join(name))?).map_err(told)?;
+        file.items = written_out(file.items).map_err(told)?;
+        Ok(Source { name, file })
+    });
+    parsed.collect()
+}
