@@ -51,6 +51,7 @@ pub mod knots;
 pub mod layout;
 pub mod linalg;
 pub mod mesh;
+mod options;
 pub mod parameterize;
 pub mod query;
 pub mod refinement;

@@ -1,8 +1,8 @@
 //! Curve fits against the measured table of the method.
 
 use planish::Control;
-use planish::fit::curve::fit_curve;
-use planish::fit::tensor::{Method, TensorOptions};
+use planish::fit::common::uniform::Method;
+use planish::fit::curve::{CurveOptions, fit_curve};
 use std::f64::consts::PI;
 
 /// Knots, and sums of squared errors of the paper's equations and of least squares, with smoothing 1e-3.
@@ -28,12 +28,10 @@ fn a_curve_with_two_gaps_has_the_errors_of_the_table() {
     let x: Vec<f64> = PLACES.iter().map(wave).collect();
     for (count, ferguson, least_squares) in TABLE {
         for (method, exact) in [(Method::Ferguson, ferguson), (Method::LeastSquares, least_squares)] {
-            let options = TensorOptions {
-                method,
-                smoothing: 1e-3,
-                fixed_grid: Some([count, 2]),
-                ..TensorOptions::default()
-            };
+            let options = CurveOptions::default()
+                .with_method(method)
+                .with_smoothing(1e-3)
+                .with_fixed_count(Some(count));
             let fit = fit_curve(&PLACES, &x, 1, &options, &mut Control::new(1)).unwrap();
             let sum: f64 = fit.errors.iter().map(|e| e * e).sum();
             // the table gives three to five digits

@@ -12,7 +12,7 @@ use super::{
     planish_eval_options, planish_flag, planish_section_ends, planish_status, planish_tensor_options,
 };
 use crate::curve::{Curve, EndRule, MAX_DERIVATIVE, interpolate};
-use crate::fit::curve::fit_curve;
+use crate::fit::curve::{CurveOptions, fit_curve};
 use crate::knots::KnotVector;
 use crate::surface::evaluate::OutsideRule;
 
@@ -72,7 +72,17 @@ pub unsafe extern "C" fn planish_curve_fit(
         let (parameters, errors) = (given.out_parameters, given.out_errors);
         let outputs = FitOutputs::new((out_curve, "out_curve"), out_report, parameters, errors, count)?;
         // a curve has one direction; the other is given the grid of this one so that both are valid
-        let options = planish_tensor_options { grid_v: given.grid_u, ..given }.to_core(count)?;
+        let given_core = planish_tensor_options { grid_v: given.grid_u, ..given }.to_core(count)?;
+        let options = CurveOptions {
+            tolerance: given_core.tolerance,
+            method: given_core.method,
+            ends: given_core.ends,
+            smoothing: given_core.smoothing,
+            buffer: given_core.buffer,
+            max_grid: given_core.max_grid,
+            fixed_count: given_core.fixed_grid.map(|[count, _]| count),
+            weights: given_core.weights,
+        };
         let fit = with_control(given.thread_count, given.progress, given.user, |control| {
             fit_curve(u, values, dim, &options, control)
         })??;

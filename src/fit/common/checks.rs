@@ -1,8 +1,45 @@
-//! What data must be like before anything is fitted to them.
+//! What options and data must be like before anything is fitted.
 
 use super::error::{FitError, LEAST_COUNT};
+use super::report::Tolerance;
+use super::uniform::LARGEST_GRID;
 use crate::geometry::Domain;
 use glam::DVec2;
+
+/// An option holds what it may.
+pub(in crate::fit) fn check_option(
+    holds: bool,
+    option: &'static str,
+    value: f64,
+    range: &'static str,
+) -> Result<(), FitError> {
+    if holds { Ok(()) } else { Err(FitError::Option { option, value, range }) }
+}
+
+/// A positive tolerance.
+pub(in crate::fit) fn check_tolerance(tolerance: &Tolerance) -> Result<(), FitError> {
+    let value = tolerance.value;
+    check_option(value > 0.0 && value.is_finite(), "tolerance", value, "positive and finite")
+}
+
+/// A weight of the energy that is positive, or may be 0 too.
+pub(in crate::fit) fn check_smoothing(smoothing: f64, may_be_zero: bool) -> Result<(), FitError> {
+    let range = if may_be_zero { "finite and not negative" } else { "positive and finite" };
+    let holds = smoothing > 0.0 || may_be_zero && smoothing == 0.0;
+    check_option(holds && smoothing.is_finite(), "smoothing", smoothing, range)
+}
+
+/// How far uniform knots reach beyond the data.
+pub(in crate::fit) fn check_buffer(buffer: f64) -> Result<(), FitError> {
+    check_option((0.0..=10.0).contains(&buffer), "buffer", buffer, "between 0 and 10")
+}
+
+/// Numbers of uniform knots that are given.
+pub(in crate::fit) fn check_grid(counts: impl IntoIterator<Item = usize>) -> Result<(), FitError> {
+    let holds = |count: usize| (2..=LARGEST_GRID).contains(&count);
+    let mut counts = counts.into_iter();
+    counts.try_for_each(|count| check_option(holds(count), "grid", count as f64, "between 2 and 8193"))
+}
 
 /// Values, and weights if there are any, that `count` data can have.
 pub(in crate::fit) fn check_values(

@@ -3,17 +3,52 @@
 //! J. Hoschek, "Intrinsic parametrization for approximation", Comput. Aided Geom. Des. 5 (1988), 27-31;
 //! the rule that keeps triangles from folding: `parameterization.md` 5.
 
+use crate::control::Pool;
+use crate::surface::Surface;
 use glam::DVec2;
+use rayon::prelude::*;
 
 /// Gauss-Newton steps a datum makes in one sweep.
-pub const STEPS: usize = 2;
+const STEPS: usize = 2;
 /// Longest step, in cells.
 pub const LONGEST_STEP: f64 = 0.3;
 /// How often a move is halved before it is given up.
 const HALVINGS: u32 = 8;
 
+/// Data moved in one piece of work, at least.
+const PIECE: usize = 256;
+
+/// Where data go that move towards their foot points. From a place they move by no more than `longest` says, and they
+/// end where `settle` puts a datum that would go from the one place to the other.
+pub fn foot_points(
+    surface: &dyn Surface,
+    values: &[f64],
+    uv: &[DVec2],
+    longest: impl Fn(DVec2) -> DVec2 + Sync,
+    settle: impl Fn(usize, DVec2, DVec2) -> DVec2 + Sync,
+    pool: &Pool,
+) -> Vec<DVec2> {
+    let dim = surface.dim();
+    let mut moved = uv.to_vec();
+    pool.run(|| {
+        let data = moved.par_iter_mut().zip(values.par_chunks(dim)).enumerate().with_min_len(PIECE);
+        data.for_each_init(
+            || vec![0.0; 3 * dim],
+            |row, (datum, (uv, value))| {
+                for _ in 0..STEPS {
+                    surface.eval_rows(&[*uv], 1, row);
+                    let longest = longest(*uv);
+                    let step = gauss_newton_step(row, value).clamp(-longest, longest);
+                    *uv = settle(datum, *uv, *uv + step);
+                }
+            },
+        );
+    });
+    moved
+}
+
 /// Solves `min |S + du Su + dv Sv - P|`; zero where the tangents are parallel.
-pub fn gauss_newton_step(row: &[f64], value: &[f64]) -> DVec2 {
+fn gauss_newton_step(row: &[f64], value: &[f64]) -> DVec2 {
     let dim = value.len();
     let (s, su, sv) = (&row[..dim], &row[dim..2 * dim], &row[2 * dim..]);
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();

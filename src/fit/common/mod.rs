@@ -1,5 +1,5 @@
-//! What all methods share: checks of the data, the frame, parameters of nodes, foot points, what lies between the
-//! nodes, one measure of error and one report.
+//! What all methods share: checks of the data, the frame, parameters of nodes, the outer loop, foot points, what lies
+//! between the nodes, one measure of error and one report.
 //!
 //! A method knows this folder and no other method.
 
@@ -11,10 +11,11 @@ mod frame;
 pub(in crate::fit) mod interior;
 mod parameters;
 pub mod report;
+pub(in crate::fit) mod rounds;
 pub(in crate::fit) mod samples;
 pub mod uniform;
 
 pub use error::FitError;
 pub(in crate::fit) use frame::Frame;
 pub use parameters::Regularize;
-pub(in crate::fit) use parameters::{NodeParameters, node_parameters};
+pub(in crate::fit) use parameters::{NodeParameters, node_parameters, trims};

@@ -3,10 +3,12 @@
 use super::error::FitError;
 use super::report::Remarks;
 use crate::control::Control;
+use crate::geometry::Domain;
 use crate::mesh::Mesh;
 use crate::parameterize::{
     ParameterizeError, ParameterizeOptions, ParameterizeReport, RegularizeOptions, parameterize, regularize,
 };
+use crate::surface::Trims;
 use glam::DVec2;
 
 /// What to do with parameters that came with a mesh.
@@ -59,4 +61,12 @@ pub(in crate::fit) fn node_parameters(
 
 fn has_high_stretch(report: &ParameterizeReport) -> bool {
     report.remarks.contains(crate::parameterize::Remarks::HIGH_STRETCH)
+}
+
+/// The boundary loops of a mesh in the parameter plane.
+pub(in crate::fit) fn trims(mesh: Option<&Mesh>, uv: &[DVec2], domain: &Domain) -> Trims {
+    let loops = mesh.map_or(&[][..], |mesh| mesh.loops());
+    let loops = loops.iter().map(|nodes| nodes.iter().map(|&n| uv[n as usize]).collect());
+    // parameters of data lie in the domain, and loops have three nodes at least
+    Trims::new(loops.collect(), domain).unwrap_or_default()
 }

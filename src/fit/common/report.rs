@@ -1,5 +1,7 @@
 //! What a fit says of itself, the same for every method.
 
+use super::errors::DataErrors;
+use super::interior::InteriorErrors;
 use crate::geometry::Bounds;
 use crate::mesh::Mesh;
 use crate::parameterize::{folds, stretch};
@@ -43,6 +45,23 @@ impl Tolerance {
         };
         let least = Self::SMALLEST * diagonal;
         (asked.max(least), asked < least)
+    }
+}
+
+/// What a fit is to reach, in model units.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::fit) struct Goal {
+    pub tolerance: f64,
+    /// Whether the tolerance asked for had to be raised.
+    pub is_raised: bool,
+    /// The diagonal of the data's bounding box.
+    pub diagonal: f64,
+}
+
+impl Goal {
+    pub fn new(tolerance: &Tolerance, bounds: &Bounds) -> Self {
+        let (tolerance, is_raised) = tolerance.absolute(bounds);
+        Self { tolerance, is_raised, diagonal: bounds.diagonal() }
     }
 }
 
@@ -172,6 +191,34 @@ pub struct FitReport {
 }
 
 impl FitReport {
+    /// What there is to say of every fit; what only some have to say is nothing here.
+    pub(in crate::fit) fn new(errors: &DataErrors, goal: &Goal, stop: StopReason, passes: usize) -> Self {
+        let mut remarks = Remarks::default();
+        remarks.add_if(!(errors.max <= goal.tolerance), Remarks::TOLERANCE_NOT_MET);
+        remarks.add_if(stop == StopReason::Stagnated, Remarks::STAGNATED);
+        remarks.add_if(goal.is_raised, Remarks::TOLERANCE_RAISED);
+        Self {
+            max_error: errors.max,
+            rms_error: errors.rms,
+            mean_error: errors.mean,
+            worst_index: errors.worst_index,
+            tolerance: goal.tolerance,
+            diagonal: goal.diagonal,
+            max_distance: f64::NAN,
+            passes,
+            stop,
+            remarks,
+            ..Self::default()
+        }
+    }
+
+    /// Adds what was measured between the nodes.
+    pub(in crate::fit) fn add_interior(&mut self, interior: &InteriorErrors) {
+        self.max_interior_error = interior.max;
+        self.facet_sagitta = interior.sagitta;
+        self.remarks.add_if(interior.max_excess > self.tolerance, Remarks::ROUGH_BETWEEN_NODES);
+    }
+
     /// Adds what the parameters of a mesh are like.
     pub fn measure_map(&mut self, mesh: &Mesh, uv: &[DVec2]) {
         let (reversed, flat) = folds(mesh.triangles(), uv);

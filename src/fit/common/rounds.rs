@@ -175,7 +175,11 @@ mod tests {
         }
     }
 
-    fn given(rounds: &[(Option<f64>, Next)]) -> (Result<(f64, StopReason, usize), FitError>, Vec<usize>, Vec<f64>) {
+    /// The best error, why the rounds ended, and how many there were.
+    type Ending = Result<(f64, StopReason, usize), FitError>;
+
+    /// How the rounds end, the idle ones before each, and the fractions told.
+    fn given(rounds: &[(Option<f64>, Next)]) -> (Ending, Vec<usize>, Vec<f64>) {
         let (errors, next) = rounds.iter().copied().unzip();
         let mut told = Vec::new();
         let mut listen = |fraction, _| {

@@ -1,13 +1,20 @@
-//! The same methods in one parameter: curves on uniform knots.
+//! Curves on uniform knots, from rows of numbers over one parameter.
+//!
+//! The methods of surfaces on uniform grids ([`super::tensor`]) with one parameter less: cells are halved until every
+//! datum lies within the tolerance.
+
+mod options;
+
+pub use options::CurveOptions;
 
 use super::common::checks::{LEAST_RANGE, check_values};
 use super::common::errors::{DataErrors, summarize};
-use super::common::report::{FitReport, Remarks, StopReason};
+use super::common::report::{FitReport, Goal, StopReason};
+use super::common::rounds::{self, Next, Outcome, Rounds, Standing};
 use super::common::uniform::ferguson;
 use super::common::uniform::grid::{UniformBasis, UniformGrid};
 use super::common::uniform::{Method, SMOOTHING_LADDER};
 use super::common::{FitError, Frame};
-use super::tensor::{TensorOptions, check_options};
 use crate::control::Control;
 use crate::curve::Curve;
 use crate::geometry::Bounds;
@@ -31,54 +38,35 @@ pub fn fit_curve(
     u: &[f64],
     values: &[f64],
     dim: usize,
-    options: &TensorOptions,
+    options: &CurveOptions,
     control: &mut Control,
 ) -> Result<CurveFit, FitError> {
     let start = Instant::now();
-    let problem = CurveProblem::new(u, values, dim, options)?;
-    let mut count = options.fixed_grid.map_or(2, |[count, _]| count);
-    let mut best = problem.fit_grid(count)?;
-    let mut passes = 1;
-    let mut stagnant = 0;
-    let tolerance = problem.tolerance.0;
-    let stop = loop {
-        control.report((tolerance / best.errors.max).min(1.0), best.errors.max)?;
-        if best.errors.max <= tolerance {
-            break StopReason::ToleranceMet;
-        }
-        if options.fixed_grid.is_some() {
-            break StopReason::FixedGrid;
-        }
-        if stagnant >= 2 {
-            break StopReason::Stagnated;
-        }
-        count = 2 * count - 1;
-        if count > options.max_grid {
-            break StopReason::Limit;
-        }
-        if count > u.len().max(64) {
-            break StopReason::DataExhausted;
-        }
-        let candidate = problem.fit_grid(count)?;
-        passes += 1;
-        if candidate.errors.max < best.errors.max {
-            (best, stagnant) = (candidate, 0);
-        } else {
-            stagnant += 1;
-        }
-    };
-    Ok(problem.finish(best, stop, passes, start))
+    let mut problem = CurveProblem::new(u, values, dim, options)?;
+    let outcome = rounds::run(&mut problem, control)?;
+    let mut fit = problem.finish(outcome);
+    fit.report.seconds = start.elapsed().as_secs_f64();
+    Ok(fit)
 }
 
+/// Knots of the first grid.
+const FIRST_COUNT: usize = 2;
+/// So many rounds in a row that do not lower the error end the fit.
+const STAGNANT_ROUNDS: usize = 2;
+/// So few data may have as many knots.
+const FEW_DATA: usize = 64;
+
+/// Data, what they are fitted with, and how far the fit has come.
 struct CurveProblem<'a> {
     u: &'a [f64],
     values: &'a [f64],
     dim: usize,
-    options: &'a TensorOptions<'a>,
-    bounds: Bounds,
+    options: &'a CurveOptions<'a>,
     frame: Frame,
     range: (f64, f64),
-    tolerance: (f64, bool),
+    goal: Goal,
+    /// Knots of the next round.
+    count: usize,
 }
 
 struct Candidate {
@@ -89,14 +77,51 @@ struct Candidate {
     coefficient_count: usize,
 }
 
+impl Rounds for CurveProblem<'_> {
+    type Round = Candidate;
+    type Error = FitError;
+
+    fn fit(&mut self, _: &mut Control) -> Result<Candidate, FitError> {
+        self.fit_grid(self.count)
+    }
+
+    fn error(&self, round: &Candidate) -> f64 {
+        round.errors.max
+    }
+
+    fn tolerance(&self) -> f64 {
+        self.goal.tolerance
+    }
+
+    fn refine(&mut self, standing: &Standing<Candidate>, _: &Control) -> Next {
+        if standing.error <= self.goal.tolerance {
+            return Next::Done;
+        }
+        if self.options.fixed_count.is_some() {
+            return Next::Stop(StopReason::FixedGrid);
+        }
+        if standing.idle >= STAGNANT_ROUNDS {
+            return Next::Stop(StopReason::Stagnated);
+        }
+        self.count = 2 * self.count - 1;
+        if self.count > self.options.max_grid {
+            return Next::Stop(StopReason::Limit);
+        }
+        if self.count > self.u.len().max(FEW_DATA) {
+            return Next::Stop(StopReason::DataExhausted);
+        }
+        Next::Round
+    }
+}
+
 impl<'a> CurveProblem<'a> {
     fn new(
         u: &'a [f64],
         values: &'a [f64],
         dim: usize,
-        options: &'a TensorOptions<'a>,
+        options: &'a CurveOptions<'a>,
     ) -> Result<Self, FitError> {
-        check_options(options)?;
+        options.check()?;
         check_values(u.len(), values, dim, options.weights)?;
         if let Some(index) = u.iter().position(|u| !u.is_finite()) {
             return Err(FitError::ParametersNotFinite { index });
@@ -106,16 +131,16 @@ impl<'a> CurveProblem<'a> {
             return Err(FitError::DegenerateRange { axis: 'u', at: range.0 });
         }
         let bounds = Bounds::of_rows(values, dim);
-        let tolerance = options.tolerance.absolute(&bounds);
-        let frame = Frame::new(&bounds);
-        Ok(Self { u, values, dim, options, bounds, frame, range, tolerance })
+        let goal = Goal::new(&options.tolerance, &bounds);
+        let (frame, count) = (Frame::new(&bounds), options.fixed_count.unwrap_or(FIRST_COUNT));
+        Ok(Self { u, values, dim, options, frame, range, goal, count })
     }
 
     fn fit_grid(&self, count: usize) -> Result<Candidate, FitError> {
         let grid = UniformGrid::over(self.range.0, self.range.1, self.options.buffer, count);
         let basis = UniformBasis { grid, ends: self.options.ends };
         let asked = self.options.smoothing;
-        let tolerance = self.tolerance.0;
+        let tolerance = self.goal.tolerance;
         match self.options.method {
             Method::Ferguson => {
                 let smoothing = if asked > 0.0 { asked } else { SMOOTHING_LADDER[0] };
@@ -188,29 +213,14 @@ impl<'a> CurveProblem<'a> {
         Ok(Candidate { curve, errors, smoothing, count: basis.grid.count, coefficient_count })
     }
 
-    fn finish(&self, best: Candidate, stop: StopReason, passes: usize, start: Instant) -> CurveFit {
-        let (tolerance, raised) = self.tolerance;
-        let mut remarks = Remarks::default();
-        remarks.add_if(best.errors.max > tolerance, Remarks::TOLERANCE_NOT_MET);
-        remarks.add_if(stop == StopReason::Stagnated, Remarks::STAGNATED);
-        remarks.add_if(raised, Remarks::TOLERANCE_RAISED);
+    fn finish(&self, outcome: Outcome<Candidate>) -> CurveFit {
+        let Outcome { best, stop, passes } = outcome;
         let report = FitReport {
-            max_error: best.errors.max,
-            rms_error: best.errors.rms,
-            mean_error: best.errors.mean,
-            worst_index: best.errors.worst_index,
-            tolerance,
-            diagonal: self.bounds.diagonal(),
-            max_distance: f64::NAN,
             grid_u: best.count,
             grid_v: 1,
             coefficient_count: best.coefficient_count,
             smoothing: best.smoothing,
-            passes,
-            stop,
-            seconds: start.elapsed().as_secs_f64(),
-            remarks,
-            ..FitReport::default()
+            ..FitReport::new(&best.errors, &self.goal, stop, passes)
         };
         CurveFit { curve: best.curve, report, errors: best.errors.each }
     }
@@ -220,11 +230,11 @@ impl<'a> CurveProblem<'a> {
 mod tests {
     use super::*;
 
-    fn fixed(method: Method, count: usize, smoothing: f64, buffer: f64) -> TensorOptions<'static> {
-        TensorOptions { method, smoothing, buffer, fixed_grid: Some([count, 2]), ..TensorOptions::default() }
+    fn fixed(method: Method, count: usize, smoothing: f64, buffer: f64) -> CurveOptions<'static> {
+        CurveOptions { method, smoothing, buffer, fixed_count: Some(count), ..CurveOptions::default() }
     }
 
-    fn error_sum(u: &[f64], x: &[f64], options: &TensorOptions) -> (f64, Curve) {
+    fn error_sum(u: &[f64], x: &[f64], options: &CurveOptions) -> (f64, Curve) {
         let fit = fit_curve(u, x, 1, options, &mut Control::new(1)).unwrap();
         (fit.errors.iter().map(|e| e * e).sum(), fit.curve)
     }

@@ -3,7 +3,7 @@
 use crate::fit::common::FitError;
 use crate::fit::common::checks::{check_buffer, check_grid, check_option, check_smoothing, check_tolerance};
 use crate::fit::common::report::Tolerance;
-use crate::fit::common::uniform::{Ends, Method, SMOOTHING_LADDER};
+use crate::fit::common::uniform::{Ends, Method};
 use crate::options::with_fields;
 
 /// Options of curve fits.
@@ -15,7 +15,7 @@ pub struct CurveOptions<'a> {
     pub method: Method,
     /// What happens at the ends of the knots.
     pub ends: Ends,
-    /// Weight mu of the energy; 0 takes the largest of [`SMOOTHING_LADDER`] that meets the tolerance (for
+    /// Weight mu of the energy; 0 takes the largest of [`SMOOTHING_LADDER`](crate::fit::common::uniform::SMOOTHING_LADDER) that meets the tolerance (for
     /// [`Method::Ferguson`]: 1e-3).
     pub smoothing: f64,
     /// How far the knots reach beyond the data, as a fraction of the data's range.

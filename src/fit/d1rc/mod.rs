@@ -11,119 +11,25 @@
 //!          measure each node
 //! ```
 
+mod error;
 mod least_squares;
+mod options;
 mod placement;
 mod rounds;
 #[cfg(test)]
 mod tests;
 
+pub use error::D1rcFitError;
+pub use options::D1rcFitOptions;
+
 use super::common::checks::check_values;
-use super::common::report::{FitReport, Tolerance};
-use super::common::{FitError, Regularize};
-use crate::control::{Cancelled, Control};
-use crate::error::ErrorKind;
-use crate::mesh::{DecimateError, Mesh};
-use crate::parameterize::{Border, ParameterizeError, ParameterizeOptions};
-use crate::surface::d1rc::{D1rcError, D1rcOptions, D1rcSurface};
+use super::common::report::FitReport;
+use crate::control::Control;
+use crate::mesh::Mesh;
+use crate::surface::d1rc::D1rcSurface;
 use glam::DVec2;
 use rounds::{Problem, Source};
-use std::f64::consts::PI;
 use std::time::Instant;
-
-/// Options of D1RC fits.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct D1rcFitOptions<'a> {
-    /// The largest error allowed at the nodes.
-    pub tolerance: Tolerance,
-    /// Degree, mode, boundary and the rule for sharp edges.
-    pub surface: D1rcOptions,
-    /// The control mesh, which is used without refinement; default: the mesh itself with fewer nodes. Without
-    /// parameters it is parameterized first.
-    pub control_mesh: Option<&'a Mesh>,
-    /// Sharp edges, by nodes of the control mesh if that is given, else of the mesh.
-    pub sharp_edges: &'a [[u32; 2]],
-    /// Edges of the same mesh whose triangles turn by more than this, in radians, are sharp too. Default: none.
-    pub sharp_angle: Option<f64>,
-    /// Vertices of a control mesh that is made, without refinement; 0 (default) for as many as the tolerance takes.
-    pub control_count: usize,
-    /// Most vertices of a control mesh that is made.
-    pub max_control_count: usize,
-    /// Weight of the energy that determines control points without data. Default 1e-5: ten times more raises the error
-    /// of a face mask by a third, a hundred times less does not lower it.
-    pub smoothing: f64,
-    /// Sweeps in each round: nodes move to their foot points, those with large errors gain weight, and the fit is
-    /// repeated. Default 3.
-    pub correction_sweeps: usize,
-    /// What to do with parameters that came with the mesh.
-    pub regularize: Regularize,
-    /// How a mesh without parameters gets them.
-    pub parameterize: ParameterizeOptions,
-    /// A positive weight for each node.
-    pub weights: Option<&'a [f64]>,
-}
-
-impl Default for D1rcFitOptions<'_> {
-    fn default() -> Self {
-        Self {
-            tolerance: Tolerance::default(),
-            surface: D1rcOptions::default(),
-            control_mesh: None,
-            sharp_edges: &[],
-            sharp_angle: None,
-            control_count: 0,
-            max_control_count: 100_000,
-            smoothing: 1e-5,
-            correction_sweeps: 3,
-            regularize: Regularize::default(),
-            parameterize: ParameterizeOptions::PHT.with_border(Border::Circle),
-            weights: None,
-        }
-    }
-}
-
-/// A D1RC fit is not possible.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum D1rcFitError {
-    /// An option, the data or their parameters will not do.
-    #[error(transparent)]
-    Fit(#[from] FitError),
-    /// No control mesh can be made of the mesh.
-    #[error(transparent)]
-    Decimate(#[from] DecimateError),
-    /// The control mesh makes no surface.
-    #[error(transparent)]
-    Surface(#[from] D1rcError),
-    /// The control mesh cannot be parameterized.
-    #[error("the control mesh has no parameters: {0}")]
-    ControlMesh(ParameterizeError),
-    /// The progress callback asked to stop.
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
-}
-
-impl D1rcFitError {
-    /// The class of the error.
-    pub fn kind(&self) -> ErrorKind {
-        match self {
-            Self::Fit(error) => error.kind(),
-            Self::Decimate(error) => error.kind(),
-            Self::Surface(error) => error.kind(),
-            Self::ControlMesh(error) => error.kind(),
-            Self::Cancelled(_) => ErrorKind::Cancelled,
-        }
-    }
-
-    /// The offending node, triangle, sharp edge or weight.
-    pub fn index(&self) -> Option<usize> {
-        match self {
-            Self::Fit(error) => error.index(),
-            Self::Decimate(error) => error.index(),
-            Self::Surface(error) => error.index(),
-            Self::ControlMesh(error) => error.index(),
-            Self::Cancelled(_) => None,
-        }
-    }
-}
 
 /// A fitted surface with all that is known of it.
 #[derive(Debug, Clone)]
@@ -149,7 +55,7 @@ pub fn fit_mesh(
     control: &mut Control,
 ) -> Result<D1rcFit, D1rcFitError> {
     let start = Instant::now();
-    check_options(options)?;
+    options.check()?;
     let values: Vec<f64> = mesh.points().iter().flat_map(|p| p.to_array()).collect();
     check_values(mesh.points().len(), &values, 3, options.weights)?;
     control.set_stage(0.0, 0.2);
@@ -160,20 +66,4 @@ pub fn fit_mesh(
     fit.report.parameterize_seconds = parameterize_seconds;
     fit.report.seconds = start.elapsed().as_secs_f64();
     Ok(fit)
-}
-
-fn check_options(options: &D1rcFitOptions) -> Result<(), FitError> {
-    let check = |holds: bool, option, value, range| {
-        if holds { Ok(()) } else { Err(FitError::Option { option, value, range }) }
-    };
-    let tolerance = options.tolerance.value;
-    check(tolerance > 0.0 && tolerance.is_finite(), "tolerance", tolerance, "positive and finite")?;
-    let smoothing = options.smoothing;
-    check(smoothing > 0.0 && smoothing.is_finite(), "smoothing", smoothing, "positive and finite")?;
-    let angle = options.sharp_angle.unwrap_or(PI);
-    check(angle > 0.0 && angle <= PI, "sharp_angle", angle, "positive and at most pi")?;
-    let count = options.control_count;
-    check(count == 0 || count >= 3, "control_count", count as f64, "0 or at least 3")?;
-    let most = options.max_control_count;
-    check(most >= 3, "max_control_count", most as f64, "at least 3")
 }

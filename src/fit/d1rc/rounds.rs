@@ -6,18 +6,17 @@ use super::{D1rcFit, D1rcFitError, D1rcFitOptions};
 use crate::control::{Control, Pool, Watch};
 use crate::fit::common::checks::check_parameters;
 use crate::fit::common::errors::{DataErrors, data_errors};
-use crate::fit::common::foot_points::{LONGEST_STEP, STEPS, gauss_newton_step, hold_back};
+use crate::fit::common::foot_points::{LONGEST_STEP, foot_points, hold_back};
 use crate::fit::common::interior::MeshData;
-use crate::fit::common::report::{FitReport, Remarks, StopReason};
+use crate::fit::common::report::{FitReport, Goal, Remarks, StopReason};
+use crate::fit::common::rounds::{self, Next, Outcome, Rounds, Standing};
 use crate::fit::common::{FitError, Frame, node_parameters};
-use crate::fit::pht::refine::fraction;
 use crate::geometry::Bounds;
 use crate::mesh::{DecimateOptions, Mesh};
 use crate::parameterize::parameterize;
 use crate::surface::Surface;
 use crate::surface::d1rc::D1rcSurface;
 use glam::DVec2;
-use rayon::prelude::*;
 
 /// Vertices of the first control mesh.
 const FIRST_COUNT: usize = 100;
@@ -94,7 +93,7 @@ impl Source {
     }
 }
 
-/// Everything that stays the same from round to round.
+/// Data, what they are fitted with, and how far the fit has come.
 pub struct Problem<'a> {
     mesh: &'a Mesh,
     values: &'a [f64],
@@ -104,9 +103,9 @@ pub struct Problem<'a> {
     source: Source,
     options: &'a D1rcFitOptions<'a>,
     frame: Frame,
-    bounds: Bounds,
-    /// The tolerance in model units, and whether it was raised.
-    tolerance: (f64, bool),
+    goal: Goal,
+    /// Vertices of the control mesh of the next round.
+    count: usize,
 }
 
 /// Gives nodes with more than the usual error more weight in the next sweep.
@@ -120,7 +119,7 @@ fn stress(weights: &mut [f64], errors: &DataErrors) {
 }
 
 /// A surface, measured.
-struct Round {
+pub struct Round {
     surface: D1rcSurface,
     coarse: Mesh,
     sharp_edges: Vec<[u32; 2]>,
@@ -128,62 +127,59 @@ struct Round {
     errors: DataErrors,
 }
 
+impl Rounds for Problem<'_> {
+    type Round = Round;
+    type Error = D1rcFitError;
+
+    const GAIN: f64 = 0.9;
+
+    fn fit(&mut self, control: &mut Control) -> Result<Round, D1rcFitError> {
+        let (coarse, sharp_edges) = self.source.control_mesh(self.count, control)?;
+        control.watch(|pool, watch| self.fit_on(coarse, sharp_edges, pool, watch))?
+    }
+
+    fn may_go_on(&self, error: &D1rcFitError) -> bool {
+        // another control mesh may do
+        matches!(error, D1rcFitError::Surface(_))
+    }
+
+    fn error(&self, round: &Round) -> f64 {
+        round.errors.max
+    }
+
+    fn tolerance(&self) -> f64 {
+        self.goal.tolerance
+    }
+
+    fn refine(&mut self, standing: &Standing<Round>, _: &Control) -> Next {
+        match self.next_count(self.count, standing.error, standing.idle) {
+            Ok(count) => self.count = count,
+            Err(stop) => return Next::Stop(stop),
+        }
+        Next::Round
+    }
+}
+
 impl<'a> Problem<'a> {
     pub fn new(mesh: &'a Mesh, values: &'a [f64], source: Source, options: &'a D1rcFitOptions<'a>) -> Self {
         let bounds = Bounds::of_rows(values, 3);
         let frame = Frame::new(&bounds);
         let weights = options.weights.map_or(vec![1.0; mesh.points().len()], <[f64]>::to_vec);
-        let (samples, tolerance) = (frame.inward(values), options.tolerance.absolute(&bounds));
-        Self { mesh, values, samples, weights, source, options, frame, bounds, tolerance }
+        let (samples, goal) = (frame.inward(values), Goal::new(&options.tolerance, &bounds));
+        let most = options.max_control_count.min(mesh.points().len());
+        let count = if options.control_count > 0 { options.control_count } else { FIRST_COUNT.min(most) };
+        Self { mesh, values, samples, weights, source, options, frame, goal, count }
     }
 
-    pub fn run(self, control: &mut Control) -> Result<D1rcFit, D1rcFitError> {
-        let (mut best, mut failure): (Option<Round>, _) = (None, None);
-        let (mut passes, mut idle, mut first_error) = (0, 0, f64::NAN);
-        let mut count = self.first_count();
-        let stop = loop {
-            passes += 1;
-            let round = self.round(count, control);
-            let error = match round {
-                Ok(round) => {
-                    let error = round.errors.max;
-                    let before = best.as_ref().map_or(f64::INFINITY, |best| best.errors.max);
-                    idle = if error > 0.9 * before { idle + 1 } else { 0 };
-                    if error < before {
-                        best = Some(round);
-                    }
-                    error
-                }
-                // another control mesh may do
-                Err(D1rcFitError::Surface(error)) => {
-                    failure = Some(error);
-                    f64::INFINITY
-                }
-                Err(error) => return Err(error),
-            };
-            first_error = if first_error.is_finite() { first_error } else { error };
-            control.report(fraction(first_error, error, self.tolerance.0), error)?;
-            match self.next_count(count, error, idle) {
-                Ok(next) => count = next,
-                Err(stop) => break stop,
-            }
-        };
-        match (best, failure) {
-            (Some(best), _) => Ok(self.finish(best, stop, passes, control)),
-            (None, Some(error)) => Err(error.into()),
-            (None, None) => Err(FitError::Singular.into()),
-        }
-    }
-
-    fn first_count(&self) -> usize {
-        let most = self.options.max_control_count.min(self.mesh.points().len());
-        if self.options.control_count > 0 { self.options.control_count } else { FIRST_COUNT.min(most) }
+    pub fn run(mut self, control: &mut Control) -> Result<D1rcFit, D1rcFitError> {
+        let outcome = rounds::run(&mut self, control)?;
+        Ok(self.finish(outcome, control))
     }
 
     /// How many vertices to try after a round with this error, or why there is no further round.
     fn next_count(&self, count: usize, error: f64, idle: usize) -> Result<usize, StopReason> {
         let most = self.options.max_control_count.min(self.mesh.points().len());
-        if error <= self.tolerance.0 {
+        if error <= self.goal.tolerance {
             Err(StopReason::ToleranceMet)
         } else if matches!(self.source, Source::Given { .. }) || self.options.control_count > 0 {
             Err(StopReason::FixedGrid)
@@ -194,18 +190,13 @@ impl<'a> Problem<'a> {
         } else if idle >= IDLE_ROUNDS {
             Err(StopReason::Stagnated)
         } else {
-            let growth = (error / self.tolerance.0).sqrt().clamp(GROWTH.0, GROWTH.1);
+            let growth = (error / self.goal.tolerance).sqrt().clamp(GROWTH.0, GROWTH.1);
             Ok(((count as f64 * growth) as usize).min(most))
         }
     }
 
-    fn round(&self, count: usize, control: &mut Control) -> Result<Round, D1rcFitError> {
-        let (coarse, sharp_edges) = self.source.control_mesh(count, control)?;
-        control.watch(|pool, watch| self.fit(coarse, sharp_edges, pool, watch))?
-    }
-
     /// Fits on one control mesh.
-    fn fit(
+    fn fit_on(
         &self,
         coarse: Mesh,
         sharp_edges: Vec<[u32; 2]>,
@@ -220,7 +211,7 @@ impl<'a> Problem<'a> {
         let mut best: Option<(D1rcSurface, Vec<DVec2>, DataErrors)> = None;
         for sweep in 0..=self.options.correction_sweeps {
             if sweep > 0 {
-                uv = self.foot_points(&surface, &placement, uv, pool);
+                uv = self.moved(&surface, &placement, &uv, pool);
             }
             self.solve(&mut surface, &uv, &weights, &energy, pool, watch)?;
             let errors = data_errors(&surface, &uv, self.values, pool);
@@ -253,61 +244,29 @@ impl<'a> Problem<'a> {
     }
 
     /// Where the nodes go: towards their foot points, but no triangle folds and none leaves the domain.
-    fn foot_points(
-        &self,
-        surface: &D1rcSurface,
-        placement: &Placement,
-        uv: Vec<DVec2>,
-        pool: &Pool,
-    ) -> Vec<DVec2> {
+    fn moved(&self, surface: &D1rcSurface, placement: &Placement, uv: &[DVec2], pool: &Pool) -> Vec<DVec2> {
         let size = surface.domain().size();
         let longest =
             DVec2::splat(LONGEST_STEP * (size.x * size.y / surface.coefficient_count() as f64).sqrt());
-        let mut moved = uv.clone();
-        pool.run(|| {
-            let nodes = moved.par_iter_mut().zip(self.values.par_chunks(3)).enumerate();
-            nodes.with_min_len(256).for_each(|(node, (uv, value))| {
-                let mut row = [0.0; 9];
-                for _ in 0..STEPS {
-                    surface.eval_rows(&[*uv], 1, &mut row);
-                    let step = gauss_newton_step(&row, value).clamp(-longest, longest);
-                    let to = placement.settled(node, *uv + step);
-                    *uv = if surface.contains(to) { to } else { *uv };
-                }
-            })
-        });
-        hold_back(self.mesh.triangles(), (&placement.uv, LEAST_AREA), &uv, &mut moved);
+        let settle = |node, from, to| {
+            let to = placement.settled(node, to);
+            if surface.contains(to) { to } else { from }
+        };
+        let mut moved = foot_points(surface, self.values, uv, |_| longest, settle, pool);
+        hold_back(self.mesh.triangles(), (&placement.uv, LEAST_AREA), uv, &mut moved);
         moved
     }
 
-    fn finish(&self, best: Round, stop: StopReason, passes: usize, control: &Control) -> D1rcFit {
-        let Round { surface, coarse, sharp_edges, uv, errors } = best;
+    fn finish(self, outcome: Outcome<Round>, control: &Control) -> D1rcFit {
+        let Outcome { best: Round { surface, coarse, sharp_edges, uv, errors }, stop, passes } = outcome;
         let data = MeshData { mesh: self.mesh, uv: &uv, values: self.values, is_shape: true };
-        let interior = data.interior_errors(&surface, control.pool());
-        let (tolerance, raised) = self.tolerance;
-        let mut remarks = Remarks::default();
-        remarks.add_if(errors.max > tolerance, Remarks::TOLERANCE_NOT_MET);
-        remarks.add_if(stop == StopReason::Stagnated, Remarks::STAGNATED);
-        remarks.add_if(raised, Remarks::TOLERANCE_RAISED);
-        remarks.add_if(interior.max_excess > tolerance, Remarks::ROUGH_BETWEEN_NODES);
         let mut report = FitReport {
-            max_error: errors.max,
-            rms_error: errors.rms,
-            mean_error: errors.mean,
-            worst_index: errors.worst_index,
-            tolerance,
-            diagonal: self.bounds.diagonal(),
-            max_interior_error: interior.max,
-            facet_sagitta: interior.sagitta,
-            max_distance: f64::NAN,
             cell_count: surface.space().recipe.triangles.len(),
             coefficient_count: surface.coefficient_count(),
             smoothing: self.options.smoothing,
-            passes,
-            stop,
-            remarks,
-            ..FitReport::default()
+            ..FitReport::new(&errors, &self.goal, stop, passes)
         };
+        report.add_interior(&data.interior_errors(&surface, control.pool()));
         // nodes on chains that the control mesh straightens lie upon one another: only the map itself can fold
         match &self.source {
             Source::Made { fine, remarks, .. } => {

@@ -1,9 +1,11 @@
 use super::*;
-use crate::fit::errors::data_errors;
-use crate::fit::report::{Remarks, StopReason, ToleranceScale};
+use crate::ErrorKind;
+use crate::fit::common::errors::data_errors;
+use crate::fit::common::report::{Remarks, StopReason, Tolerance, ToleranceScale};
 use crate::mesh::DecimateOptions;
 use crate::samples;
 use crate::surface::Surface;
+use crate::surface::d1rc::D1rcOptions;
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_4;
 use std::ops::ControlFlow;

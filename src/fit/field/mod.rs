@@ -7,82 +7,33 @@
 //! [`FieldFitter`] factors the left side once. Each further field costs its right side, one solution, and, where
 //! it is asked for, the measure of its errors.
 
+mod options;
 mod right_side;
 pub mod transfer;
 
-use super::common::checks::{check_count, check_parameters, check_values, check_weights};
+pub use options::{FieldGrid, FieldOptions};
+
+use super::common::checks::{check_parameters, check_values};
 use super::common::errors::{DataErrors, data_errors};
-use super::common::report::{FitReport, Remarks, StopReason, Tolerance};
+use super::common::report::{FitReport, Goal, Remarks, StopReason, Tolerance};
 use super::common::samples::interior_places;
-use super::common::uniform::LARGEST_GRID;
+use super::common::uniform::Energy;
 use super::common::uniform::energy::FreeFunctions;
 use super::common::uniform::grid::{UniformBasis, UniformGrid};
 use super::common::uniform::normal_equations::{NormalEquations, Samples, TensorBasis};
-use super::common::uniform::{Ends, Energy};
-use super::common::{FitError, NodeParameters, Regularize, node_parameters};
+use super::common::{FitError, NodeParameters, Regularize, node_parameters, trims};
 use super::tensor::{TensorOptions, fit_field, fit_points};
 use crate::control::{Control, Pool, Watch};
 use crate::geometry::Bounds;
 use crate::knots::KnotVector;
 use crate::linalg::Cholesky;
 use crate::mesh::Mesh;
-use crate::parameterize::ParameterizeOptions;
 use crate::surface::tensor::{Axis, TensorSurface};
-use crate::surface::{Domain, Region, Surface, Trims};
+use crate::surface::{Domain, Region, Surface};
 use glam::DVec2;
 use right_side::{RightSide, Scratch};
 use std::sync::Mutex;
 use std::time::Instant;
-
-/// On which grid fields are fitted.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum FieldGrid<'a> {
-    /// As fine as the nodes bear, about four of them a coefficient, but no finer than 129 x 129 knots.
-    Auto,
-    /// Knots along u and v.
-    Fixed([usize; 2]),
-    /// The grid and the smoothing that the adaptive fit of this field takes: rows of `dim` numbers, one a node.
-    FoundFor(&'a [f64], usize),
-}
-
-/// Options of a field fitter.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FieldOptions<'a> {
-    /// What reports compare the errors with, and what [`FieldGrid::FoundFor`] meets.
-    pub tolerance: Tolerance,
-    /// The grid.
-    pub grid: FieldGrid<'a>,
-    /// Weight mu of the energy, positive.
-    pub smoothing: f64,
-    /// How far the knots reach beyond the nodes, as a fraction of their range.
-    pub buffer: f64,
-    /// What happens at the ends of the knots.
-    pub ends: Ends,
-    /// Which second derivatives cost energy.
-    pub energy: Energy,
-    /// A positive weight for each node.
-    pub weights: Option<&'a [f64]>,
-    /// Which nodes have values; the values of the others are not looked at.
-    pub is_known: Option<&'a [bool]>,
-    /// How a mesh without parameters gets them.
-    pub parameterize: ParameterizeOptions,
-}
-
-impl Default for FieldOptions<'_> {
-    fn default() -> Self {
-        Self {
-            tolerance: Tolerance::default(),
-            grid: FieldGrid::Auto,
-            smoothing: 1e-6,
-            buffer: 0.10,
-            ends: Ends::default(),
-            energy: Energy::default(),
-            weights: None,
-            is_known: None,
-            parameterize: ParameterizeOptions::TENSOR,
-        }
-    }
-}
 
 /// Most knots along one direction of [`FieldGrid::Auto`].
 const LARGEST_AUTO_GRID: usize = 129;
@@ -139,7 +90,7 @@ impl FieldFitter {
         control: &mut Control,
     ) -> Result<Self, FitError> {
         let uv = map.uv;
-        check(&uv, options)?;
+        options.check(uv.len())?;
         let known = known_nodes(&uv, options)?;
         let known_uv: Vec<DVec2> = match &known {
             None => uv.clone(),
@@ -180,7 +131,9 @@ impl FieldFitter {
             grid.knot_vector().map_err(|_| FitError::DegenerateRange { axis, at: grid.start })
         };
         let knots = [knots(&grid[0], 'u')?, knots(&grid[1], 'v')?];
-        let region = Region { data_box: Some(data_box), trims: trims(mesh, &uv, &knots) };
+        let ((u0, u1), (v0, v1)) = (knots[0].domain(), knots[1].domain());
+        let domain = Domain { min: DVec2::new(u0, v0), max: DVec2::new(u1, v1) };
+        let region = Region { data_box: Some(data_box), trims: trims(mesh, &uv, &domain) };
         Ok(Self {
             uv,
             known,
@@ -253,30 +206,18 @@ impl FieldFitter {
         let start = Instant::now();
         self.check(values, dim)?;
         let bounds = self.bounds(values, dim);
-        let (tolerance, raised) = self.tolerance.absolute(&bounds);
+        let goal = Goal::new(&self.tolerance, &bounds);
         let errors = self.errors(surface, values, dim);
-        let mut remarks = self.map_remarks;
-        remarks.add_if(errors.max > tolerance, Remarks::TOLERANCE_NOT_MET);
-        remarks.add_if(raised, Remarks::TOLERANCE_RAISED);
         let [grid_u, grid_v] = self.grid();
-        let fit = FitReport {
-            max_error: errors.max,
-            rms_error: errors.rms,
-            mean_error: errors.mean,
-            worst_index: errors.worst_index,
-            tolerance,
-            diagonal: bounds.diagonal(),
-            max_distance: f64::NAN,
+        let mut fit = FitReport {
             grid_u,
             grid_v,
             coefficient_count: self.basis.len(),
             smoothing: self.smoothing,
-            passes: 1,
-            stop: StopReason::FixedGrid,
             seconds: start.elapsed().as_secs_f64(),
-            remarks,
-            ..FitReport::default()
+            ..FitReport::new(&errors, &goal, StopReason::FixedGrid, 1)
         };
+        fit.remarks.0 |= self.map_remarks.0;
         Ok(FieldReport { fit, errors: errors.each })
     }
 
@@ -345,32 +286,6 @@ impl FieldFitter {
         errors.each = each;
         errors
     }
-}
-
-fn check(uv: &[DVec2], options: &FieldOptions) -> Result<(), FitError> {
-    let out_of_range = |option, value, range| Err(FitError::Option { option, value, range });
-    let (tolerance, smoothing) = (options.tolerance.value, options.smoothing);
-    if !(tolerance > 0.0 && tolerance.is_finite()) {
-        return out_of_range("tolerance", tolerance, "positive and finite");
-    }
-    if !(smoothing > 0.0 && smoothing.is_finite()) {
-        return out_of_range("smoothing", smoothing, "positive and finite");
-    }
-    if !(0.0..=10.0).contains(&options.buffer) {
-        return out_of_range("buffer", options.buffer, "between 0 and 10");
-    }
-    if let FieldGrid::Fixed(counts) = options.grid
-        && let Some(count) = counts.into_iter().find(|count| !(2..=LARGEST_GRID).contains(count))
-    {
-        return out_of_range("grid", count as f64, "between 2 and 8193");
-    }
-    if let Some(is_known) = options.is_known
-        && is_known.len() != uv.len()
-    {
-        return Err(FitError::Count { what: "the mask", count: is_known.len(), expected: uv.len() });
-    }
-    check_count(uv.len())?;
-    check_weights(uv.len(), options.weights)
 }
 
 fn known_nodes(uv: &[DVec2], options: &FieldOptions) -> Result<Option<Vec<u32>>, FitError> {
@@ -459,16 +374,6 @@ fn factor(
     let symbolic = equations.analyse();
     watch.check()?;
     equations.factor(&symbolic, smoothing, energy).map_err(|_| FitError::Singular)
-}
-
-/// The boundary loops of the mesh in the parameter plane.
-fn trims(mesh: Option<&Mesh>, uv: &[DVec2], knots: &[KnotVector; 2]) -> Trims {
-    let loops = mesh.map_or(&[][..], |mesh| mesh.loops());
-    let loops = loops.iter().map(|nodes| nodes.iter().map(|&n| uv[n as usize]).collect()).collect();
-    let ((u0, u1), (v0, v1)) = (knots[0].domain(), knots[1].domain());
-    let domain = Domain { min: DVec2::new(u0, v0), max: DVec2::new(u1, v1) };
-    // parameters of nodes lie in the domain, and loops have three nodes at least
-    Trims::new(loops, &domain).unwrap_or_default()
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Fitted fields: the same as single fits, linear in the values, and good at gaps.
 
 use super::*;
+use crate::fit::common::uniform::Ends;
 use crate::samples::{self, Random};
 
 fn nodes(count: usize) -> Vec<DVec2> {

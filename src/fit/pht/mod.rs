@@ -15,88 +15,24 @@ mod data;
 mod global;
 mod hermite_cell;
 mod local;
-pub(in crate::fit) mod refine;
+mod options;
+mod refine;
 #[cfg(test)]
 mod tests;
 
+pub use options::{Estimator, PhtOptions};
+
 use super::common::checks::{check_parameters, check_values};
-use super::common::report::{FitReport, Remarks, Tolerance};
-use super::common::{FitError, NodeParameters, Regularize, node_parameters};
+use super::common::report::{FitReport, Remarks};
+use super::common::{FitError, NodeParameters, node_parameters};
 use crate::control::Control;
 use crate::mesh::Mesh;
 use crate::parameterize::{Border, ParameterizeOptions};
 use crate::surface::pht::PhtSurface;
-use crate::tmesh::{MAX_GRID, MAX_LEVEL};
 use data::Data;
 use glam::DVec2;
 use refine::Refinement;
 use std::time::Instant;
-
-/// What determines the jets at the basis vertices.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Estimator {
-    /// Least squares over all data with a weak plate energy: fewest coefficients.
-    #[default]
-    Global,
-    /// A quadratic fit around each datum, interpolated linearly (the paper): for comparison.
-    LocalQuadratic,
-    /// A weighted cubic fit around each basis vertex: no system to solve, for very large data.
-    LocalCubic,
-}
-
-/// Options of PHT fits.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PhtOptions<'a> {
-    /// The largest error allowed at the data.
-    pub tolerance: Tolerance,
-    /// What determines the jets.
-    pub estimator: Estimator,
-    /// Weight of the plate energy of each cell, mapped to the unit cell; of [`Estimator::Global`]. Default 1e-3:
-    /// ten times more flattens, a hundred times less lets the surface swing where a cell has few data. Where cells
-    /// cannot be split any more it is lowered.
-    pub smoothing: f64,
-    /// Cells to start from, along u and v.
-    pub initial_grid: [usize; 2],
-    /// Deepest level of a cell.
-    pub max_level: u32,
-    /// Most cells.
-    pub max_cells: usize,
-    /// A cell with fewer samples is not split: nodes, and middles of triangles.
-    pub min_samples: usize,
-    /// Levels by which cells that share an edge may differ; 0 for any number.
-    pub grade: u32,
-    /// Sweeps of parameter correction in each round, for shapes of meshes.
-    pub correction_sweeps: usize,
-    /// What to do with parameters that came with the mesh.
-    pub regularize: Regularize,
-    /// How a mesh without parameters gets them; None for a circle, with one stretch step unless the tolerance is
-    /// fine and the plain map even.
-    pub parameterize: Option<ParameterizeOptions>,
-    /// A positive weight for each datum.
-    pub weights: Option<&'a [f64]>,
-    /// Whether to measure the closest-point distance of the nodes.
-    pub measure_distance: bool,
-}
-
-impl Default for PhtOptions<'_> {
-    fn default() -> Self {
-        Self {
-            tolerance: Tolerance::default(),
-            estimator: Estimator::default(),
-            smoothing: 1e-3,
-            initial_grid: [1, 1],
-            max_level: 12,
-            max_cells: 200_000,
-            min_samples: 2,
-            grade: 1,
-            correction_sweeps: 1,
-            regularize: Regularize::default(),
-            parameterize: None,
-            weights: None,
-            measure_distance: false,
-        }
-    }
-}
 
 /// A fitted surface with all that is known of it.
 #[derive(Debug, Clone)]
@@ -137,7 +73,7 @@ pub fn fit_points(
     control: &mut Control,
 ) -> Result<PhtFit, FitError> {
     let start = Instant::now();
-    check_options(options)?;
+    options.check()?;
     check_values(uv.len(), values, dim, options.weights)?;
     check_parameters(uv)?;
     let data = Data::of_points(uv, values, dim, options.weights);
@@ -155,7 +91,7 @@ fn fit_on_mesh(
     control: &mut Control,
 ) -> Result<PhtFit, FitError> {
     let start = Instant::now();
-    check_options(options)?;
+    options.check()?;
     check_values(mesh.points().len(), values, dim, options.weights)?;
     control.set_stage(0.0, 0.3);
     let map = map(mesh, options, control)?;
@@ -194,22 +130,4 @@ fn map(mesh: &Mesh, options: &PhtOptions, control: &mut Control) -> Result<NodeP
         }
     }
     node_parameters(mesh, &asked, options.regularize, control)
-}
-
-fn check_options(options: &PhtOptions) -> Result<(), FitError> {
-    let check = |holds: bool, option, value, range| {
-        if holds { Ok(()) } else { Err(FitError::Option { option, value, range }) }
-    };
-    let tolerance = options.tolerance.value;
-    check(tolerance > 0.0 && tolerance.is_finite(), "tolerance", tolerance, "positive and finite")?;
-    let smoothing = options.smoothing;
-    check(smoothing >= 0.0 && smoothing.is_finite(), "smoothing", smoothing, "finite and not negative")?;
-    for count in options.initial_grid {
-        check((1..=MAX_GRID).contains(&count), "initial_grid", count as f64, "between 1 and 4095")?;
-    }
-    let level = options.max_level;
-    check(level <= MAX_LEVEL, "max_level", f64::from(level), "at most 20")?;
-    let least = options.initial_grid[0] * options.initial_grid[1];
-    check(options.max_cells >= least, "max_cells", options.max_cells as f64, "at least the initial cells")?;
-    check(options.min_samples >= 1, "min_samples", options.min_samples as f64, "at least 1")
 }

@@ -5,7 +5,7 @@ use crate::fit::common::report::Tolerance;
 use crate::fit::common::{FitError, Regularize};
 use crate::options::with_fields;
 use crate::parameterize::ParameterizeOptions;
-use crate::surface::pht::{MAX_GRID, MAX_LEVEL};
+use crate::tmesh::{MAX_GRID, MAX_LEVEL};
 
 /// What determines the jets at the basis vertices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

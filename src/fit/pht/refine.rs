@@ -6,14 +6,15 @@ use super::{Estimator, PhtFit, PhtOptions, local};
 use crate::control::{Control, Pool, Watch};
 use crate::fit::common::FitError;
 use crate::fit::common::errors::{DataErrors, data_errors, max_distance};
-use crate::fit::common::foot_points::{LONGEST_STEP, STEPS, gauss_newton_step, hold_back};
-use crate::fit::common::report::{FitReport, Remarks, StopReason};
+use crate::fit::common::foot_points::{self, LONGEST_STEP, hold_back};
+use crate::fit::common::report::{FitReport, Goal, Remarks, StopReason};
+use crate::fit::common::rounds::{self, Next, Outcome, Rounds, Standing};
+use crate::fit::common::trims;
 use crate::fit::common::uniform::energy::FreeFunctions;
 use crate::surface::pht::{PhtError, PhtSurface};
 use crate::surface::{Region, Surface, Trims};
 use crate::tmesh::{Cell, MAX_LEVEL, NodeId, TMesh, Topology};
 use glam::DVec2;
-use rayon::prelude::*;
 
 /// A fit on its way.
 pub struct Refinement<'a> {
@@ -23,12 +24,12 @@ pub struct Refinement<'a> {
     known: KnownSums,
     /// Weight of the energy: that of the options, less where cells cannot be split any more.
     smoothing: f64,
-    /// The tolerance in model units, and whether it was raised.
-    tolerance: (f64, bool),
+    goal: Goal,
+    noise: NoiseTest,
 }
 
 /// A surface, measured, with the parameters it was made for.
-struct Round {
+pub struct Round {
     surface: PhtSurface,
     errors: DataErrors,
     uv: Vec<DVec2>,
@@ -71,6 +72,45 @@ fn unknowns_of(mesh: &TMesh, cell: Cell) -> f64 {
     4.0 * along(low.i == 0 || high.i == last.i) * along(low.j == 0 || high.j == last.j)
 }
 
+impl Rounds for Refinement<'_> {
+    type Round = Round;
+    type Error = FitError;
+
+    fn fit(&mut self, control: &mut Control) -> Result<Round, FitError> {
+        control.watch(|pool, watch| self.round(pool, watch))?
+    }
+
+    fn error(&self, round: &Round) -> f64 {
+        round.errors.max
+    }
+
+    fn tolerance(&self) -> f64 {
+        self.goal.tolerance
+    }
+
+    fn refine(&mut self, standing: &Standing<Round>, _: &Control) -> Next {
+        let Some(round) = standing.round else { return Next::Stop(StopReason::Stagnated) };
+        if round.rough.is_empty() {
+            return Next::Done;
+        }
+        if self.noise.has_reached_floor(round) {
+            return Next::Drop(StopReason::Stagnated);
+        }
+        let is_met = round.rough.iter().all(|rough| rough.error <= self.goal.tolerance);
+        match self.split(round) {
+            Ok(()) => Next::Round,
+            Err(_) if !is_met && self.smoothing > LEAST_SMOOTHING => {
+                // no cell can be split: what is left may be the energy's doing
+                self.smoothing *= SMOOTHING_STEP;
+                self.noise = NoiseTest::default();
+                Next::Round
+            }
+            Err(_) if is_met => Next::Stop(StopReason::ToleranceMet),
+            Err(stop) => Next::Stop(stop),
+        }
+    }
+}
+
 impl<'a> Refinement<'a> {
     pub fn new(data: Data<'a>, options: &'a PhtOptions<'a>) -> Result<Self, FitError> {
         if FreeFunctions::of(&data.uv, &data.data_box) == FreeFunctions::Linear {
@@ -86,45 +126,16 @@ impl<'a> Refinement<'a> {
         let mesh = TMesh::new(&breaks(min.x, max.x, count_u), &breaks(min.y, max.y, count_v));
         // the box has a range, but no room for more lines than it has roundings
         let mesh = mesh.map_err(|_| FitError::DegenerateRange { axis: 'u', at: min.x })?;
-        let tolerance = options.tolerance.absolute(&data.bounds);
+        let goal = Goal::new(&options.tolerance, &data.bounds);
         let known = KnownSums::new(!data.is_shape);
-        Ok(Self { data, options, mesh, known, smoothing: options.smoothing, tolerance })
+        let (smoothing, noise) = (options.smoothing, NoiseTest::default());
+        Ok(Self { data, options, mesh, known, smoothing, goal, noise })
     }
 
     pub fn run(mut self, control: &mut Control) -> Result<PhtFit, FitError> {
-        let mut best: Option<Round> = None;
-        let mut noise = NoiseTest::default();
-        let (mut passes, mut first_error) = (0, f64::NAN);
-        let stop = loop {
-            let round = control.watch(|pool, watch| self.round(pool, watch))??;
-            passes += 1;
-            first_error = if passes == 1 { round.errors.max } else { first_error };
-            control.report(fraction(first_error, round.errors.max, self.tolerance.0), round.errors.max)?;
-            if round.rough.is_empty() {
-                best = Some(round);
-                break StopReason::ToleranceMet;
-            }
-            if noise.has_reached_floor(&round) {
-                break StopReason::Stagnated;
-            }
-            let outcome = self.refine(&round, &mut noise);
-            let is_met = round.rough.iter().all(|rough| rough.error <= self.tolerance.0);
-            if best.as_ref().is_none_or(|best| round.errors.max < best.errors.max) {
-                best = Some(round);
-            }
-            if outcome.is_err() && !is_met && self.smoothing > LEAST_SMOOTHING {
-                // no cell can be split: what is left may be the energy's doing
-                self.smoothing *= SMOOTHING_STEP;
-                noise = NoiseTest::default();
-                continue;
-            }
-            if let Err(stop) = outcome {
-                break if is_met { StopReason::ToleranceMet } else { stop };
-            }
-        };
-        let mut best = best.ok_or(FitError::Singular)?;
-        best.rough.retain(|rough| !(rough.error <= self.tolerance.0));
-        Ok(self.finish(best, stop, passes, control))
+        let mut outcome = rounds::run(&mut self, control)?;
+        outcome.best.rough.retain(|rough| !(rough.error <= self.goal.tolerance));
+        Ok(self.finish(outcome, control))
     }
 
     /// Estimates on the present mesh, corrects the parameters, measures.
@@ -150,7 +161,7 @@ impl<'a> Refinement<'a> {
         let mut surface = estimate(&self.data, &by_leaf)?;
         let sweeps = if self.data.is_shape { options.correction_sweeps } else { 0 };
         for _ in 0..sweeps {
-            self.data.uv = foot_points(&self.data, &surface, pool);
+            self.data.uv = moved(&self.data, &surface, pool);
             by_leaf = ByLeaf::sort(&mesh, &topology, &self.data, pool);
             surface = estimate(&self.data, &by_leaf)?;
         }
@@ -179,13 +190,13 @@ impl<'a> Refinement<'a> {
             let error = samples.iter().map(|&sample| miss(sample as usize)).fold(0.0, f64::max);
             let unknowns = unknowns_of(&self.mesh, cell);
             let between = if is_scattered { error * left_out_factor(unknowns, samples.len()) } else { error };
-            (!(between <= self.tolerance.0)).then_some(Rough { cell, samples: samples.len(), error })
+            (!(between <= self.goal.tolerance)).then_some(Rough { cell, samples: samples.len(), error })
         };
         topology.leaves.iter().enumerate().filter_map(rough).collect()
     }
 
     /// Splits the rough cells, or says why none can be split.
-    fn refine(&mut self, round: &Round, noise: &mut NoiseTest) -> Result<(), StopReason> {
+    fn split(&mut self, round: &Round) -> Result<(), StopReason> {
         let options = self.options;
         let mut mesh = self.mesh.clone();
         let mut stop = StopReason::DataExhausted;
@@ -198,7 +209,7 @@ impl<'a> Refinement<'a> {
         // where the tolerance is met and only the places between the data are in doubt, quarters shall have as many
         // data as unknowns
         let least = |rough: &&Rough| {
-            let is_met = rough.error <= self.tolerance.0;
+            let is_met = rough.error <= self.goal.tolerance;
             if is_met { options.min_samples.max(16) } else { options.min_samples }
         };
         for rough in round.rough.iter().filter(|rough| rough.samples >= least(rough)) {
@@ -219,68 +230,42 @@ impl<'a> Refinement<'a> {
         }
         let is_split =
             |&uv: &DVec2| mesh.cell(mesh.locate(uv)).level > self.mesh.cell(self.mesh.locate(uv)).level;
-        noise.before = self.data.uv.iter().map(is_split).zip(round.errors.each.iter().copied()).collect();
-        noise.unknowns = (round.surface.coefficient_count(), unknowns);
+        self.noise.before =
+            self.data.uv.iter().map(is_split).zip(round.errors.each.iter().copied()).collect();
+        self.noise.unknowns = (round.surface.coefficient_count(), unknowns);
         self.mesh = mesh;
         Ok(())
     }
 
-    fn finish(&mut self, best: Round, stop: StopReason, passes: usize, control: &Control) -> PhtFit {
-        let Round { mut surface, errors, uv, rough, smoothing } = best;
+    fn finish(mut self, outcome: Outcome<Round>, control: &Control) -> PhtFit {
+        let Outcome { best: Round { mut surface, errors, uv, rough, smoothing }, stop, passes } = outcome;
         self.data.uv = uv;
-        let pool = control.pool();
-        let trims = self.trims(&surface);
+        let (data, pool) = (&self.data, control.pool());
+        let trims = trims(data.mesh, &data.uv, &surface.domain());
         let empty_cell_count = self.empty_cell_count(&surface, &trims);
-        *surface.region_mut() = Region { data_box: Some(self.data.data_box), trims };
-        let interior =
-            self.data.on_mesh().map(|mesh| mesh.interior_errors(&surface, pool)).unwrap_or_default();
-        let (tolerance, raised) = self.tolerance;
-        let mut remarks = Remarks::default();
-        remarks.add_if(errors.max > tolerance, Remarks::TOLERANCE_NOT_MET);
-        remarks.add_if(stop == StopReason::Stagnated, Remarks::STAGNATED);
-        remarks.add_if(raised, Remarks::TOLERANCE_RAISED);
-        remarks.add_if(empty_cell_count > 0, Remarks::EMPTY_CELLS);
-        remarks.add_if(interior.max_excess > tolerance, Remarks::ROUGH_BETWEEN_NODES);
+        *surface.region_mut() = Region { data_box: Some(data.data_box), trims };
         let mesh = surface.mesh();
-        let measures_distance =
-            self.options.measure_distance && (self.data.mesh.is_none() || self.data.is_shape);
-        let distance = if measures_distance {
-            max_distance(&surface, &self.data.values, &self.data.uv, pool)
-        } else {
-            f64::NAN
-        };
-        let report = FitReport {
-            max_error: errors.max,
-            rms_error: errors.rms,
-            mean_error: errors.mean,
-            worst_index: self.data.order.get(errors.worst_index).map_or(errors.worst_index, |&k| k as usize),
-            tolerance,
-            diagonal: self.data.bounds.diagonal(),
-            max_interior_error: interior.max,
-            facet_sagitta: interior.sagitta,
-            max_distance: distance,
+        let measures_distance = self.options.measure_distance && (data.mesh.is_none() || data.is_shape);
+        let mut report = FitReport {
+            worst_index: data.order.get(errors.worst_index).map_or(errors.worst_index, |&k| k as usize),
             cell_count: mesh.leaf_count(),
             deepest_level: mesh.leaves().map(|leaf| mesh.cell(leaf).level).max().unwrap_or(0),
             rough_cell_count: rough.len(),
             coefficient_count: surface.coefficient_count(),
             smoothing,
             empty_cell_count,
-            passes,
-            stop,
-            remarks,
-            ..FitReport::default()
+            ..FitReport::new(&errors, &self.goal, stop, passes)
         };
+        if measures_distance {
+            report.max_distance = max_distance(&surface, &data.values, &data.uv, pool);
+        }
+        if let Some(mesh) = data.on_mesh() {
+            report.add_interior(&mesh.interior_errors(&surface, pool));
+        }
+        report.remarks.add_if(empty_cell_count > 0, Remarks::EMPTY_CELLS);
         let uv = std::mem::take(&mut self.data.uv);
-        let parameters = self.data.as_given(uv);
-        PhtFit { surface, report, parameters, errors: self.data.as_given(errors.each) }
-    }
-
-    /// The boundary loops of the mesh in the parameter plane.
-    fn trims(&self, surface: &PhtSurface) -> Trims {
-        let loops = self.data.mesh.map_or(&[][..], |mesh| mesh.loops());
-        let loops = loops.iter().map(|nodes| nodes.iter().map(|&n| self.data.uv[n as usize]).collect());
-        // parameters of data lie in the domain, and loops have three nodes at least
-        Trims::new(loops.collect(), &surface.domain()).unwrap_or_default()
+        let (parameters, errors) = (self.data.as_given(uv), self.data.as_given(errors.each));
+        PhtFit { surface, report, parameters, errors }
     }
 
     /// Cells without samples inside the trims: there the surface is smooth guesswork.
@@ -295,31 +280,15 @@ impl<'a> Refinement<'a> {
 }
 
 /// Where the nodes go: towards their foot points, but no triangle folds.
-fn foot_points(data: &Data, surface: &PhtSurface, pool: &Pool) -> Vec<DVec2> {
-    let (mesh, dim) = (surface.mesh(), data.dim);
-    let mut moved = data.uv.clone();
-    pool.run(|| {
-        moved.par_iter_mut().zip(data.values.par_chunks(dim)).with_min_len(256).for_each(|(uv, value)| {
-            let mut row = vec![0.0; 3 * dim];
-            for _ in 0..STEPS {
-                surface.eval_rows(&[*uv], 1, &mut row);
-                let cell = mesh.cell_domain(mesh.cell(mesh.locate(*uv)));
-                let longest = LONGEST_STEP * cell.size();
-                let step = gauss_newton_step(&row, value).clamp(-longest, longest);
-                *uv = data.data_box.clamp(*uv + step);
-            }
-        })
-    });
+fn moved(data: &Data, surface: &PhtSurface, pool: &Pool) -> Vec<DVec2> {
+    let mesh = surface.mesh();
+    let longest = |uv| LONGEST_STEP * mesh.cell_domain(mesh.cell(mesh.locate(uv))).size();
+    let settle = |_, _, to| data.data_box.clamp(to);
+    let mut moved = foot_points::foot_points(surface, &data.values, &data.uv, longest, settle, pool);
     if let Some(mesh) = data.mesh {
         hold_back(mesh.triangles(), (&data.first_uv, LEAST_AREA), &data.uv, &mut moved);
     }
     moved
-}
-
-/// How far the error has come from the first towards the tolerance, on a logarithmic scale.
-pub fn fraction(first: f64, error: f64, tolerance: f64) -> f64 {
-    let way = (first / tolerance).ln();
-    if way > 0.0 { ((first / error.max(tolerance)).ln() / way).clamp(0.0, 1.0) } else { 1.0 }
 }
 
 /// Watches for the round from which on refinement only follows noise.

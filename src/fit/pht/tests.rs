@@ -1,6 +1,7 @@
 use super::*;
 use crate::ErrorKind;
-use crate::fit::report::{StopReason, ToleranceScale};
+use crate::fit::common::Regularize;
+use crate::fit::common::report::{StopReason, Tolerance, ToleranceScale};
 use crate::samples::{self, Random};
 use crate::surface::Surface;
 use std::ops::ControlFlow;

@@ -32,8 +32,8 @@ pub use rows::Rows;
 
 use crate::control::{Control, Watch};
 use crate::curve::Curve;
-use crate::fit::errors::data_errors;
-use crate::fit::report::{FitReport, Remarks, StopReason};
+use crate::fit::common::errors::data_errors;
+use crate::fit::common::report::{FitReport, Goal, Remarks, StopReason};
 use crate::surface::Surface;
 use crate::surface::tspline::TSplineSurface;
 use control_curve::{Approximation, Rules, Target, row_values};
@@ -120,9 +120,9 @@ fn skin_data(
     control: &mut Control,
     start: Instant,
 ) -> Result<SkinFit, SkinError> {
-    let (tolerance, is_raised) = options.tolerance.absolute(&data.bounds);
+    let goal = Goal::new(&options.tolerance, &data.bounds);
     let steps = Steps::new(data, options)?;
-    let mut solved = control.watch(|_, watch| solve(data, &steps, options, tolerance, watch))??;
+    let mut solved = control.watch(|_, watch| solve(data, &steps, options, goal.tolerance, watch))??;
     let surface = assemble(&mut solved)?;
     let place = |&(row, u): &(usize, f64)| DVec2::new(u, solved.loft.parameters[row]);
     let parameters: Vec<DVec2> = data.places.iter().map(place).collect();
@@ -130,31 +130,19 @@ fn skin_data(
     control.report(1.0, errors.max)?;
 
     let skin = skin_report(data, &solved, &surface)?;
-    let mut remarks = Remarks::default();
-    remarks.add_if(is_raised, Remarks::TOLERANCE_RAISED);
-    remarks.add_if(data.merged_points > 0, Remarks::MERGED_POINTS);
-    remarks.add_if(data.twisted_row.is_some(), Remarks::TWISTED_ROWS);
-    remarks.add_if(steps.is_mean && options.v_rule == VRule::Endpoints, Remarks::MEAN_STEPS);
-    remarks.add_if(!(errors.max <= tolerance), Remarks::TOLERANCE_NOT_MET);
-    remarks.add_if(solved.found.is_stalled, Remarks::STAGNATED);
-    remarks.add_if(skin.overshoot > CLUSTERED_OVERSHOOT, Remarks::CLUSTERED_ROWS);
-    let report = FitReport {
-        max_error: errors.max,
-        rms_error: errors.rms,
-        mean_error: errors.mean,
-        worst_index: errors.worst_index,
-        tolerance,
-        diagonal: data.bounds.diagonal(),
-        max_distance: f64::NAN,
+    let stop = if solved.found.is_stalled { StopReason::Stagnated } else { StopReason::ToleranceMet };
+    let mut report = FitReport {
         grid_u: skin.largest_count - 2,
         grid_v: surface.knots_v().spans().len() + 1,
         coefficient_count: surface.coefficient_count(),
-        passes: solved.found.passes,
-        stop: if solved.found.is_stalled { StopReason::Stagnated } else { StopReason::ToleranceMet },
         seconds: start.elapsed().as_secs_f64(),
-        remarks,
-        ..FitReport::default()
+        ..FitReport::new(&errors, &goal, stop, solved.found.passes)
     };
+    let remarks = &mut report.remarks;
+    remarks.add_if(data.merged_points > 0, Remarks::MERGED_POINTS);
+    remarks.add_if(data.twisted_row.is_some(), Remarks::TWISTED_ROWS);
+    remarks.add_if(steps.is_mean && options.v_rule == VRule::Endpoints, Remarks::MEAN_STEPS);
+    remarks.add_if(skin.overshoot > CLUSTERED_OVERSHOOT, Remarks::CLUSTERED_ROWS);
     Ok(SkinFit { surface, report, skin, parameters, errors: errors.each })
 }
 

@@ -1,6 +1,7 @@
 //! What a skin may be asked for.
 
-use crate::fit::report::Tolerance;
+use crate::fit::common::report::Tolerance;
+use crate::options::with_fields;
 
 /// Which knots the control curves get.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -94,5 +95,25 @@ impl Default for SkinOptions<'_> {
             certify: false,
             compare: false,
         }
+    }
+}
+
+impl<'a> SkinOptions<'a> {
+    with_fields! {
+        with_tolerance tolerance: Tolerance,
+        with_method method: SkinMethod,
+        with_closed closed: bool,
+        with_ends ends: SectionEnds<'a>,
+        with_closed_v closed_v: bool,
+        with_begin_tangents begin_tangents: Option<&'a [f64]>,
+        with_end_tangents end_tangents: Option<&'a [f64]>,
+        with_v_rule v_rule: VRule,
+        with_align align: bool,
+        with_approximate_v approximate_v: bool,
+        with_extra_checks extra_checks: usize,
+        with_batch batch: bool,
+        with_removal removal: bool,
+        with_certify certify: bool,
+        with_compare compare: bool,
     }
 }

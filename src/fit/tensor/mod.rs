@@ -9,82 +9,25 @@
 //! minimize  sum_n |S(u_n,v_n) - P_n|^2 + (mu/12) energy(S)
 //! ```
 
-mod foot_points;
 mod measure;
+mod options;
 mod refine;
 mod single_grid;
 
 pub use super::common::uniform::{Ends, Energy, Method, SMOOTHING_LADDER};
+pub use options::TensorOptions;
 
 use super::common::checks::{check_parameters, check_values};
-use super::common::report::{FitReport, Tolerance};
-use super::common::uniform::LARGEST_GRID;
+use super::common::report::{FitReport, Goal};
 use super::common::uniform::energy::FreeFunctions;
-use super::common::{FitError, Frame, Regularize, node_parameters};
+use super::common::{FitError, Frame, node_parameters};
 use crate::control::Control;
 use crate::geometry::Bounds;
 use crate::mesh::Mesh;
-use crate::parameterize::ParameterizeOptions;
 use crate::surface::tensor::TensorSurface;
 use crate::surface::{Domain, Region, Trims};
 use glam::DVec2;
 use std::time::Instant;
-
-/// Options of tensor fits.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TensorOptions<'a> {
-    /// The largest error allowed at the data.
-    pub tolerance: Tolerance,
-    /// Which equations determine the surface.
-    pub method: Method,
-    /// What happens at the ends of the knots.
-    pub ends: Ends,
-    /// Which second derivatives cost energy.
-    pub energy: Energy,
-    /// Weight mu of the energy; 0 takes the largest of [`SMOOTHING_LADDER`] that meets the tolerance (for
-    /// [`Method::Ferguson`]: 1e-3).
-    pub smoothing: f64,
-    /// How far the knots reach beyond the data, as a fraction of the data's range.
-    pub buffer: f64,
-    /// Most knots along one direction.
-    pub max_grid: usize,
-    /// Most unknowns of one grid.
-    pub max_coefficients: usize,
-    /// Knots along u and v to use without refinement.
-    pub fixed_grid: Option<[usize; 2]>,
-    /// Sweeps of parameter correction on each grid: nodes move to their foot points, then the fit is
-    /// repeated. The errors reported are then those at the corrected parameters.
-    pub correction_sweeps: usize,
-    /// What to do with parameters that came with the mesh.
-    pub regularize: Regularize,
-    /// How a mesh without parameters gets them.
-    pub parameterize: ParameterizeOptions,
-    /// A positive weight for each datum.
-    pub weights: Option<&'a [f64]>,
-    /// Whether to measure the closest-point distance of the nodes.
-    pub measure_distance: bool,
-}
-
-impl Default for TensorOptions<'_> {
-    fn default() -> Self {
-        Self {
-            tolerance: Tolerance::default(),
-            method: Method::default(),
-            ends: Ends::default(),
-            energy: Energy::default(),
-            smoothing: 0.0,
-            buffer: 0.10,
-            max_grid: 257,
-            max_coefficients: 257 * 257,
-            fixed_grid: None,
-            correction_sweeps: 0,
-            regularize: Regularize::default(),
-            parameterize: ParameterizeOptions::TENSOR,
-            weights: None,
-            measure_distance: false,
-        }
-    }
-}
 
 /// A fitted surface with all that is known of it.
 #[derive(Debug, Clone)]
@@ -126,8 +69,8 @@ pub fn fit_points(
 ) -> Result<TensorFit, FitError> {
     let start = Instant::now();
     check(uv, values, dim, options)?;
-    let mut problem = Problem::new(uv.to_vec(), values, dim, None, options)?;
-    let mut fit = problem.fit(control)?;
+    let problem = Problem::new(uv.to_vec(), values, dim, None, options)?;
+    let mut fit = problem.run(control)?;
     fit.report.seconds = start.elapsed().as_secs_f64();
     Ok(fit)
 }
@@ -141,7 +84,7 @@ fn fit_on_mesh(
     control: &mut Control,
 ) -> Result<TensorFit, FitError> {
     let start = Instant::now();
-    check_options(options)?;
+    options.check()?;
     check_values(mesh.points().len(), values, dim, options.weights)?;
     control.set_stage(0.0, 0.3);
     let map = node_parameters(mesh, &options.parameterize, options.regularize, control)?;
@@ -150,7 +93,7 @@ fn fit_on_mesh(
     let mut problem = Problem::new(map.uv, values, dim, Some(mesh), options)?;
     problem.is_shape = is_shape;
     control.set_stage(0.3, 1.0);
-    let mut fit = problem.fit(control)?;
+    let mut fit = problem.run(control)?;
     fit.report.parameterize_seconds = parameterize_seconds;
     fit.report.remarks.0 |= map.remarks.0;
     fit.report.measure_map(mesh, &fit.parameters);
@@ -158,30 +101,16 @@ fn fit_on_mesh(
     Ok(fit)
 }
 
-pub(in crate::fit) fn check_options(options: &TensorOptions) -> Result<(), FitError> {
-    let check = |holds: bool, option, value, range| {
-        if holds { Ok(()) } else { Err(FitError::Option { option, value, range }) }
-    };
-    let positive = |x: f64| x > 0.0 && x.is_finite();
-    check(positive(options.tolerance.value), "tolerance", options.tolerance.value, "positive and finite")?;
-    let smoothing = options.smoothing;
-    check(smoothing >= 0.0 && smoothing.is_finite(), "smoothing", smoothing, "finite and not negative")?;
-    check((0.0..=10.0).contains(&options.buffer), "buffer", options.buffer, "between 0 and 10")?;
-    check(options.max_grid >= 2, "max_grid", options.max_grid as f64, "at least 2")?;
-    check(options.max_coefficients >= 4, "max_coefficients", options.max_coefficients as f64, "at least 4")?;
-    for count in options.fixed_grid.into_iter().flatten() {
-        check((2..=LARGEST_GRID).contains(&count), "grid", count as f64, "between 2 and 8193")?;
-    }
-    Ok(())
-}
-
 fn check(uv: &[DVec2], values: &[f64], dim: usize, options: &TensorOptions) -> Result<(), FitError> {
-    check_options(options)?;
+    options.check()?;
     check_values(uv.len(), values, dim, options.weights)?;
     check_parameters(uv)
 }
 
-/// Everything that stays the same while grids are tried.
+/// Knots of the first grid.
+const FIRST_GRID: [usize; 2] = [2, 2];
+
+/// Data, what they are fitted with, and how far the fit has come.
 struct Problem<'a> {
     options: &'a TensorOptions<'a>,
     mesh: Option<&'a Mesh>,
@@ -197,9 +126,9 @@ struct Problem<'a> {
     /// The energy asked for, or the plate where that leaves the surface undetermined.
     energy: Energy,
     frame: Frame,
-    bounds: Bounds,
-    /// The tolerance in model units, and whether it was raised.
-    tolerance: (f64, bool),
+    goal: Goal,
+    /// The grids to try in the next round.
+    next: Vec<[usize; 2]>,
 }
 
 impl<'a> Problem<'a> {
@@ -218,7 +147,8 @@ impl<'a> Problem<'a> {
             FreeFunctions::Linear => return Err(FitError::Singular),
         };
         Ok(Self {
-            tolerance: options.tolerance.absolute(&bounds),
+            goal: Goal::new(&options.tolerance, &bounds),
+            next: vec![options.fixed_grid.unwrap_or(FIRST_GRID)],
             energy,
             frame: Frame::new(&bounds),
             options,
@@ -228,7 +158,6 @@ impl<'a> Problem<'a> {
             dim,
             uv,
             data_box,
-            bounds,
         })
     }
 

@@ -1,6 +1,6 @@
 //! What a tensor fit may be asked for.
 
-use super::{Ends, Energy, Method, SMOOTHING_LADDER};
+use super::{Ends, Energy, Method};
 use crate::fit::common::checks::{check_buffer, check_grid, check_option, check_smoothing, check_tolerance};
 use crate::fit::common::report::Tolerance;
 use crate::fit::common::{FitError, Regularize};
@@ -18,7 +18,7 @@ pub struct TensorOptions<'a> {
     pub ends: Ends,
     /// Which second derivatives cost energy.
     pub energy: Energy,
-    /// Weight mu of the energy; 0 takes the largest of [`SMOOTHING_LADDER`] that meets the tolerance (for
+    /// Weight mu of the energy; 0 takes the largest of [`SMOOTHING_LADDER`](super::SMOOTHING_LADDER) that meets the tolerance (for
     /// [`Method::Ferguson`]: 1e-3).
     pub smoothing: f64,
     /// How far the knots reach beyond the data, as a fraction of the data's range.

@@ -4,9 +4,12 @@ use super::single_grid::Candidate;
 use super::{FitError, Problem, TensorFit};
 use crate::control::{Control, Pool};
 use crate::fit::common::errors::max_distance;
+use crate::fit::common::foot_points::{LONGEST_STEP, foot_points, hold_back};
 use crate::fit::common::report::{FitReport, Remarks, StopReason};
+use crate::fit::common::rounds::{self, Next, Outcome, Rounds, Standing};
+use crate::fit::common::trims;
+use crate::surface::Surface;
 use crate::surface::tensor::TensorSurface;
-use crate::surface::{Surface, Trims};
 use glam::DVec2;
 
 /// Two rounds in a row that do not lower the error are followed by doubling both ways; this many end the fit.
@@ -16,55 +19,65 @@ const STAGNANT_ROUNDS: usize = 4;
 /// than one unknown for this many data is a standstill one.
 const DATA_PER_UNKNOWN: f64 = 4.0;
 
-impl Problem<'_> {
-    /// Fits grids of growing size (`ferguson.md` 5).
-    pub fn fit(&mut self, control: &mut Control) -> Result<TensorFit, FitError> {
-        let first = self.options.fixed_grid.unwrap_or([2, 2]);
-        let candidate = control.watch(|pool, watch| self.fit_grid(first, pool, watch))??;
+/// A triangle that keeps less than this share of its area holds its nodes back.
+const LEAST_AREA: f64 = 1e-3;
+
+/// A fit with the parameters it was made for.
+pub struct Round {
+    candidate: Candidate,
+    uv: Vec<DVec2>,
+}
+
+/// Grids of growing size (`ferguson.md` 5).
+impl Rounds for Problem<'_> {
+    type Round = Round;
+    type Error = FitError;
+
+    fn fit(&mut self, control: &mut Control) -> Result<Round, FitError> {
+        let next = std::mem::take(&mut self.next);
+        let candidate = self.better_of(next, control)?;
         let candidate = self.correct(candidate, control)?;
-        let mut rounds = Rounds { passes: 1, stagnant: 0, first_error: candidate.errors.max, counts: first };
-        let mut best = Best { candidate, uv: self.uv.clone(), is_current: true };
-        let stop = loop {
-            let error = best.candidate.errors.max;
-            control.report(rounds.fraction(error, self.tolerance.0), error)?;
-            if let Some(stop) = self.reason_to_stop(&best, &rounds, control) {
-                break stop;
-            }
-            let next = match self.next_grids(rounds.counts, rounds.stagnant) {
-                Ok(next) => next,
-                Err(stop) => break stop,
-            };
-            let candidate = self.better_of(next, control)?;
-            let candidate = self.correct(candidate, control)?;
-            rounds.passes += 1;
-            rounds.counts = candidate.counts();
-            best.is_current = candidate.errors.max < error;
-            rounds.stagnant = if best.is_current { 0 } else { rounds.stagnant + 1 };
-            if best.is_current {
-                best = Best { candidate, uv: self.uv.clone(), is_current: true };
-            }
-        };
-        self.uv = best.uv;
-        Ok(self.finish(best.candidate, stop, rounds.passes, control))
+        Ok(Round { candidate, uv: self.uv.clone() })
     }
 
-    fn reason_to_stop(&self, best: &Best, rounds: &Rounds, control: &Control) -> Option<StopReason> {
-        let unknowns = self.coefficient_count(rounds.counts) as f64;
+    fn error(&self, round: &Round) -> f64 {
+        round.candidate.errors.max
+    }
+
+    fn tolerance(&self) -> f64 {
+        self.goal.tolerance
+    }
+
+    fn refine(&mut self, standing: &Standing<Round>, control: &Control) -> Next {
+        let Some(Round { candidate, .. }) = standing.round else { return Next::Stop(StopReason::Stagnated) };
+        let unknowns = self.coefficient_count(candidate.counts()) as f64;
         let could_resolve = DATA_PER_UNKNOWN * unknowns > self.uv.len() as f64;
-        if best.is_current && self.is_met(&best.candidate, control) {
-            Some(StopReason::ToleranceMet)
-        } else if self.options.fixed_grid.is_some() {
-            Some(StopReason::FixedGrid)
-        } else if rounds.stagnant >= STAGNANT_ROUNDS && could_resolve {
-            Some(StopReason::Stagnated)
-        } else {
-            None
+        if standing.is_best && self.is_met(candidate, control) {
+            return Next::Done;
         }
+        if self.options.fixed_grid.is_some() {
+            return Next::Stop(StopReason::FixedGrid);
+        }
+        if standing.idle >= STAGNANT_ROUNDS && could_resolve {
+            return Next::Stop(StopReason::Stagnated);
+        }
+        match self.next_grids(candidate.counts(), standing.idle) {
+            Ok(next) => self.next = next,
+            Err(stop) => return Next::Stop(stop),
+        }
+        Next::Round
+    }
+}
+
+impl Problem<'_> {
+    pub fn run(mut self, control: &mut Control) -> Result<TensorFit, FitError> {
+        let outcome = rounds::run(&mut self, control)?;
+        Ok(self.finish(outcome, control))
     }
 
     /// Whether data and, beyond what the facets explain, what lies between them are within the tolerance.
     fn is_met(&self, candidate: &Candidate, control: &Control) -> bool {
-        let tolerance = self.tolerance.0;
+        let tolerance = self.goal.tolerance;
         candidate.errors.max <= tolerance
             && self.interior_errors(&candidate.surface, control.pool()).max_excess <= tolerance
     }
@@ -103,7 +116,7 @@ impl Problem<'_> {
             }
             others => others.iter().map(|&counts| self.fit_grid(counts, pool, watch)).collect(),
         })??;
-        let meets = |candidate: &Candidate| candidate.errors.max <= self.tolerance.0;
+        let meets = |candidate: &Candidate| candidate.errors.max <= self.goal.tolerance;
         let second = if fitted.len() > 1 { fitted.pop() } else { None };
         let first = fitted.pop().ok_or(FitError::Singular)?;
         let Some(second) = second else { return Ok(first) };
@@ -142,10 +155,10 @@ impl Problem<'_> {
     /// Parameter correction, as many sweeps as asked for while they help.
     fn correct(&mut self, mut current: Candidate, control: &mut Control) -> Result<Candidate, FitError> {
         for _ in 0..self.options.correction_sweeps {
-            if current.errors.max <= self.tolerance.0 {
+            if current.errors.max <= self.goal.tolerance {
                 break;
             }
-            let moved = self.foot_points(&current, control.pool());
+            let moved = self.moved(&current, control.pool());
             let before = std::mem::replace(&mut self.uv, moved);
             let counts = current.counts();
             let refitted = control.watch(|pool, watch| self.fit_grid(counts, pool, watch))??;
@@ -158,12 +171,15 @@ impl Problem<'_> {
         Ok(current)
     }
 
-    /// The boundary loops of the mesh in the parameter plane.
-    fn trims(&self, surface: &TensorSurface) -> Trims {
-        let loops = self.mesh.map_or(&[][..], |mesh| mesh.loops());
-        let loops = loops.iter().map(|nodes| nodes.iter().map(|&n| self.uv[n as usize]).collect());
-        // parameters of data lie in the domain, and loops have three nodes at least
-        Trims::new(loops.collect(), &surface.domain()).unwrap_or_default()
+    /// Where the data go that move towards their foot points.
+    fn moved(&self, candidate: &Candidate, pool: &Pool) -> Vec<DVec2> {
+        let longest = LONGEST_STEP * DVec2::new(candidate.grid[0].step, candidate.grid[1].step);
+        let settle = |_, _, to| self.data_box.clamp(to);
+        let mut moved = foot_points(&candidate.surface, self.values, &self.uv, |_| longest, settle, pool);
+        if let Some(mesh) = self.mesh {
+            hold_back(mesh.triangles(), (&self.uv, LEAST_AREA), &self.uv, &mut moved);
+        }
+        moved
     }
 
     /// Largest closest-point distance from a datum to the surface; NaN unless asked for, and for fields, whose
@@ -175,76 +191,25 @@ impl Problem<'_> {
         max_distance(surface, self.values, &self.uv, pool)
     }
 
-    fn finish(
-        &mut self,
-        mut best: Candidate,
-        stop: StopReason,
-        passes: usize,
-        control: &Control,
-    ) -> TensorFit {
-        let interior = self.interior_errors(&best.surface, control.pool());
-        let trims = self.trims(&best.surface);
+    fn finish(mut self, outcome: Outcome<Round>, control: &Control) -> TensorFit {
+        let Outcome { best: Round { candidate: mut best, uv }, stop, passes } = outcome;
+        self.uv = uv;
+        let trims = trims(self.mesh, &self.uv, &best.surface.domain());
         let empty_cell_count = self.empty_cell_count(&best.grid, &trims);
         best.surface.region_mut().trims = trims;
-        let (tolerance, raised) = self.tolerance;
-        let mut remarks = Remarks::default();
-        remarks.add_if(best.errors.max > tolerance, Remarks::TOLERANCE_NOT_MET);
-        remarks.add_if(stop == StopReason::Stagnated, Remarks::STAGNATED);
-        remarks.add_if(raised, Remarks::TOLERANCE_RAISED);
-        remarks.add_if(self.energy != self.options.energy, Remarks::PLATE_ENERGY_USED);
-        remarks.add_if(empty_cell_count > 0, Remarks::EMPTY_CELLS);
-        remarks.add_if(interior.max_excess > tolerance, Remarks::ROUGH_BETWEEN_NODES);
         let [grid_u, grid_v] = best.counts();
-        let report = FitReport {
-            max_error: best.errors.max,
-            rms_error: best.errors.rms,
-            mean_error: best.errors.mean,
-            worst_index: best.errors.worst_index,
-            tolerance,
-            diagonal: self.bounds.diagonal(),
-            max_interior_error: interior.max,
-            facet_sagitta: interior.sagitta,
+        let mut report = FitReport {
             max_distance: self.max_distance(&best.surface, control.pool()),
             grid_u,
             grid_v,
             coefficient_count: best.coefficient_count,
             smoothing: best.smoothing,
             empty_cell_count,
-            passes,
-            stop,
-            remarks,
-            ..FitReport::default()
+            ..FitReport::new(&best.errors, &self.goal, stop, passes)
         };
-        TensorFit {
-            surface: best.surface,
-            report,
-            parameters: std::mem::take(&mut self.uv),
-            errors: best.errors.each,
-        }
-    }
-}
-
-/// The best fit so far, with the parameters it was made for.
-struct Best {
-    candidate: Candidate,
-    uv: Vec<DVec2>,
-    /// Whether the latest round found it.
-    is_current: bool,
-}
-
-struct Rounds {
-    passes: usize,
-    /// Rounds in a row that did not lower the error.
-    stagnant: usize,
-    first_error: f64,
-    /// The grid of the latest round.
-    counts: [usize; 2],
-}
-
-impl Rounds {
-    /// How far the error has come from the first towards the tolerance, on a logarithmic scale.
-    fn fraction(&self, error: f64, tolerance: f64) -> f64 {
-        let way = (self.first_error / tolerance).ln();
-        if way > 0.0 { ((self.first_error / error.max(tolerance)).ln() / way).clamp(0.0, 1.0) } else { 1.0 }
+        report.add_interior(&self.interior_errors(&best.surface, control.pool()));
+        report.remarks.add_if(self.energy != self.options.energy, Remarks::PLATE_ENERGY_USED);
+        report.remarks.add_if(empty_cell_count > 0, Remarks::EMPTY_CELLS);
+        TensorFit { surface: best.surface, report, parameters: self.uv, errors: best.errors.each }
     }
 }

@@ -131,7 +131,7 @@ impl<'a> LeastSquares<'a> {
         }
         let (closest, calmer) = SMOOTHING_LADDER.split_last().expect("the ladder has steps");
         let closest = self.fit(*closest)?;
-        let tolerance = self.problem.tolerance.0;
+        let tolerance = self.problem.goal.tolerance;
         // more smoothing lowers a maximum now and then, by a little
         const WORTH_TRYING: f64 = 1.1;
         if closest.errors.max > WORTH_TRYING * tolerance {

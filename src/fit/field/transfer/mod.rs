@@ -27,6 +27,7 @@ use crate::fit::common::FitError;
 use crate::fit::common::checks::check_rows;
 use crate::fit::common::report::{FitReport, ToleranceScale};
 use crate::mesh::Mesh;
+use crate::options::with_fields;
 use crate::query::project::{ProjectOptions, Projector};
 use crate::summary::{sum, summarize};
 use crate::surface::tensor::TensorSurface;
@@ -65,6 +66,15 @@ impl Default for TransferOptions<'_> {
             distance_scale: ToleranceScale::Relative,
             far: FarRule::Refuse,
         }
+    }
+}
+
+impl<'a> TransferOptions<'a> {
+    with_fields! {
+        with_field field: FieldOptions<'a>,
+        with_max_distance max_distance: f64,
+        with_distance_scale distance_scale: ToleranceScale,
+        with_far far: FarRule,
     }
 }
 
