@@ -381,6 +381,29 @@ module planish_records
     integer(c_int32_t) :: border_slid = 0 !! 1 if the border slid with the stretch
   end type
 
+  !> How a mesh is mapped on to the sphere.
+  type, bind(c), public :: planish_sphere_options
+    integer(c_size_t) :: struct_size = 3 * word + 8
+    type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
+    type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    integer(c_int32_t) :: sweeps = 10 !! Sweeps over all nodes at the end
+    integer(c_int32_t) :: thread_count = 0 !! Threads that share the work; 0 (default) for all cores
+  end type
+
+  !> How good a map to the sphere is.
+  type, bind(c), public :: planish_sphere_report
+    integer(c_size_t) :: struct_size = 3 * word + 32
+    !> Symmetric Dirichlet energy by area, both scaled to those of the sphere: 4 if all lengths are kept
+    real(c_double) :: energy = 0
+    !> Triangles whose images are turned over or flat, by the exact sign; 0 but beyond the digits of a double
+    integer(c_size_t) :: folded_triangles = 0
+    integer(c_size_t) :: clamped_triangles = 0 !! Triangles so thin that they counted as wider
+    !> Image area by area in space, each as a share of its whole: 5 percent of the area have less than this
+    real(c_double) :: low_area_ratio = 0
+    real(c_double) :: high_area_ratio = 0 !! 5 percent of the area have more than this
+    real(c_double) :: seconds = 0 !! Wall time in seconds
+  end type
+
   !> What a fit did and how good it is.
   type, bind(c), public :: planish_fit_report
     integer(c_size_t) :: struct_size = 9 * word + 120
@@ -1144,6 +1167,25 @@ module planish_calls
       type(c_ptr), value :: mesh
       type(planish_parameterize_options), intent(in), optional :: options
       type(planish_parameterize_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_sphere_options_init(options, struct_size) bind(c, name="planish_sphere_options_init")
+      import
+      implicit none
+      type(planish_sphere_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_mesh_map_to_sphere( &
+        mesh, options, out_points, count, out_report) &
+        bind(c, name="planish_mesh_map_to_sphere")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      type(planish_sphere_options), intent(in), optional :: options
+      real(c_double), intent(inout) :: out_points(*)
+      integer(c_size_t), value :: count
+      type(planish_sphere_report), intent(inout), optional :: out_report
     end function
 
     integer(c_int) function c_eval_options_init(options, struct_size) bind(c, name="planish_eval_options_init")

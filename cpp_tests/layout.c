@@ -52,6 +52,22 @@ FOLLOWS(planish_decimate_report, excess_count, sharp_edge_count);
 FOLLOWS(planish_decimate_report, sharp_edge_count, seconds);
 LAST(planish_decimate_report, seconds);
 
+FIRST(planish_sphere_options);
+FOLLOWS(planish_sphere_options, struct_size, progress);
+FOLLOWS(planish_sphere_options, progress, user);
+FOLLOWS(planish_sphere_options, user, sweeps);
+FOLLOWS(planish_sphere_options, sweeps, thread_count);
+LAST(planish_sphere_options, thread_count);
+
+FIRST(planish_sphere_report);
+FOLLOWS(planish_sphere_report, struct_size, energy);
+FOLLOWS(planish_sphere_report, energy, folded_triangles);
+FOLLOWS(planish_sphere_report, folded_triangles, clamped_triangles);
+FOLLOWS(planish_sphere_report, clamped_triangles, low_area_ratio);
+FOLLOWS(planish_sphere_report, low_area_ratio, high_area_ratio);
+FOLLOWS(planish_sphere_report, high_area_ratio, seconds);
+LAST(planish_sphere_report, seconds);
+
 FIRST(planish_parameterize_options);
 FOLLOWS(planish_parameterize_options, struct_size, node_weights);
 FOLLOWS(planish_parameterize_options, node_weights, progress);

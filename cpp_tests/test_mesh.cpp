@@ -694,6 +694,40 @@ TEST(MeshDecimate, KeepsParametersFieldsAndTopology) {
   CHECK(raw == sentinel<planish_mesh>());
 }
 
+TEST(MeshSphere, MapsAnOctahedron) {
+  const Mesh mesh = make({1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1},
+                         {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4, 1, 0, 5, 2, 1, 5, 3, 2, 5, 0, 3, 5});
+  planish_sphere_options options;
+  CHECK(planish_sphere_options_init(&options, sizeof options) == PLANISH_STATUS_OK);
+  CHECK_EQUAL(options.sweeps, 10u);
+  options.thread_count = 2;
+  double points[18];
+  auto report = fresh<planish_sphere_report>();
+  CHECK(planish_mesh_map_to_sphere(mesh.get(), &options, points, 6, &report) == PLANISH_STATUS_OK);
+  CHECK_EQUAL(report.folded_triangles, 0u);
+  CHECK(report.energy >= 4 && report.energy < 13); // 12 for the regular octahedron
+  for (int i = 0; i < 6; ++i) {
+    const double *p = points + 3 * i;
+    CHECK(std::abs(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] - 1) < 1e-14);
+  }
+  double canaries[18];
+  std::fill(canaries, canaries + 18, 7.0);
+  const auto null = PLANISH_STATUS_NULL_POINTER;
+  CHECK_FAILS(planish_mesh_map_to_sphere(nullptr, &options, canaries, 6, nullptr), null, -1, "mesh is NULL");
+  CHECK_FAILS(planish_mesh_map_to_sphere(mesh.get(), &options, nullptr, 6, nullptr), null, -1, "out_points is NULL");
+  CHECK_FAILS(planish_mesh_map_to_sphere(mesh.get(), &options, canaries, 5, nullptr), PLANISH_STATUS_BUFFER_TOO_SMALL,
+              -1, "6 are needed");
+  CHECK_FAILS(planish_sphere_options_init(nullptr, sizeof options), null, -1, "options is NULL");
+  const Mesh open = make(shapes::graph(6, 6, 0.2, 1));
+  CHECK_FAILS(planish_mesh_map_to_sphere(open.get(), nullptr, canaries, 18, nullptr), PLANISH_STATUS_BUFFER_TOO_SMALL, -1,
+              "36 are needed");
+  std::vector<double> room(108, 7.0);
+  CHECK_FAILS(planish_mesh_map_to_sphere(open.get(), nullptr, room.data(), 36, nullptr), PLANISH_STATUS_TOPOLOGY, 0,
+              "boundary");
+  CHECK(std::all_of(canaries, canaries + 18, [](double x) { return x == 7; }));
+  CHECK(std::all_of(room.begin(), room.end(), [](double x) { return x == 7; }));
+}
+
 TEST(MeshCut, SplitsComponents) {
   const Mesh mesh = make({0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 0, 0, 6, 0, 0, 5, 1, 0}, {0, 1, 2, 3, 4, 5});
   planish_mesh *raw[2] = {nullptr, nullptr};

@@ -113,6 +113,19 @@ TEST(WrapperMesh, FieldsPathsAndPieces) {
   CHECK_EQUAL(pieces.size(), 2u);
 }
 
+TEST(WrapperMesh, IsMappedToTheSphere) {
+  const planish::mesh mesh(std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1},
+                           std::vector<std::uint32_t>{0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2});
+  const planish::sphere_map map = mesh.map_to_sphere();
+  CHECK(map.status == PLANISH_STATUS_OK);
+  CHECK_EQUAL(map.points.size(), 4u);
+  CHECK_EQUAL(map.report.folded_triangles, 0u);
+  const auto error = thrown_by([&] {
+    mesh.map_to_sphere(planish::defaults<planish_sphere_options>(), [](double, double) { return false; });
+  });
+  CHECK(error.status() == PLANISH_STATUS_CANCELLED);
+}
+
 TEST(WrapperMesh, BecomesCoarser) {
   const planish::mesh mesh = make(shapes::graph(20, 20, 0.2, 1));
   auto options = planish::defaults<planish_decimate_options>();

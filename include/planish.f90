@@ -48,7 +48,7 @@ module planish_types
     module procedure vtk_options_init, step_options_init, convert_options_init, skin_options_init
     module procedure pht_options_init, pht_convert_options_init, field_options_init, sample_rows_options_init
     module procedure transfer_options_init, interpolate_options_init
-    module procedure decimate_options_init
+    module procedure decimate_options_init, sphere_options_init
     module procedure d1rc_options_init
   end interface
 
@@ -135,6 +135,7 @@ module planish_types
     procedure :: decimate => mesh_decimate
     procedure :: sample_rows => mesh_sample_rows
     procedure :: parameterize => mesh_parameterize
+    procedure :: map_to_sphere => mesh_map_to_sphere
   end type
 
   !> A surface: a map from a rectangle of parameters (u,v) to dim() numbers.
@@ -579,6 +580,11 @@ contains
   subroutine decimate_options_init(options)
     type(planish_decimate_options), intent(inout) :: options
     call conclude(c_decimate_options_init(options, c_sizeof(options)))
+  end subroutine
+
+  subroutine sphere_options_init(options)
+    type(planish_sphere_options), intent(inout) :: options
+    call conclude(c_sphere_options_init(options, c_sizeof(options)))
   end subroutine
 
   subroutine sample_rows_options_init(options)
@@ -1036,6 +1042,30 @@ contains
       call_options%user = c_loc(user)
     end if
     call conclude(c_mesh_parameterize(self%get(), call_options, report), stat, errmsg)
+  end subroutine
+
+  !> Maps a closed mesh of one component and genus 0 on to the unit sphere, one to one.
+  !>
+  !> points: receives x, y, z of each node: a unit vector, or zeros for a node without triangles.
+  subroutine mesh_map_to_sphere(self, points, options, report, progress, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: self
+    real(c_double), intent(inout), contiguous :: points(:, :)
+    type(planish_sphere_options), intent(in), optional :: options
+    type(planish_sphere_report), intent(inout), optional :: report
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_sphere_options) :: call_options
+    type(listener), target :: user
+    if (present(options)) call_options = options
+    if (refuse_extent(size(points, 1, c_size_t), 3_c_size_t, "the length of a column of points", stat, errmsg)) return
+    if (present(progress)) then
+      user%hear => progress
+      call_options%progress = c_funloc(relay)
+      call_options%user = c_loc(user)
+    end if
+    call conclude( &
+        c_mesh_map_to_sphere(self%get(), call_options, points, size(points, 2, c_size_t), report), stat, errmsg)
   end subroutine
 
   !> The same options for C. Corners that nobody set are left alone.

@@ -1040,6 +1040,67 @@ typedef struct planish_parameterize_report {
 } planish_parameterize_report;
 
 /**
+ * How a mesh is mapped on to the sphere. Fill with planish_sphere_options_init(), then change what you need.
+ */
+typedef struct planish_sphere_options {
+    /**
+     * Set by planish_sphere_options_init().
+     */
+    size_t struct_size;
+    /**
+     * Hears of the progress and may cancel; NULL (default) for nobody.
+     */
+    planish_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *user;
+    /**
+     * Sweeps over all nodes at the end. Default 10.
+     */
+    uint32_t sweeps;
+    /**
+     * Threads that share the work; 0 (default) for all cores. The result does not depend on it.
+     */
+    uint32_t thread_count;
+} planish_sphere_options;
+
+/**
+ * How good a map to the sphere is. Set struct_size to sizeof(planish_sphere_report) before the call; the report is
+ * filled as far as that goes, on success only.
+ */
+typedef struct planish_sphere_report {
+    /**
+     * sizeof(planish_sphere_report) as the caller sees it.
+     */
+    size_t struct_size;
+    /**
+     * Symmetric Dirichlet energy by area, both scaled to those of the sphere: 4 if all lengths are kept.
+     */
+    double energy;
+    /**
+     * Triangles whose images are turned over or flat, by the exact sign; 0 but beyond the digits of a double.
+     */
+    size_t folded_triangles;
+    /**
+     * Triangles so thin that they counted as wider.
+     */
+    size_t clamped_triangles;
+    /**
+     * Image area by area in space, each as a share of its whole: 5 percent of the area have less than this.
+     */
+    double low_area_ratio;
+    /**
+     * 5 percent of the area have more than this.
+     */
+    double high_area_ratio;
+    /**
+     * Wall time in seconds.
+     */
+    double seconds;
+} planish_sphere_report;
+
+/**
  * How points are evaluated. Fill with planish_eval_options_init(), then change what you need.
  */
 typedef struct planish_eval_options {
@@ -2811,6 +2872,43 @@ PLANISH_NODISCARD
 enum planish_status planish_mesh_parameterize(struct planish_mesh *mesh,
                                               const struct planish_parameterize_options *options,
                                               struct planish_parameterize_report *out_report);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_sphere_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+ */
+PLANISH_API
+enum planish_status planish_sphere_options_init(struct planish_sphere_options *options,
+                                                size_t struct_size);
+
+/**
+ * Maps a closed mesh of one component and genus 0 on to the unit sphere, one to one: no triangle is turned over.
+ *
+ * Triangles that are counter-clockwise seen from outside stay so. The map keeps lengths as well as it can: it lowers
+ * the symmetric Dirichlet energy, coarse to fine. The same mesh gives the same bits on any number of threads.
+ *
+ * mesh:       not NULL; stays as it is.
+ * options:    NULL for the defaults.
+ * out_points: receives x, y, z of each node: a unit vector, or zeros for a node without triangles.
+ * count:      rows that out_points has room for, at least planish_mesh_point_count().
+ * out_report: receives how good the map is; NULL for no report.
+ * Arrays: out_points[mesh_point_count, 3].
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_FOLDED_PARAMETERS (rounding left no room somewhere; out_points is filled)
+ * or an error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option), PLANISH_STATUS_TOPOLOGY (a
+ * boundary, with one of its nodes as the index; several components; handles; a node where the surface touches
+ * itself, which is the index), PLANISH_STATUS_DEGENERATE (no triangle has an area, or a node without room, which is
+ * the index), PLANISH_STATUS_BUFFER_TOO_SMALL (count), PLANISH_STATUS_VERSION or PLANISH_STATUS_CANCELLED.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_map_to_sphere(const struct planish_mesh *mesh,
+                                               const struct planish_sphere_options *options,
+                                               double *out_points,
+                                               size_t count,
+                                               struct planish_sphere_report *out_report);
 
 /**
  * Fills options with the defaults.

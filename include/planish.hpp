@@ -123,6 +123,9 @@ inline planish_status init(planish_mesh_options &options) {
 inline planish_status init(planish_parameterize_options &options) {
   return planish_parameterize_options_init(&options, sizeof options);
 }
+inline planish_status init(planish_sphere_options &options) {
+  return planish_sphere_options_init(&options, sizeof options);
+}
 inline planish_status init(planish_decimate_options &options) {
   return planish_decimate_options_init(&options, sizeof options);
 }
@@ -278,6 +281,16 @@ struct parameterized {
   planish_status status;
 };
 
+/// What came of a map to the unit sphere.
+struct sphere_map {
+  /// x, y, z of each node: a unit vector, or zeros for a node without triangles.
+  std::vector<point3> points;
+  /// How good the map is.
+  planish_sphere_report report;
+  /// PLANISH_STATUS_OK or PLANISH_STATUS_FOLDED_PARAMETERS.
+  planish_status status;
+};
+
 struct decimated;
 
 /// A triangle mesh. Copies are deep; one that was moved from may only be assigned to or destroyed.
@@ -412,6 +425,17 @@ class mesh {
     listener.attach(options);
     parameterized result{detail::sized<planish_parameterize_report>(), PLANISH_STATUS_OK};
     result.status = listener.checked(planish_mesh_parameterize(get(), &options, &result.report));
+    return result;
+  }
+
+  /// Maps a closed mesh of one component and genus 0 on to the unit sphere, one to one.
+  sphere_map map_to_sphere(planish_sphere_options options = defaults<planish_sphere_options>(),
+                           const progress &hear = {}) const {
+    detail::listener listener(hear);
+    listener.attach(options);
+    sphere_map result{std::vector<point3>(point_count()), detail::sized<planish_sphere_report>(), PLANISH_STATUS_OK};
+    result.status = listener.checked(planish_mesh_map_to_sphere(
+        get(), &options, detail::flat(result.points), result.points.size(), &result.report));
     return result;
   }
 

@@ -17,6 +17,7 @@ use crate::knots::KnotError;
 use crate::layout::LayoutError;
 use crate::mesh::{CutError, DecimateError, MeshError, ReadError};
 use crate::parameterize::ParameterizeError;
+use crate::parameterize::sphere::SphereError;
 use crate::query::deviation::DeviationError;
 use crate::query::gradient::GradientError;
 use crate::query::project::ProjectError;
@@ -80,6 +81,9 @@ pub enum Error {
     /// A mesh cannot be parameterized.
     #[error(transparent)]
     Parameterize(#[from] ParameterizeError),
+    /// A mesh cannot be mapped on to the sphere.
+    #[error(transparent)]
+    Sphere(#[from] SphereError),
     /// A fit is not possible.
     #[error(transparent)]
     Fit(#[from] FitError),
@@ -177,6 +181,7 @@ impl Error {
             Self::Read(error) => (error.kind(), error.index()),
             Self::Layout(error) => (error.kind(), error.index()),
             Self::Parameterize(error) => (error.kind(), error.index()),
+            Self::Sphere(error) => (error.kind(), error.index()),
             Self::Fit(error) => (error.kind(), error.index()),
             Self::Transfer(error) => (error.kind(), error.index()),
             Self::D1rcFit(error) => (error.kind(), error.index()),

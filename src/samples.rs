@@ -5,6 +5,9 @@
 
 pub mod layouts;
 pub mod rows;
+mod solids;
+
+pub use solids::{ball, handles, holed_block, starfish};
 
 use crate::mesh::{Mesh, MeshError};
 use crate::surface::{Domain, Trims};

@@ -47,6 +47,7 @@ program test_calls
   call meshes_are_fitted_by_d1rc_splines()
   call fields_have_names()
   call parameters_are_set_and_made()
+  call closed_meshes_become_spheres()
   call shapes_are_fitted()
   call scattered_points_are_fitted()
   call fields_are_fitted()
@@ -240,6 +241,20 @@ contains
     call check(mesh%has_parameters() .and. report%flipped_count == 0, "parameterize")
     call mesh%copy_parameters(uv)
     call check(all(uv(:, 1) == 0) .and. all(uv(:, side**2) == 1), "corners count from 1")
+  end subroutine
+
+  subroutine closed_meshes_become_spheres()
+    type(planish_mesh_t) :: mesh
+    type(planish_sphere_report) :: report
+    real(real64) :: corners(3, 4), places(3, 4)
+    integer :: stat
+    corners = reshape([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 4])
+    call mesh%new(corners, reshape([1, 3, 2, 1, 2, 4, 2, 3, 4, 1, 4, 3], [3, 4]))
+    call mesh%map_to_sphere(places, report=report)
+    call check(all(abs(sum(places**2, 1) - 1) < 1e-14_real64), "map_to_sphere")
+    call check(report%folded_triangles == 0 .and. report%energy >= 4, "the map is one to one")
+    call mesh%map_to_sphere(places(:, 1:3), stat=stat)
+    call check(stat == PLANISH_STATUS_BUFFER_TOO_SMALL, "map_to_sphere needs a column for each node")
   end subroutine
 
   subroutine shapes_are_fitted()

@@ -301,6 +301,28 @@ class planish_parameterize_report(Structure):
     }
 
 
+class planish_sphere_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("progress", planish_progress),
+        ("user", c_void_p),
+        ("sweeps", c_uint32),
+        ("thread_count", c_uint32),
+    ]
+
+
+class planish_sphere_report(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("energy", c_double),
+        ("folded_triangles", c_size_t),
+        ("clamped_triangles", c_size_t),
+        ("low_area_ratio", c_double),
+        ("high_area_ratio", c_double),
+        ("seconds", c_double),
+    ]
+
+
 class planish_fit_report(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -804,6 +826,8 @@ SIZES = {
     planish_decimate_report: 40,
     planish_parameterize_options: 96,
     planish_parameterize_report: 88,
+    planish_sphere_options: 32,
+    planish_sphere_report: 56,
     planish_fit_report: 192,
     planish_eval_options: 40,
     planish_patch: 72,
@@ -870,6 +894,8 @@ FUNCTIONS = {
     "planish_mesh_decimate": (c_int32, c_void_p, c_void_p, c_void_p, c_void_p),
     "planish_parameterize_options_init": (c_int32, c_void_p, c_size_t),
     "planish_mesh_parameterize": (c_int32, c_void_p, c_void_p, c_void_p),
+    "planish_sphere_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_mesh_map_to_sphere": (c_int32, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p),
     "planish_eval_options_init": (c_int32, c_void_p, c_size_t),
     "planish_surface_kind": (c_uint32, c_void_p),
     "planish_surface_dim": (c_size_t, c_void_p),

@@ -8,4 +8,6 @@ mod orientation;
 pub use axis::Axis;
 pub use bounds::Bounds;
 pub use domain::Domain;
-pub use orientation::{CANCELLATION, Orientation, is_in_circle, orientation, signed_area};
+pub use orientation::{
+    CANCELLATION, Orientation, is_in_circle, orientation, orientation_of_cone, signed_area,
+};

@@ -3,7 +3,7 @@
 //! J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
 //! predicates", Discrete Comput. Geom. 18 (1997), 305-363; through the crate `robust`.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 /// The turn of three points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,6 +21,17 @@ pub fn orientation(a: DVec2, b: DVec2, c: DVec2) -> Orientation {
     match robust::orient2d(coord(a), coord(b), coord(c)) {
         area if area > 0.0 => Orientation::Positive,
         area if area < 0.0 => Orientation::Negative,
+        _ => Orientation::Zero,
+    }
+}
+
+/// The exact sign of the volume `a . (b x c)`: positive where the triangle is counter-clockwise seen from outside a
+/// sphere around the origin.
+pub fn orientation_of_cone([a, b, c]: [DVec3; 3]) -> Orientation {
+    let coord = |p: DVec3| robust::Coord3D { x: p.x, y: p.y, z: p.z };
+    match robust::orient3d(coord(a), coord(b), coord(c), coord(DVec3::ZERO)) {
+        volume if volume > 0.0 => Orientation::Positive,
+        volume if volume < 0.0 => Orientation::Negative,
         _ => Orientation::Zero,
     }
 }

@@ -9,6 +9,7 @@ mod cut;
 mod decimate;
 mod error;
 mod read;
+pub(crate) mod rings;
 #[cfg(test)]
 mod tests;
 mod topology;

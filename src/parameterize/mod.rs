@@ -15,12 +15,15 @@
 //! triangles keeps the parameters given with the mesh and is refused if there are none.
 
 mod border;
+#[allow(dead_code, reason = "the plane is for quad layouts")]
+pub(crate) mod dirichlet;
 mod error;
 mod height_field;
 mod isometric;
 mod options;
 mod patch;
 mod regularize;
+pub mod sphere;
 mod stretch;
 mod system;
 mod weights;

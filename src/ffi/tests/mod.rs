@@ -12,6 +12,7 @@ mod pht;
 mod queries;
 mod records;
 mod rows;
+mod spheres;
 mod statuses;
 mod surfaces;
 mod transfers;

@@ -14,6 +14,7 @@ const ORDER: &[&str] = &[
     "mesh.rs",
     "decimate.rs",
     "parameterize.rs",
+    "sphere.rs",
     "report.rs",
     "surface.rs",
     "patch.rs",

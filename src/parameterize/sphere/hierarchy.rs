@@ -1,0 +1,145 @@
+//! The order in which nodes leave, down to a tetrahedron.
+//!
+//! A node goes on to the neighbour for which
+//! ```text
+//! |uv|^2 (1 + 0.1 max(0, n - 6)^2) (1 + 0.05 (d - 6)^2)
+//! ```
+//! is least: d is its valence and n that of the neighbour afterwards. Short edges go first, so levels are even; neither
+//! large fans nor removals of large fans come about, which would make rings hard to enter. The link condition keeps a
+//! sphere; one that is no tetrahedron has an edge that fulfils it (E. Steinitz, H. Rademacher, "Vorlesungen ueber die
+//! Theorie der Polyeder", 1934).
+
+use super::SphereError;
+use crate::Control;
+use crate::mesh::Mesh;
+use crate::mesh::rings::{RingMarks, Rings};
+use glam::DVec3;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+/// Largest valence that a collapse may make, as long as there are others.
+const MOST_VALENCE: usize = 40;
+/// A tetrahedron's nodes.
+const LAST: usize = 4;
+/// Collapses between two questions to the listener: a few milliseconds.
+const COLLAPSES_PER_REPORT: usize = 1024;
+
+/// Collapses the mesh to a tetrahedron and returns the nodes that went, in order.
+pub(super) fn collapse(
+    mesh: &Mesh,
+    rings: &mut Rings,
+    control: &mut Control,
+) -> Result<Vec<u32>, SphereError> {
+    let count = mesh.points().len();
+    let used = (0..count as u32).filter(|&node| rings.valence(node) > 0).count();
+    let mut collapser = Collapser {
+        points: mesh.points(),
+        rings,
+        marks: RingMarks::new(count),
+        is_gone: vec![false; count],
+        stamps: vec![0; count],
+        queue: BinaryHeap::with_capacity(used),
+        most_valence: MOST_VALENCE,
+    };
+    let mut order = Vec::with_capacity(used);
+    while used - order.len() > LAST {
+        let before = order.len();
+        collapser.fill();
+        while let Some((node, to)) = collapser.next() {
+            collapser.collapse(node, to);
+            order.push(node);
+            if used - order.len() == LAST {
+                break;
+            }
+            if order.len().is_multiple_of(COLLAPSES_PER_REPORT) {
+                control.report(order.len() as f64 / used as f64, f64::NAN)?;
+            }
+        }
+        if order.len() == before {
+            if collapser.most_valence == usize::MAX {
+                let node = collapser.is_gone.iter().position(|gone| !gone).unwrap_or(0);
+                return Err(SphereError::Stuck { count: used - order.len(), node });
+            }
+            collapser.most_valence = usize::MAX;
+        }
+    }
+    Ok(order)
+}
+
+/// Cost (the bits of a positive number sort as it does), node, and its stamp.
+type Entry = Reverse<(u64, u32, u32)>;
+
+struct Collapser<'a> {
+    points: &'a [DVec3],
+    rings: &'a mut Rings,
+    marks: RingMarks,
+    is_gone: Vec<bool>,
+    /// By node: how often its surroundings have changed; older entries of the queue are void.
+    stamps: Vec<u32>,
+    queue: BinaryHeap<Entry>,
+    most_valence: usize,
+}
+
+impl Collapser<'_> {
+    fn fill(&mut self) {
+        self.queue.clear();
+        for node in 0..self.points.len() as u32 {
+            if !self.is_gone[node as usize] && self.rings.valence(node) > 0 {
+                self.enqueue(node);
+            }
+        }
+    }
+
+    fn enqueue(&mut self, node: u32) {
+        self.stamps[node as usize] += 1;
+        if let Some((cost, _)) = self.cheapest(node) {
+            self.queue.push(Reverse((cost.to_bits(), node, self.stamps[node as usize])));
+        }
+    }
+
+    /// The next node to go, and where to.
+    fn next(&mut self) -> Option<(u32, u32)> {
+        loop {
+            let Reverse((_, node, stamp)) = self.queue.pop()?;
+            if self.is_gone[node as usize] || stamp != self.stamps[node as usize] {
+                continue;
+            }
+            // what is two edges away may have changed without a stamp
+            if let Some((_, to)) = self.cheapest(node) {
+                return Some((node, to));
+            }
+        }
+    }
+
+    /// The least cost of a collapse that keeps a sphere, and the neighbour it leads to.
+    fn cheapest(&mut self, node: u32) -> Option<(f64, u32)> {
+        let ring = self.rings.of(node);
+        self.marks.mark(ring);
+        let valence = ring.len();
+        let removal = 1.0 + 0.05 * (valence as f64 - 6.0).powi(2);
+        let mut best: Option<(f64, u32)> = None;
+        for (k, &to) in ring.iter().enumerate() {
+            let after = self.rings.valence(to) + valence - 4;
+            let excess = (after as f64 - 6.0).max(0.0);
+            let distance_sq = self.points[node as usize].distance_squared(self.points[to as usize]);
+            let cost = distance_sq * (1.0 + 0.1 * excess * excess) * removal;
+            let sides = [ring[(k + 1) % valence], ring[(k + valence - 1) % valence]];
+            if best.is_none_or(|(least, _)| cost < least)
+                && (3..=self.most_valence).contains(&after)
+                && sides.iter().all(|&side| self.rings.valence(side) > 3)
+                && self.marks.count(self.rings.of(to)) == 2
+            {
+                best = Some((cost, to));
+            }
+        }
+        best
+    }
+
+    fn collapse(&mut self, node: u32, to: u32) {
+        self.rings.collapse(node, to);
+        self.is_gone[node as usize] = true;
+        for k in 0..self.rings.valence(node) {
+            self.enqueue(self.rings.of(node)[k]);
+        }
+    }
+}
