@@ -15,6 +15,7 @@ use crate::fit::field::transfer::TransferError;
 use crate::fit::skin::SkinError;
 use crate::knots::KnotError;
 use crate::layout::LayoutError;
+use crate::layout::of_mesh::MeshLayoutError;
 use crate::mesh::{CutError, DecimateError, MeshError, ReadError};
 use crate::parameterize::ParameterizeError;
 use crate::parameterize::sphere::SphereError;
@@ -81,6 +82,9 @@ pub enum Error {
     /// A mesh cannot be parameterized.
     #[error(transparent)]
     Parameterize(#[from] ParameterizeError),
+    /// A mesh gets no layout.
+    #[error(transparent)]
+    MeshLayout(#[from] MeshLayoutError),
     /// A mesh cannot be mapped on to the sphere.
     #[error(transparent)]
     Sphere(#[from] SphereError),
@@ -181,6 +185,7 @@ impl Error {
             Self::Read(error) => (error.kind(), error.index()),
             Self::Layout(error) => (error.kind(), error.index()),
             Self::Parameterize(error) => (error.kind(), error.index()),
+            Self::MeshLayout(error) => (error.kind(), error.index()),
             Self::Sphere(error) => (error.kind(), error.index()),
             Self::Fit(error) => (error.kind(), error.index()),
             Self::Transfer(error) => (error.kind(), error.index()),

@@ -10,14 +10,18 @@
 //! Around a vertex the corners lie in sectors, counterclockwise: one that closes inside, and one from border to
 //! border at a border vertex. Edges have numbers, because two quads may share more than one.
 
+mod complex;
 mod cube;
 mod error;
+mod node_map;
+pub mod of_mesh;
 #[cfg(test)]
 mod tests;
 mod walk;
 
 pub use cube::{CUBE_FACES, CubeFace, cube_place};
 pub use error::LayoutError;
+pub use node_map::NodeMap;
 
 use glam::DVec2;
 use std::collections::BTreeMap;

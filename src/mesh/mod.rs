@@ -16,6 +16,7 @@ mod topology;
 mod weld;
 
 pub use cut::{CutError, Piece};
+pub(crate) use decimate::Quadric;
 pub use decimate::{DecimateError, DecimateOptions, DecimateReport, Decimation};
 pub use error::MeshError;
 pub use read::{Format, ReadError, read, read_bytes};

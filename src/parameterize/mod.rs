@@ -15,7 +15,6 @@
 //! triangles keeps the parameters given with the mesh and is refused if there are none.
 
 mod border;
-#[allow(dead_code, reason = "the plane is for quad layouts")]
 pub(crate) mod dirichlet;
 mod error;
 mod height_field;

@@ -80,6 +80,9 @@ fn smooth_least(values: impl Iterator<Item = f64>, width: f64) -> f64 {
     values.reduce(blend).unwrap_or(f64::INFINITY)
 }
 
+/// Places of the grid tried: where a saddle touches a plane of the grid the surface meets itself in an edge.
+const ATTEMPTS: usize = 32;
+
 /// The surface f = 0, f negative inside, in the box from -half to half; `area` is a guess of its area.
 fn implicit(
     f: impl Fn(DVec3) -> f64,
@@ -90,11 +93,23 @@ fn implicit(
 ) -> Result<Mesh, MeshError> {
     // a surface passes about 1.5 cells for each cell's face of its area
     let cell = (1.5 * area / count as f64).sqrt();
-    let cells = (2.0 * half / cell).ceil().as_uvec3() + 2;
     let mut random = Random::new(seed);
-    // off the middle, so that nothing lies exactly on the grid
-    let origin =
-        -0.5 * cell * cells.as_dvec3() + 0.1 * cell * DVec3::new(random.unit(), random.unit(), random.unit());
+    let is_closed = |mesh: &Mesh| mesh.loops().is_empty() && mesh.pinched_nodes().is_empty();
+    for _ in 1..ATTEMPTS {
+        if let Ok(mesh) = net(&f, half, cell, &mut random)
+            && is_closed(&mesh)
+        {
+            return Ok(mesh);
+        }
+    }
+    net(&f, half, cell, &mut random)
+}
+
+/// The net of a grid that lies somewhere.
+fn net(f: &impl Fn(DVec3) -> f64, half: DVec3, cell: f64, random: &mut Random) -> Result<Mesh, MeshError> {
+    let cells = (2.0 * half / cell).ceil().as_uvec3() + 3;
+    let shift = DVec3::new(random.unit(), random.unit(), random.unit());
+    let origin = cell * (shift - 0.5 * cells.as_dvec3());
     let at = |p: UVec3| origin + cell * p.as_dvec3();
     let corners = cells + 1;
     let number = |p: UVec3, size: UVec3| ((p.z * size.y + p.y) * size.x + p.x) as usize;
@@ -151,7 +166,7 @@ fn implicit(
     }
     for point in &mut points {
         let moved = DVec3::new(random.signed(), random.signed(), random.signed());
-        *point = projected(&f, *point + JITTER * cell * moved, DIFFERENCE * cell);
+        *point = projected(f, *point + JITTER * cell * moved, DIFFERENCE * cell);
     }
     Mesh::new(points, triangles)
 }

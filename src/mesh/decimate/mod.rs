@@ -15,6 +15,8 @@ mod quadric;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use quadric::Quadric;
+
 use super::{Mesh, Piece};
 use crate::control::{Cancelled, Control};
 use crate::error::ErrorKind;

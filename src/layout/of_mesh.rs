@@ -1,0 +1,226 @@
+//! Layouts made for meshes, with the places of their nodes: `theory/closed.md` 3.
+//!
+//! A closed mesh of genus 0 may become a cube: its nodes go on to the sphere and from there on to the cube's faces. Any
+//! closed mesh has a base complex ([`complex`](super::complex)), whose patches follow the shape.
+
+use super::{Layout, LayoutError, NodeMap, complex, cube_place};
+use crate::Control;
+use crate::control::Cancelled;
+use crate::error::ErrorKind;
+use crate::mesh::Mesh;
+use crate::parameterize::sphere::{SphereError, SphereOptions, map_to_sphere};
+use std::time::Instant;
+
+/// Which layout a mesh gets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum LayoutKind {
+    /// The cube for genus 0, else the base complex.
+    #[default]
+    Auto,
+    /// The six faces of a cube: genus 0 only.
+    Cube,
+    /// Quads made of pairs of triangles of the coarse mesh.
+    Complex,
+}
+
+/// How a layout is made for a mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MeshLayoutOptions {
+    /// Which layout. Default: the cube where there is one.
+    pub kind: LayoutKind,
+    /// About how many patches a base complex has: limbs take some away, a shape that needs more gets them. Default 40.
+    pub patches: usize,
+    /// Most sweeps over all nodes at the end. Default 300; they end before where nothing is gained.
+    pub sweeps: usize,
+}
+
+impl Default for MeshLayoutOptions {
+    fn default() -> Self {
+        Self { kind: LayoutKind::Auto, patches: 40, sweeps: 300 }
+    }
+}
+
+impl MeshLayoutOptions {
+    /// The same with another kind.
+    pub const fn with_kind(self, kind: LayoutKind) -> Self {
+        Self { kind, ..self }
+    }
+
+    /// The same with another number of patches.
+    pub const fn with_patches(self, patches: usize) -> Self {
+        Self { patches, ..self }
+    }
+
+    /// The same with another number of sweeps.
+    pub const fn with_sweeps(self, sweeps: usize) -> Self {
+        Self { sweeps, ..self }
+    }
+}
+
+/// How good a layout is and what it took.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeshLayoutReport {
+    /// The kind that was made.
+    pub kind: LayoutKind,
+    /// Symmetric Dirichlet energy of the node map by area: 4 for an isometry; of a cube that of the map to the sphere.
+    pub energy: f64,
+    /// The same before nodes moved over the layout; of a cube the same number.
+    pub first_energy: f64,
+    /// Nodes with a triangle whose image is turned over.
+    pub folded_nodes: usize,
+    /// Nodes whose triangles are spread over quads that have no common corner: fewer patches, or more nodes, help.
+    pub spread_nodes: usize,
+    /// Vertices of only two quads that were removed, each with one patch.
+    pub doublets: usize,
+    /// Wall time.
+    pub seconds: f64,
+}
+
+/// A layout with the places of a mesh's nodes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshLayout {
+    /// The patches.
+    pub layout: Layout,
+    /// Where the nodes lie on them.
+    pub map: NodeMap,
+    /// How good both are.
+    pub report: MeshLayoutReport,
+}
+
+/// A mesh has no layout of the kind asked for.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum MeshLayoutError {
+    /// The mesh falls apart.
+    #[error("the mesh has {count} components; split it and make a layout for each of them")]
+    Components {
+        /// How many.
+        count: usize,
+    },
+    /// The mesh has a boundary.
+    #[error("the mesh has {loops} boundary loops, one through node {node}; only closed meshes get a layout")]
+    Open {
+        /// How many loops.
+        loops: usize,
+        /// The first node of the longest.
+        node: usize,
+    },
+    /// The surface touches itself in a node.
+    #[error("the surface touches itself in node {node}; use two nodes there")]
+    Pinched {
+        /// The node.
+        node: usize,
+    },
+    /// No triangle has an area.
+    #[error("all {count} triangles have zero area")]
+    ZeroArea {
+        /// Number of triangles.
+        count: usize,
+    },
+    /// Too few patches were asked for.
+    #[error("patches is {given}, a layout needs at least {least}")]
+    Patches {
+        /// How many were asked for.
+        given: usize,
+        /// The least.
+        least: usize,
+    },
+    /// The triangles cannot be paired to quads that make a layout.
+    #[error("{triangles} triangles of the coarse mesh make no layout; ask for another number of patches")]
+    NoPairing {
+        /// Number of triangles.
+        triangles: usize,
+    },
+    /// The mesh cannot be mapped on to the sphere.
+    #[error(transparent)]
+    Sphere(#[from] SphereError),
+    /// The quads make no layout.
+    #[error(transparent)]
+    Layout(#[from] LayoutError),
+    /// The listener asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+impl MeshLayoutError {
+    /// The class of the error.
+    pub fn kind(&self) -> ErrorKind {
+        match self {
+            Self::Components { .. } | Self::Open { .. } | Self::Pinched { .. } => ErrorKind::Topology,
+            Self::ZeroArea { .. } | Self::NoPairing { .. } => ErrorKind::Degenerate,
+            Self::Patches { .. } => ErrorKind::InvalidArgument,
+            Self::Sphere(error) => error.kind(),
+            Self::Layout(error) => error.kind(),
+            Self::Cancelled(_) => ErrorKind::Cancelled,
+        }
+    }
+
+    /// The offending node, if one is to blame.
+    pub fn index(&self) -> Option<usize> {
+        match *self {
+            Self::Open { node, .. } | Self::Pinched { node } => Some(node),
+            Self::Sphere(error) => error.index(),
+            _ => None,
+        }
+    }
+}
+
+/// Makes a layout for a closed mesh of one component.
+pub fn layout_of_mesh(
+    mesh: &Mesh,
+    options: &MeshLayoutOptions,
+    control: &mut Control,
+) -> Result<MeshLayout, MeshLayoutError> {
+    let start = Instant::now();
+    check(mesh, options)?;
+    let is_cube = match options.kind {
+        LayoutKind::Auto => mesh.genus() == 0,
+        LayoutKind::Cube => true,
+        LayoutKind::Complex => false,
+    };
+    let mut made = if is_cube { cube(mesh, control) } else { complex::make(mesh, options, control) }?;
+    made.report.seconds = start.elapsed().as_secs_f64();
+    Ok(made)
+}
+
+/// Fewest patches that a base complex may have.
+const LEAST_PATCHES: usize = 6;
+
+fn check(mesh: &Mesh, options: &MeshLayoutOptions) -> Result<(), MeshLayoutError> {
+    if mesh.component_count() != 1 {
+        return Err(MeshLayoutError::Components { count: mesh.component_count() });
+    }
+    if let Some(first) = mesh.loops().first() {
+        return Err(MeshLayoutError::Open { loops: mesh.loops().len(), node: first[0] as usize });
+    }
+    if let Some(&node) = mesh.pinched_nodes().first() {
+        return Err(MeshLayoutError::Pinched { node: node as usize });
+    }
+    if options.patches < LEAST_PATCHES {
+        return Err(MeshLayoutError::Patches { given: options.patches, least: LEAST_PATCHES });
+    }
+    let has_area = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(|node| mesh.points()[node as usize]);
+        (b - a).cross(c - a).length() > 0.0
+    };
+    match mesh.triangles().iter().any(has_area) {
+        true => Ok(()),
+        false => Err(MeshLayoutError::ZeroArea { count: mesh.triangles().len() }),
+    }
+}
+
+/// Through the sphere on to the cube.
+fn cube(mesh: &Mesh, control: &mut Control) -> Result<MeshLayout, MeshLayoutError> {
+    let sphere = map_to_sphere(mesh, &SphereOptions::default(), control)?;
+    let place = |node: u32| mesh.is_used(node).then(|| cube_place(sphere.points[node as usize]));
+    let places = (0..mesh.points().len() as u32).map(place).collect();
+    let report = MeshLayoutReport {
+        kind: LayoutKind::Cube,
+        energy: sphere.report.energy,
+        first_energy: sphere.report.energy,
+        folded_nodes: sphere.report.folded_triangles,
+        spread_nodes: 0,
+        doublets: 0,
+        seconds: 0.0,
+    };
+    Ok(MeshLayout { layout: Layout::cube(), map: NodeMap::new(places), report })
+}
