@@ -1368,11 +1368,11 @@ module planish_calls
       integer(c_size_t), value :: count
     end function
 
-    integer(c_int) function c_convert_options_init(options, size) bind(c, name="planish_convert_options_init")
+    integer(c_int) function c_convert_options_init(options, struct_size) bind(c, name="planish_convert_options_init")
       import
       implicit none
       type(planish_convert_options), intent(inout) :: options
-      integer(c_size_t), value :: size
+      integer(c_size_t), value :: struct_size
     end function
 
     integer(c_int) function c_surface_to_tensor( &
@@ -1547,11 +1547,11 @@ module planish_calls
       type(c_ptr), intent(inout) :: out_upper
     end function
 
-    integer(c_int) function c_field_options_init(options, size) bind(c, name="planish_field_options_init")
+    integer(c_int) function c_field_options_init(options, struct_size) bind(c, name="planish_field_options_init")
       import
       implicit none
       type(planish_field_options), intent(inout) :: options
-      integer(c_size_t), value :: size
+      integer(c_size_t), value :: struct_size
     end function
 
     integer(c_int) function c_field_fitter_new(mesh, options, out_fitter) bind(c, name="planish_field_fitter_new")
@@ -1653,11 +1653,13 @@ module planish_calls
       real(c_double), intent(inout) :: out_gradients(*)
     end function
 
-    integer(c_int) function c_transfer_options_init(options, size) bind(c, name="planish_transfer_options_init")
+    integer(c_int) function c_transfer_options_init( &
+        options, struct_size) &
+        bind(c, name="planish_transfer_options_init")
       import
       implicit none
       type(planish_transfer_options), intent(inout) :: options
-      integer(c_size_t), value :: size
+      integer(c_size_t), value :: struct_size
     end function
 
     integer(c_int) function c_transfer_new( &
@@ -1749,11 +1751,13 @@ module planish_calls
       type(planish_balance_report), intent(inout) :: out_report
     end function
 
-    integer(c_int) function c_tessellate_options_init(options, size) bind(c, name="planish_tessellate_options_init")
+    integer(c_int) function c_tessellate_options_init( &
+        options, struct_size) &
+        bind(c, name="planish_tessellate_options_init")
       import
       implicit none
       type(planish_tessellate_options), intent(inout) :: options
-      integer(c_size_t), value :: size
+      integer(c_size_t), value :: struct_size
     end function
 
     integer(c_int) function c_surface_tessellate( &
@@ -1766,11 +1770,11 @@ module planish_calls
       type(c_ptr), intent(inout) :: out_mesh
     end function
 
-    integer(c_int) function c_project_options_init(options, size) bind(c, name="planish_project_options_init")
+    integer(c_int) function c_project_options_init(options, struct_size) bind(c, name="planish_project_options_init")
       import
       implicit none
       type(planish_project_options), intent(inout) :: options
-      integer(c_size_t), value :: size
+      integer(c_size_t), value :: struct_size
     end function
 
     integer(c_int) function c_surface_project( &
@@ -1786,11 +1790,13 @@ module planish_calls
       real(c_double), intent(inout), optional :: out_distances(*)
     end function
 
-    integer(c_int) function c_deviation_options_init(options, size) bind(c, name="planish_deviation_options_init")
+    integer(c_int) function c_deviation_options_init( &
+        options, struct_size) &
+        bind(c, name="planish_deviation_options_init")
       import
       implicit none
       type(planish_deviation_options), intent(inout) :: options
-      integer(c_size_t), value :: size
+      integer(c_size_t), value :: struct_size
     end function
 
     integer(c_int) function c_surface_deviation( &
@@ -1806,11 +1812,13 @@ module planish_calls
       type(planish_deviation_report), intent(inout), optional :: out_report
     end function
 
-    integer(c_int) function c_sample_rows_options_init(options, size) bind(c, name="planish_sample_rows_options_init")
+    integer(c_int) function c_sample_rows_options_init( &
+        options, struct_size) &
+        bind(c, name="planish_sample_rows_options_init")
       import
       implicit none
       type(planish_sample_rows_options), intent(inout) :: options
-      integer(c_size_t), value :: size
+      integer(c_size_t), value :: struct_size
     end function
 
     integer(c_int) function c_mesh_sample_rows( &
@@ -1827,11 +1835,11 @@ module planish_calls
       integer(c_size_t), intent(inout) :: out_point_count
     end function
 
-    integer(c_int) function c_vtk_options_init(options, size) bind(c, name="planish_vtk_options_init")
+    integer(c_int) function c_vtk_options_init(options, struct_size) bind(c, name="planish_vtk_options_init")
       import
       implicit none
       type(planish_vtk_options), intent(inout) :: options
-      integer(c_size_t), value :: size
+      integer(c_size_t), value :: struct_size
     end function
 
     integer(c_int) function c_surface_write_vtk(surface, path, options) bind(c, name="planish_surface_write_vtk")
@@ -1878,11 +1886,11 @@ module planish_calls
       type(c_ptr), intent(inout) :: out_surface
     end function
 
-    integer(c_int) function c_step_options_init(options, size) bind(c, name="planish_step_options_init")
+    integer(c_int) function c_step_options_init(options, struct_size) bind(c, name="planish_step_options_init")
       import
       implicit none
       type(planish_step_options), intent(inout) :: options
-      integer(c_size_t), value :: size
+      integer(c_size_t), value :: struct_size
     end function
 
     integer(c_int) function c_surface_write_step(surface, path, options) bind(c, name="planish_surface_write_step")
@@ -1920,11 +1928,13 @@ module planish_calls
       type(c_ptr), intent(inout) :: out_curve
     end function
 
-    integer(c_int) function c_interpolate_options_init(options, size) bind(c, name="planish_interpolate_options_init")
+    integer(c_int) function c_interpolate_options_init( &
+        options, struct_size) &
+        bind(c, name="planish_interpolate_options_init")
       import
       implicit none
       type(planish_interpolate_options), intent(inout) :: options
-      integer(c_size_t), value :: size
+      integer(c_size_t), value :: struct_size
     end function
 
     integer(c_int) function c_curve_interpolate( &
@@ -2083,11 +2093,11 @@ module planish_calls
       type(c_ptr), intent(inout) :: out_curve
     end function
 
-    integer(c_int) function c_skin_options_init(options, size) bind(c, name="planish_skin_options_init")
+    integer(c_int) function c_skin_options_init(options, struct_size) bind(c, name="planish_skin_options_init")
       import
       implicit none
       type(planish_skin_options), intent(inout) :: options
-      integer(c_size_t), value :: size
+      integer(c_size_t), value :: struct_size
     end function
 
     integer(c_int) function c_tspline_skin( &

@@ -1877,7 +1877,7 @@ typedef struct planish_vtk_options {
  */
 typedef struct planish_step_report {
     /**
-     * Set this to sizeof(planish_step_report) before the call.
+     * sizeof(planish_step_report) as the caller sees it.
      */
     size_t struct_size;
     /**
@@ -2000,7 +2000,7 @@ typedef struct planish_interpolate_options {
  */
 typedef struct planish_skin_report {
     /**
-     * Set this to sizeof(planish_skin_report) before the call.
+     * sizeof(planish_skin_report) as the caller sees it.
      */
     size_t struct_size;
     /**
@@ -2845,7 +2845,7 @@ enum planish_status planish_mesh_decimate(const struct planish_mesh *mesh,
                                           struct planish_decimate_report *out_report);
 
 /**
- * Fills options with the defaults, which suit tensor surfaces.
+ * Fills options with the defaults.
  *
  * options:     struct_size writable bytes.
  * struct_size: sizeof(planish_parameterize_options).
@@ -3182,13 +3182,13 @@ enum planish_status planish_surface_copy_patch(const struct planish_surface *sur
 /**
  * Fills options with the defaults.
  *
- * options: not NULL.
- * size:    sizeof(planish_convert_options).
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_convert_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
  */
 PLANISH_API
 enum planish_status planish_convert_options_init(struct planish_convert_options *options,
-                                                 size_t size);
+                                                 size_t struct_size);
 
 /**
  * Makes a tensor surface that is the same surface exactly, with the same trims. A surface with local refinement
@@ -3476,13 +3476,13 @@ enum planish_status planish_tensor_split(const struct planish_surface *surface,
 /**
  * Fills options with the defaults.
  *
- * options: not NULL.
- * size:    sizeof(planish_field_options).
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_field_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
  */
 PLANISH_API
 enum planish_status planish_field_options_init(struct planish_field_options *options,
-                                               size_t size);
+                                               size_t struct_size);
 
 /**
  * Makes a fitter for fields on the nodes of a mesh, over its parameters or, if it has none, over those it is given
@@ -3653,13 +3653,13 @@ enum planish_status planish_surface_field_gradient(const struct planish_surface 
 /**
  * Fills options with the defaults.
  *
- * options: not NULL.
- * size:    sizeof(planish_transfer_options).
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_transfer_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
  */
 PLANISH_API
 enum planish_status planish_transfer_options_init(struct planish_transfer_options *options,
-                                                  size_t size);
+                                                  size_t struct_size);
 
 /**
  * Makes a transfer from the nodes of a mesh to points near it. The points of the mesh are fitted by a surface over its
@@ -3803,13 +3803,13 @@ enum planish_status planish_transfer_balance(const struct planish_transfer *tran
 /**
  * Fills options with the defaults.
  *
- * options: not NULL.
- * size:    sizeof(planish_tessellate_options).
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_tessellate_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
  */
 PLANISH_API
 enum planish_status planish_tessellate_options_init(struct planish_tessellate_options *options,
-                                                    size_t size);
+                                                    size_t struct_size);
 
 /**
  * Makes a triangle mesh of a surface in space. Its nodes lie on the surface and carry their (u,v) as
@@ -3831,13 +3831,13 @@ enum planish_status planish_surface_tessellate(const struct planish_surface *sur
 /**
  * Fills options with the defaults.
  *
- * options: not NULL.
- * size:    sizeof(planish_project_options).
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_project_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
  */
 PLANISH_API
 enum planish_status planish_project_options_init(struct planish_project_options *options,
-                                                 size_t size);
+                                                 size_t struct_size);
 
 /**
  * Finds the place on a surface nearest to each point, anywhere on the surface: there is no start to choose,
@@ -3867,13 +3867,13 @@ enum planish_status planish_surface_project(const struct planish_surface *surfac
 /**
  * Fills options with the defaults.
  *
- * options: not NULL.
- * size:    sizeof(planish_deviation_options).
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_deviation_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
  */
 PLANISH_API
 enum planish_status planish_deviation_options_init(struct planish_deviation_options *options,
-                                                   size_t size);
+                                                   size_t struct_size);
 
 /**
  * Measures how far the nodes of a mesh lie from a surface in space: closest-point distances.
@@ -3901,13 +3901,13 @@ enum planish_status planish_surface_deviation(const struct planish_surface *surf
 /**
  * Fills options with the defaults.
  *
- * options: not NULL.
- * size:    sizeof(planish_sample_rows_options).
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_sample_rows_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
  */
 PLANISH_API
 enum planish_status planish_sample_rows_options_init(struct planish_sample_rows_options *options,
-                                                     size_t size);
+                                                     size_t struct_size);
 
 /**
  * Takes closed rows of points from a mesh: level curves of a harmonic field between two loops or nodes, which all
@@ -3941,11 +3941,13 @@ enum planish_status planish_mesh_sample_rows(const struct planish_mesh *mesh,
 /**
  * Fills options with the defaults.
  *
- * options: not NULL.
- * size:    sizeof(planish_vtk_options).
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_vtk_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
  */
-PLANISH_API enum planish_status planish_vtk_options_init(struct planish_vtk_options *options, size_t size);
+PLANISH_API
+enum planish_status planish_vtk_options_init(struct planish_vtk_options *options,
+                                             size_t struct_size);
 
 /**
  * Writes a surface in space as a VTK file (.vtu): triangles with their (u,v) as point data "uv", the patches, or
@@ -4031,11 +4033,13 @@ enum planish_status planish_surface_load_file(const char *path,
 /**
  * Fills options with the defaults.
  *
- * options: not NULL.
- * size:    sizeof(planish_step_options).
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_step_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
  */
-PLANISH_API enum planish_status planish_step_options_init(struct planish_step_options *options, size_t size);
+PLANISH_API
+enum planish_status planish_step_options_init(struct planish_step_options *options,
+                                              size_t struct_size);
 
 /**
  * Writes a surface in space as a STEP file with one face, bounded by the surface's trims or, if it has none, by its
@@ -4112,13 +4116,13 @@ enum planish_status planish_curve_new(size_t dim,
 /**
  * Fills options with the defaults.
  *
- * options: not NULL.
- * size:    sizeof(planish_interpolate_options).
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_interpolate_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
  */
 PLANISH_API
 enum planish_status planish_interpolate_options_init(struct planish_interpolate_options *options,
-                                                     size_t size);
+                                                     size_t struct_size);
 
 /**
  * Makes the cubic curve with two continuous derivatives that passes through points.
@@ -4359,11 +4363,13 @@ enum planish_status planish_curve_load_file(const char *path,
 /**
  * Fills options with the defaults.
  *
- * options: not NULL.
- * size:    sizeof(planish_skin_options).
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_skin_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
  */
-PLANISH_API enum planish_status planish_skin_options_init(struct planish_skin_options *options, size_t size);
+PLANISH_API
+enum planish_status planish_skin_options_init(struct planish_skin_options *options,
+                                              size_t struct_size);
 
 /**
  * Skins rows of points: a surface over the unit square on which row after row lies within the tolerance, u along

@@ -281,37 +281,86 @@ pub(super) fn flag(given: u32, name: &'static str) -> Argument<bool> {
 /// # Safety
 /// The type is `repr(C)`, has no padding, begins with `struct_size: usize`, and its other fields are numbers
 /// and pointers.
-pub(super) unsafe trait Record: Copy {
+pub(super) unsafe trait Record: Copy + Default {
     const NAME: &'static str;
-
-    /// The defaults; `struct_size` is that of this version.
-    fn defaults() -> Self;
 }
 
-/// Gives a record its name, and checks where its fields lie.
+/// Declares a record: its fields with their defaults, 0 and NULL where none stands, behind its size; and, for options,
+/// the function that fills it. `tools/header` reads this form too.
+/// ```text
+/// record! {
+///     /// How a mesh is coarsened.
+///     pub struct planish_decimate_options (planish_decimate_options_init; core: DecimateOptions) {
+///         /// Nodes that are to be left. Default 1000.
+///         pub target_count: usize = core.target_count,
+///     }
+/// }
+/// ```
 macro_rules! record {
+    // the fields stand elsewhere
     ($record:ident, $size:literal, { $($field:ident: $offset:literal),* $(,)? }) => {
-        // SAFETY: the offsets below leave no gap between fields.
+        // SAFETY: the type's size is that of its fields.
         unsafe impl $crate::ffi::arguments::Record for $record {
             const NAME: &'static str = stringify!($record);
-
-            fn defaults() -> Self {
-                Self { struct_size: size_of::<Self>(), ..Self::default() }
-            }
         }
 
         #[cfg(target_pointer_width = "64")]
         const _: () = {
             assert!(size_of::<$record>() == $size);
             $(assert!(std::mem::offset_of!($record, $field) == $offset, stringify!($field));)*
-            let fields = 0 $(+ $crate::ffi::arguments::field_size(|record: &$record| &record.$field))*;
-            assert!(fields == $size, "padding");
         };
+    };
+    (
+        $(#[$told:meta])*
+        pub struct $record:ident $(($init:ident $(; $($core:ident: $options:ty),+)?))? {
+            $($(#[$field_told:meta])* pub $field:ident: $type:ty $(= $default:expr)?,)*
+        }
+    ) => {
+        $(#[$told])*
+        #[repr(C)]
+        #[derive(Debug, Clone, Copy)]
+        pub struct $record {
+            /// Bytes of the record as the caller sees it.
+            pub struct_size: usize,
+            $($(#[$field_told])* pub $field: $type,)*
+        }
+
+        // SAFETY: the assertion below: no gap between fields, which are numbers and pointers.
+        unsafe impl $crate::ffi::arguments::Record for $record {
+            const NAME: &'static str = stringify!($record);
+        }
+
+        impl Default for $record {
+            #[allow(clippy::needless_update, reason = "a record may have a default for each field")]
+            fn default() -> Self {
+                $($($(let $core = <$options>::default();)+)?)?
+                Self { struct_size: size_of::<Self>(), $($($field: $default,)?)* ..$crate::ffi::arguments::zero() }
+            }
+        }
+
+        const _: () = {
+            let fields = size_of::<usize>() $(+ size_of::<$type>())*;
+            assert!(size_of::<$record>() == fields, "padding");
+        };
+
+        $(
+            /// Fills options with the defaults.
+            #[unsafe(no_mangle)]
+            pub unsafe extern "C" fn $init(
+                options: *mut $record,
+                struct_size: usize,
+            ) -> $crate::ffi::planish_status {
+                // SAFETY: the caller's promise.
+                $crate::ffi::guard::guard(|| unsafe { $crate::ffi::arguments::init_options(options, struct_size) })
+            }
+        )?
     };
 }
 
-pub(super) const fn field_size<T, F>(_: fn(&T) -> &F) -> usize {
-    size_of::<F>()
+/// A record of zeros: 0, NULL and no callback.
+pub(super) fn zero<T: Record>() -> T {
+    // SAFETY: a record's fields are numbers and pointers.
+    unsafe { std::mem::zeroed() }
 }
 
 /// No record grows beyond this many bytes: a larger size is a value that was never set.
@@ -341,7 +390,7 @@ fn check_size<T: Record>(size: usize) -> Argument<usize> {
 /// # Safety
 /// `at` is NULL or points to a record whose first field is its size in bytes.
 pub(super) unsafe fn options<T: Record>(at: *const T) -> Argument<T> {
-    let mut ours = T::defaults();
+    let mut ours = T::default();
     if at.is_null() {
         return Ok(ours);
     }
@@ -370,7 +419,7 @@ pub(super) unsafe fn options<T: Record>(at: *const T) -> Argument<T> {
 pub(super) unsafe fn init_options<T: Record>(at: *mut T, size: usize) -> Result<(), Failure> {
     check(at, "options")?;
     // SAFETY: the caller's promise.
-    unsafe { write_record(T::defaults(), at, check_size::<T>(size)?) };
+    unsafe { write_record(T::default(), at, check_size::<T>(size)?) };
     Ok(())
 }
 

@@ -1,7 +1,7 @@
 //! B-spline curves.
 
 use super::arguments::{
-    ArgumentError, array_len, choice, copy, deref, init_options, options, out, rows_mut, slice, slice_mut,
+    ArgumentError, array_len, choice, copy, deref, options, out, rows_mut, slice, slice_mut,
     slice_mut_or_none, stride, strided_len,
 };
 use super::guard::{Failure, guard};
@@ -123,43 +123,19 @@ pub unsafe extern "C" fn planish_curve_new(
     })
 }
 
-/// How points are interpolated. Fill with planish_interpolate_options_init(), then change what you need.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct planish_interpolate_options {
-    /// Set by planish_interpolate_options_init().
-    pub struct_size: usize,
-    /// For PLANISH_SECTION_ENDS_SLOPES: 2 rows of dim numbers, the derivatives with respect to u at the first and at
-    /// the last point; otherwise NULL (default). Borrowed for the call.
-    /// Array: [2, dim].
-    pub end_slopes: *const f64,
-    /// A planish_section_ends. Default PLANISH_SECTION_ENDS_AUTO: periodic if the last point is the first one, else
-    /// parabolic.
-    pub ends: u32,
-    /// 0.
-    pub reserved: u32,
-}
-
-record!(planish_interpolate_options, 24, { struct_size: 0, end_slopes: 8, ends: 16, reserved: 20 });
-
-impl Default for planish_interpolate_options {
-    fn default() -> Self {
-        Self { struct_size: size_of::<Self>(), end_slopes: std::ptr::null(), ends: 0, reserved: 0 }
+record! {
+    /// How points are interpolated. Fill with planish_interpolate_options_init(), then change what you need.
+    pub struct planish_interpolate_options (planish_interpolate_options_init) {
+        /// For PLANISH_SECTION_ENDS_SLOPES: 2 rows of dim numbers, the derivatives with respect to u at the first and at
+        /// the last point; otherwise NULL (default). Borrowed for the call.
+        /// Array: [2, dim].
+        pub end_slopes: *const f64,
+        /// A planish_section_ends. Default PLANISH_SECTION_ENDS_AUTO: periodic if the last point is the first one, else
+        /// parabolic.
+        pub ends: u32,
+        /// 0.
+        pub reserved: u32,
     }
-}
-
-/// Fills options with the defaults.
-///
-/// options: not NULL.
-/// size:    sizeof(planish_interpolate_options).
-/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn planish_interpolate_options_init(
-    options: *mut planish_interpolate_options,
-    size: usize,
-) -> planish_status {
-    // SAFETY: the caller's promise.
-    guard(|| unsafe { init_options(options, size) })
 }
 
 /// Makes the cubic curve with two continuous derivatives that passes through points.

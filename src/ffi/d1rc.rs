@@ -1,8 +1,8 @@
 //! D1RC-splines.
 
 use super::arguments::{
-    ArgumentError, Record, array_len, choice, copy, copy_rows, deref, deref_mut, init_options, options, out,
-    rows_mut, slice, slice_mut,
+    ArgumentError, Record, array_len, choice, copy, copy_rows, deref, deref_mut, options, out, rows_mut,
+    slice, slice_mut,
 };
 use super::guard::guard;
 use super::mesh::planish_mesh;
@@ -52,115 +52,71 @@ pub enum planish_d1rc_sharp {
     Additive = 3,
 }
 
-/// Options of D1RC-splines and of fits by them. Fill with planish_d1rc_options_init(), then change what you need.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct planish_d1rc_options {
-    /// Set by planish_d1rc_options_init().
-    pub struct_size: usize,
-    /// sharp_edge_count pairs of nodes joined by an edge; NULL (default) for none. Edges on the boundary do nothing.
-    /// Array: [sharp_edge_count, 2].
-    pub sharp_edges: *const u32,
-    /// Pairs in sharp_edges. Default 0.
-    pub sharp_edge_count: usize,
-    /// corner_count nodes to be interpolated; NULL (default) for none.
-    /// Array: [corner_count].
-    pub corners: *const u32,
-    /// Nodes in corners. Default 0.
-    pub corner_count: usize,
-    /// Edges whose faces meet at more than this angle in radians are sharp as well, up to pi; 0 (default) for none.
-    pub sharp_angle: f64,
-    /// Weight of the functions that sharp edges and corners add with PLANISH_D1RC_SHARP_SECTOR and
-    /// PLANISH_D1RC_SHARP_ADDITIVE, positive. Default 1.
-    pub sharp_weight: f64,
-    /// How a mesh without parameters gets them; NULL (default) for the defaults. Of this record progress, user and
-    /// thread_count are not looked at, and node_weights must be NULL.
-    pub parameterize: *const planish_parameterize_options,
-    /// Hears of the progress of the parameters and may cancel; NULL (default) for nobody.
-    pub progress: planish_progress,
-    /// Handed to progress as it is.
-    pub user: *mut c_void,
-    /// Fits only: the largest error allowed at the nodes, positive, measured in tolerance_scale. Default 1e-3.
-    pub tolerance: f64,
-    /// Fits only: weight of the energy that determines control points without data, positive. Default 1e-5.
-    pub smoothing: f64,
-    /// Fits only: the control mesh to use as it is; NULL (default) for the mesh itself with fewer nodes, its boundary
-    /// and sharp edges kept.
-    pub control_mesh: *const planish_mesh,
-    /// Fits only: a positive weight for each node; NULL (default) for all 1.
-    /// Array: [nodes].
-    pub weights: *const f64,
-    /// Fits only: receives the (u,v) at which the error of each node is measured: two numbers for each node, or NULL
-    /// (default). Written on success only.
-    /// Array: [nodes, 2].
-    pub out_parameters: *mut f64,
-    /// Fits only: receives the error of each node in model units: one number for each node, or NULL (default).
-    /// Written on success only.
-    /// Array: [nodes].
-    pub out_errors: *mut f64,
-    /// Fits only: vertices of the control mesh that is made, at least 3; 0 (default) for as many as the tolerance
-    /// takes.
-    pub control_count: usize,
-    /// Fits only: most vertices of a control mesh that is made, at least 3. Default 100000.
-    pub max_control_count: usize,
-    /// 1, 2 or 3. Default 3.
-    pub degree: u32,
-    /// A planish_d1rc_mode. Default PLANISH_D1RC_MODE_REPRODUCING.
-    pub mode: u32,
-    /// A planish_d1rc_boundary. Default PLANISH_D1RC_BOUNDARY_PHANTOM.
-    pub boundary: u32,
-    /// A planish_d1rc_sharp. Default PLANISH_D1RC_SHARP_AUTOMATIC.
-    pub sharp: u32,
-    /// Fits only: a planish_tolerance_scale. Default PLANISH_TOLERANCE_SCALE_RELATIVE.
-    pub tolerance_scale: u32,
-    /// Fits only: sweeps in each round in which nodes move to their foot points and those with large errors gain
-    /// weight. Default 3.
-    pub correction_sweeps: u32,
-    /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
-    pub thread_count: u32,
-    /// 0.
-    pub reserved: u32,
-}
-
-record!(planish_d1rc_options, 176, {
-    struct_size: 0, sharp_edges: 8, sharp_edge_count: 16, corners: 24, corner_count: 32, sharp_angle: 40,
-    sharp_weight: 48, parameterize: 56, progress: 64, user: 72, tolerance: 80, smoothing: 88, control_mesh: 96,
-    weights: 104, out_parameters: 112, out_errors: 120, control_count: 128, max_control_count: 136, degree: 144,
-    mode: 148, boundary: 152, sharp: 156, tolerance_scale: 160, correction_sweeps: 164, thread_count: 168,
-    reserved: 172,
-});
-
-impl Default for planish_d1rc_options {
-    fn default() -> Self {
-        let (core, fit) = (D1rcOptions::default(), D1rcFitOptions::default());
-        Self {
-            struct_size: size_of::<Self>(),
-            sharp_edges: std::ptr::null(),
-            sharp_edge_count: 0,
-            corners: std::ptr::null(),
-            corner_count: 0,
-            sharp_angle: 0.0,
-            sharp_weight: core.sharp_weight,
-            parameterize: std::ptr::null(),
-            progress: None,
-            user: std::ptr::null_mut(),
-            tolerance: fit.tolerance.value,
-            smoothing: fit.smoothing,
-            control_mesh: std::ptr::null(),
-            weights: std::ptr::null(),
-            out_parameters: std::ptr::null_mut(),
-            out_errors: std::ptr::null_mut(),
-            control_count: fit.control_count,
-            max_control_count: fit.max_control_count,
-            degree: core.degree as u32,
-            mode: planish_d1rc_mode::Reproducing as u32,
-            boundary: planish_d1rc_boundary::Phantom as u32,
-            sharp: planish_d1rc_sharp::Automatic as u32,
-            tolerance_scale: planish_tolerance_scale::Relative as u32,
-            correction_sweeps: fit.correction_sweeps as u32,
-            thread_count: 0,
-            reserved: 0,
-        }
+record! {
+    /// Options of D1RC-splines and of fits by them. Fill with planish_d1rc_options_init(), then change what you need.
+    pub struct planish_d1rc_options (planish_d1rc_options_init; core: D1rcOptions, fit: D1rcFitOptions) {
+        /// sharp_edge_count pairs of nodes joined by an edge; NULL (default) for none. Edges on the boundary do nothing.
+        /// Array: [sharp_edge_count, 2].
+        pub sharp_edges: *const u32,
+        /// Pairs in sharp_edges. Default 0.
+        pub sharp_edge_count: usize,
+        /// corner_count nodes to be interpolated; NULL (default) for none.
+        /// Array: [corner_count].
+        pub corners: *const u32,
+        /// Nodes in corners. Default 0.
+        pub corner_count: usize,
+        /// Edges whose faces meet at more than this angle in radians are sharp as well, up to pi; 0 (default) for none.
+        pub sharp_angle: f64,
+        /// Weight of the functions that sharp edges and corners add with PLANISH_D1RC_SHARP_SECTOR and
+        /// PLANISH_D1RC_SHARP_ADDITIVE, positive. Default 1.
+        pub sharp_weight: f64 = core.sharp_weight,
+        /// How a mesh without parameters gets them; NULL (default) for the defaults. Of this record progress, user and
+        /// thread_count are not looked at, and node_weights must be NULL.
+        pub parameterize: *const planish_parameterize_options,
+        /// Hears of the progress of the parameters and may cancel; NULL (default) for nobody.
+        pub progress: planish_progress,
+        /// Handed to progress as it is.
+        pub user: *mut c_void,
+        /// Fits only: the largest error allowed at the nodes, positive, measured in tolerance_scale. Default 1e-3.
+        pub tolerance: f64 = fit.tolerance.value,
+        /// Fits only: weight of the energy that determines control points without data, positive. Default 1e-5.
+        pub smoothing: f64 = fit.smoothing,
+        /// Fits only: the control mesh to use as it is; NULL (default) for the mesh itself with fewer nodes, its boundary
+        /// and sharp edges kept.
+        pub control_mesh: *const planish_mesh,
+        /// Fits only: a positive weight for each node; NULL (default) for all 1.
+        /// Array: [nodes].
+        pub weights: *const f64,
+        /// Fits only: receives the (u,v) at which the error of each node is measured: two numbers for each node, or NULL
+        /// (default). Written on success only.
+        /// Array: [nodes, 2].
+        pub out_parameters: *mut f64,
+        /// Fits only: receives the error of each node in model units: one number for each node, or NULL (default).
+        /// Written on success only.
+        /// Array: [nodes].
+        pub out_errors: *mut f64,
+        /// Fits only: vertices of the control mesh that is made, at least 3; 0 (default) for as many as the tolerance
+        /// takes.
+        pub control_count: usize = fit.control_count,
+        /// Fits only: most vertices of a control mesh that is made, at least 3. Default 100000.
+        pub max_control_count: usize = fit.max_control_count,
+        /// 1, 2 or 3. Default 3.
+        pub degree: u32 = core.degree as u32,
+        /// A planish_d1rc_mode. Default PLANISH_D1RC_MODE_REPRODUCING.
+        pub mode: u32 = planish_d1rc_mode::Reproducing as u32,
+        /// A planish_d1rc_boundary. Default PLANISH_D1RC_BOUNDARY_PHANTOM.
+        pub boundary: u32 = planish_d1rc_boundary::Phantom as u32,
+        /// A planish_d1rc_sharp. Default PLANISH_D1RC_SHARP_AUTOMATIC.
+        pub sharp: u32 = planish_d1rc_sharp::Automatic as u32,
+        /// Fits only: a planish_tolerance_scale. Default PLANISH_TOLERANCE_SCALE_RELATIVE.
+        pub tolerance_scale: u32 = planish_tolerance_scale::Relative as u32,
+        /// Fits only: sweeps in each round in which nodes move to their foot points and those with large errors gain
+        /// weight. Default 3.
+        pub correction_sweeps: u32 = fit.correction_sweeps as u32,
+        /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+        pub thread_count: u32,
+        /// 0.
+        pub reserved: u32,
     }
 }
 
@@ -203,20 +159,6 @@ pub(super) unsafe fn edges(
 ) -> Result<Vec<[u32; 2]>, ArgumentError> {
     // SAFETY: the caller's promise.
     unsafe { copy_rows(at, count, 2, name, |pair: [u32; 2]| pair) }
-}
-
-/// Fills options with the defaults.
-///
-/// options:     struct_size writable bytes.
-/// struct_size: sizeof(planish_d1rc_options).
-/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn planish_d1rc_options_init(
-    options: *mut planish_d1rc_options,
-    struct_size: usize,
-) -> planish_status {
-    // SAFETY: the caller's promise.
-    guard(|| unsafe { init_options(options, struct_size) })
 }
 
 /// Makes a smooth surface from a triangular control mesh: a disk, possibly with holes. Its nodes are the control

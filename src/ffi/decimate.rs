@@ -1,7 +1,7 @@
 //! Coarser meshes.
 
 use super::arguments::{
-    ArgumentError, Record, ReportOut, array_len, deref, flag, init_options, options, out, rows_mut, slice,
+    ArgumentError, Record, ReportOut, array_len, deref, flag, options, out, rows_mut, slice,
 };
 use super::guard::guard;
 use super::mesh::planish_mesh;
@@ -10,62 +10,35 @@ use super::progress::{planish_progress, with_control};
 use crate::mesh::{DecimateOptions, Decimation};
 use std::ffi::c_void;
 
-/// How coarse a mesh becomes, and what stays. Fill with planish_decimate_options_init(), then change what you need.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct planish_decimate_options {
-    /// Set by planish_decimate_options_init().
-    pub struct_size: usize,
-    /// Nodes that are to be left, at least 3. Default 1000.
-    pub target_count: usize,
-    /// Edges whose triangles turn by more than this are sharp, in radians, at most pi; 0 (default) looks for none.
-    pub sharp_angle: f64,
-    /// Where the boundary or a chain of sharp edges turns by more than this, in radians, at most pi, its node
-    /// stays. Default pi / 4.
-    pub corner_angle: f64,
-    /// Further sharp edges: two nodes each, counted from 0; NULL (default) for none.
-    /// Array: [sharp_edge_count, 2].
-    pub sharp_edges: *const u32,
-    /// Edges in sharp_edges. Default 0.
-    pub sharp_edge_count: usize,
-    /// Receives the sharp edges of the new mesh, two nodes each, counted from 0, the smaller first; or NULL
-    /// (default). Written on success only.
-    /// Array: [out_sharp_edge_count, 2].
-    pub out_sharp_edges: *mut u32,
-    /// Edges that out_sharp_edges has room for; there are at most as many as sharp edges before. Default 0.
-    pub out_sharp_edge_count: usize,
-    /// Hears of the progress and may cancel; NULL (default) for nobody.
-    pub progress: planish_progress,
-    /// Handed to progress as it is.
-    pub user: *mut c_void,
-    /// 1 (default) lets no triangle turn over in the parameter plane, if the mesh has parameters; 0 does not look.
-    pub keep_map: u32,
-    /// 0.
-    pub reserved: u32,
-}
-
-record!(planish_decimate_options, 88, {
-    struct_size: 0, target_count: 8, sharp_angle: 16, corner_angle: 24, sharp_edges: 32, sharp_edge_count: 40,
-    out_sharp_edges: 48, out_sharp_edge_count: 56, progress: 64, user: 72, keep_map: 80, reserved: 84,
-});
-
-impl Default for planish_decimate_options {
-    fn default() -> Self {
-        let core = DecimateOptions::default();
-        Self {
-            struct_size: size_of::<Self>(),
-            target_count: core.target_count,
-            sharp_angle: core.sharp_angle.unwrap_or(0.0),
-            corner_angle: core.corner_angle,
-            sharp_edges: std::ptr::null(),
-            sharp_edge_count: 0,
-            out_sharp_edges: std::ptr::null_mut(),
-            out_sharp_edge_count: 0,
-            progress: None,
-            user: std::ptr::null_mut(),
-            keep_map: core.keep_map.into(),
-            reserved: 0,
-        }
+record! {
+    /// How coarse a mesh becomes, and what stays. Fill with planish_decimate_options_init(), then change what you need.
+    pub struct planish_decimate_options (planish_decimate_options_init; core: DecimateOptions) {
+        /// Nodes that are to be left, at least 3. Default 1000.
+        pub target_count: usize = core.target_count,
+        /// Edges whose triangles turn by more than this are sharp, in radians, at most pi; 0 (default) looks for none.
+        pub sharp_angle: f64 = core.sharp_angle.unwrap_or(0.0),
+        /// Where the boundary or a chain of sharp edges turns by more than this, in radians, at most pi, its node
+        /// stays. Default pi / 4.
+        pub corner_angle: f64 = core.corner_angle,
+        /// Further sharp edges: two nodes each, counted from 0; NULL (default) for none.
+        /// Array: [sharp_edge_count, 2].
+        pub sharp_edges: *const u32,
+        /// Edges in sharp_edges. Default 0.
+        pub sharp_edge_count: usize,
+        /// Receives the sharp edges of the new mesh, two nodes each, counted from 0, the smaller first; or NULL
+        /// (default). Written on success only.
+        /// Array: [out_sharp_edge_count, 2].
+        pub out_sharp_edges: *mut u32,
+        /// Edges that out_sharp_edges has room for; there are at most as many as sharp edges before. Default 0.
+        pub out_sharp_edge_count: usize,
+        /// Hears of the progress and may cancel; NULL (default) for nobody.
+        pub progress: planish_progress,
+        /// Handed to progress as it is.
+        pub user: *mut c_void,
+        /// 1 (default) lets no triangle turn over in the parameter plane, if the mesh has parameters; 0 does not look.
+        pub keep_map: u32 = core.keep_map.into(),
+        /// 0.
+        pub reserved: u32,
     }
 }
 
@@ -84,26 +57,20 @@ impl planish_decimate_options {
     }
 }
 
-/// What was done to make a mesh coarser. Set struct_size to sizeof(planish_decimate_report) before the call; the
-/// report is filled as far as that goes, on success only.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Default)]
-pub struct planish_decimate_report {
-    /// sizeof(planish_decimate_report) as the caller sees it.
-    pub struct_size: usize,
-    /// Edges that were collapsed.
-    pub collapse_count: usize,
-    /// Nodes beyond the target that had to stay, because nothing more can be collapsed.
-    pub excess_count: usize,
-    /// Sharp edges of the new mesh.
-    pub sharp_edge_count: usize,
-    /// Wall time in seconds.
-    pub seconds: f64,
+record! {
+    /// What was done to make a mesh coarser. Set struct_size to sizeof(planish_decimate_report) before the call; the
+    /// report is filled as far as that goes, on success only.
+    pub struct planish_decimate_report {
+        /// Edges that were collapsed.
+        pub collapse_count: usize,
+        /// Nodes beyond the target that had to stay, because nothing more can be collapsed.
+        pub excess_count: usize,
+        /// Sharp edges of the new mesh.
+        pub sharp_edge_count: usize,
+        /// Wall time in seconds.
+        pub seconds: f64,
+    }
 }
-
-record!(planish_decimate_report, 40, {
-    struct_size: 0, collapse_count: 8, excess_count: 16, sharp_edge_count: 24, seconds: 32,
-});
 
 impl From<&Decimation> for planish_decimate_report {
     fn from(coarse: &Decimation) -> Self {
@@ -115,20 +82,6 @@ impl From<&Decimation> for planish_decimate_report {
             seconds: coarse.report.seconds,
         }
     }
-}
-
-/// Fills options with the defaults.
-///
-/// options:     struct_size writable bytes.
-/// struct_size: sizeof(planish_decimate_options).
-/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn planish_decimate_options_init(
-    options: *mut planish_decimate_options,
-    struct_size: usize,
-) -> planish_status {
-    // SAFETY: the caller's promise.
-    guard(|| unsafe { init_options(options, struct_size) })
 }
 
 /// Makes a mesh of fewer nodes by collapsing edges where that changes the shape least.

@@ -1,6 +1,6 @@
 //! Files and buffers.
 
-use super::arguments::{ArgumentError, choice, deref, init_options, options, out, slice, slice_mut, text};
+use super::arguments::{ArgumentError, choice, deref, options, out, slice, slice_mut, text};
 use super::guard::guard;
 use super::mesh::planish_mesh;
 use super::planish_status;
@@ -25,52 +25,20 @@ pub enum planish_vtk_content {
     ControlNet = 2,
 }
 
-/// What a VTK file shows. Fill with planish_vtk_options_init(), then change what you need.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct planish_vtk_options {
-    /// Set by planish_vtk_options_init().
-    pub struct_size: usize,
-    /// A mesh to compare with, or NULL (default). Its triangles are then written instead of a tessellation,
-    /// each node moved to its nearest place on the surface, with the distance as point data "deviation".
-    /// Borrowed.
-    pub deviation_from: *const planish_mesh,
-    /// How the surface is tessellated otherwise; NULL (default) for the defaults. Borrowed.
-    pub tessellate: *const planish_tessellate_options,
-    /// Threads to use, at most 1024; 0 (default) for all cores.
-    pub thread_count: u32,
-    /// A planish_vtk_content. Default PLANISH_VTK_CONTENT_TRIANGLES.
-    pub content: u32,
-}
-
-record!(planish_vtk_options, 32, {
-    struct_size: 0, deviation_from: 8, tessellate: 16, thread_count: 24, content: 28,
-});
-
-impl Default for planish_vtk_options {
-    fn default() -> Self {
-        Self {
-            struct_size: size_of::<Self>(),
-            deviation_from: std::ptr::null(),
-            tessellate: std::ptr::null(),
-            thread_count: 0,
-            content: planish_vtk_content::Triangles as u32,
-        }
+record! {
+    /// What a VTK file shows. Fill with planish_vtk_options_init(), then change what you need.
+    pub struct planish_vtk_options (planish_vtk_options_init) {
+        /// A mesh to compare with, or NULL (default). Its triangles are then written instead of a tessellation,
+        /// each node moved to its nearest place on the surface, with the distance as point data "deviation".
+        /// Borrowed.
+        pub deviation_from: *const planish_mesh,
+        /// How the surface is tessellated otherwise; NULL (default) for the defaults. Borrowed.
+        pub tessellate: *const planish_tessellate_options,
+        /// Threads to use, at most 1024; 0 (default) for all cores.
+        pub thread_count: u32,
+        /// A planish_vtk_content. Default PLANISH_VTK_CONTENT_TRIANGLES.
+        pub content: u32 = planish_vtk_content::Triangles as u32,
     }
-}
-
-/// Fills options with the defaults.
-///
-/// options: not NULL.
-/// size:    sizeof(planish_vtk_options).
-/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn planish_vtk_options_init(
-    options: *mut planish_vtk_options,
-    size: usize,
-) -> planish_status {
-    // SAFETY: the caller's promise.
-    guard(|| unsafe { init_options(options, size) })
 }
 
 /// Writes a surface in space as a VTK file (.vtu): triangles with their (u,v) as point data "uv", the patches, or

@@ -1,8 +1,8 @@
 //! Fields fitted again and again.
 
 use super::arguments::{
-    ArgumentError, ReportOut, array_len, choice, copy_rows, deref, deref_mut, init_options, options, out,
-    rows_mut, slice, slice_mut,
+    ArgumentError, ReportOut, array_len, choice, copy_rows, deref, deref_mut, options, out, rows_mut, slice,
+    slice_mut,
 };
 use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;
@@ -33,95 +33,48 @@ const _: () = {
     is_shared::<planish_field_fitter>();
 };
 
-/// How fields are fitted. Fill with planish_field_options_init(), then change what you need. All pointers are borrowed
-/// for the call.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct planish_field_options {
-    /// Set by planish_field_options_init().
-    pub struct_size: usize,
-    /// What reports compare the errors with, positive, measured in tolerance_scale. Default 1e-3.
-    pub tolerance: f64,
-    /// Weight of the bending energy, positive. Default 1e-6. Where sample_values choose the grid they choose it too.
-    pub smoothing: f64,
-    /// How far the knots reach beyond the nodes, as a fraction of their range, 0 to 10. Default 0.1.
-    pub buffer: f64,
-    /// How a mesh without parameters gets them; NULL (default) for the defaults. Not used for points.
-    pub parameterize: *const planish_parameterize_options,
-    /// A positive weight for each node; NULL (default) for all 1.
-    /// Array: [nodes].
-    pub weights: *const f64,
-    /// For each node 1 if fields have values there, 0 if not: those values are never looked at and may be NaN. NULL
-    /// (default) for values at all nodes.
-    /// Array: [nodes].
-    pub mask: *const u8,
-    /// A field for which grid and smoothing are found that meet the tolerance: sample_dim numbers for each node; NULL
-    /// (default) for none. grid_u and grid_v must then be 0.
-    /// Array: [nodes, sample_dim].
-    pub sample_values: *const f64,
-    /// Numbers of a value of sample_values.
-    pub sample_dim: usize,
-    /// Hears of the progress of making the fitter and may cancel; NULL (default) for nobody.
-    pub progress: planish_progress,
-    /// Handed to progress as it is.
-    pub user: *mut c_void,
-    /// A planish_tolerance_scale. Default PLANISH_TOLERANCE_SCALE_RELATIVE.
-    pub tolerance_scale: u32,
-    /// A planish_ends. Default PLANISH_ENDS_NATURAL.
-    pub ends: u32,
-    /// A planish_energy. Default PLANISH_ENERGY_BEAM.
-    pub energy: u32,
-    /// Knots along u, 2 to 8193; 0 (default, then grid_v too) for as many as the nodes bear, at most 129.
-    pub grid_u: u32,
-    /// Knots along v, 2 to 8193; 0 (default, then grid_u too) for as many as the nodes bear, at most 129.
-    pub grid_v: u32,
-    /// Threads to keep, at most 1024; 0 (default) for all cores. Results do not depend on it.
-    pub thread_count: u32,
-}
-
-record!(planish_field_options, 112, {
-    struct_size: 0, tolerance: 8, smoothing: 16, buffer: 24, parameterize: 32, weights: 40, mask: 48,
-    sample_values: 56, sample_dim: 64, progress: 72, user: 80, tolerance_scale: 88, ends: 92, energy: 96, grid_u: 100,
-    grid_v: 104, thread_count: 108,
-});
-
-impl Default for planish_field_options {
-    fn default() -> Self {
-        let core = FieldOptions::default();
-        Self {
-            struct_size: size_of::<Self>(),
-            tolerance: core.tolerance.value,
-            smoothing: core.smoothing,
-            buffer: core.buffer,
-            parameterize: std::ptr::null(),
-            weights: std::ptr::null(),
-            mask: std::ptr::null(),
-            sample_values: std::ptr::null(),
-            sample_dim: 0,
-            progress: None,
-            user: std::ptr::null_mut(),
-            tolerance_scale: planish_tolerance_scale::Relative as u32,
-            ends: planish_ends::Natural as u32,
-            energy: planish_energy::Beam as u32,
-            grid_u: 0,
-            grid_v: 0,
-            thread_count: 0,
-        }
+record! {
+    /// How fields are fitted. Fill with planish_field_options_init(), then change what you need. All pointers are borrowed
+    /// for the call.
+    pub struct planish_field_options (planish_field_options_init; core: FieldOptions) {
+        /// What reports compare the errors with, positive, measured in tolerance_scale. Default 1e-3.
+        pub tolerance: f64 = core.tolerance.value,
+        /// Weight of the bending energy, positive. Default 1e-6. Where sample_values choose the grid they choose it too.
+        pub smoothing: f64 = core.smoothing,
+        /// How far the knots reach beyond the nodes, as a fraction of their range, 0 to 10. Default 0.1.
+        pub buffer: f64 = core.buffer,
+        /// How a mesh without parameters gets them; NULL (default) for the defaults. Not used for points.
+        pub parameterize: *const planish_parameterize_options,
+        /// A positive weight for each node; NULL (default) for all 1.
+        /// Array: [nodes].
+        pub weights: *const f64,
+        /// For each node 1 if fields have values there, 0 if not: those values are never looked at and may be NaN. NULL
+        /// (default) for values at all nodes.
+        /// Array: [nodes].
+        pub mask: *const u8,
+        /// A field for which grid and smoothing are found that meet the tolerance: sample_dim numbers for each node; NULL
+        /// (default) for none. grid_u and grid_v must then be 0.
+        /// Array: [nodes, sample_dim].
+        pub sample_values: *const f64,
+        /// Numbers of a value of sample_values.
+        pub sample_dim: usize,
+        /// Hears of the progress of making the fitter and may cancel; NULL (default) for nobody.
+        pub progress: planish_progress,
+        /// Handed to progress as it is.
+        pub user: *mut c_void,
+        /// A planish_tolerance_scale. Default PLANISH_TOLERANCE_SCALE_RELATIVE.
+        pub tolerance_scale: u32 = planish_tolerance_scale::Relative as u32,
+        /// A planish_ends. Default PLANISH_ENDS_NATURAL.
+        pub ends: u32 = planish_ends::Natural as u32,
+        /// A planish_energy. Default PLANISH_ENERGY_BEAM.
+        pub energy: u32 = planish_energy::Beam as u32,
+        /// Knots along u, 2 to 8193; 0 (default, then grid_v too) for as many as the nodes bear, at most 129.
+        pub grid_u: u32,
+        /// Knots along v, 2 to 8193; 0 (default, then grid_u too) for as many as the nodes bear, at most 129.
+        pub grid_v: u32,
+        /// Threads to keep, at most 1024; 0 (default) for all cores. Results do not depend on it.
+        pub thread_count: u32,
     }
-}
-
-/// Fills options with the defaults.
-///
-/// options: not NULL.
-/// size:    sizeof(planish_field_options).
-/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn planish_field_options_init(
-    options: *mut planish_field_options,
-    size: usize,
-) -> planish_status {
-    // SAFETY: the caller's promise.
-    guard(|| unsafe { init_options(options, size) })
 }
 
 /// Runs `work` with the core's options for `count` nodes, the caller's threads and listener.

@@ -1,8 +1,8 @@
 //! Triangle meshes.
 
 use super::arguments::{
-    ArgumentError, ReportOut, copy, copy_rows, deref, deref_mut, flag, init_options, options, out, rows_mut,
-    slice, slice_mut_or_none, stride, text, write_text,
+    ArgumentError, ReportOut, copy, copy_rows, deref, deref_mut, flag, options, out, rows_mut, slice,
+    slice_mut_or_none, stride, text, write_text,
 };
 use super::guard::{Failure, guard};
 use super::planish_status;
@@ -31,51 +31,28 @@ impl planish_mesh {
     }
 }
 
-/// How arrays or files become a mesh. Fill with planish_mesh_options_init(), then change what you need.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct planish_mesh_options {
-    /// Set by planish_mesh_options_init().
-    pub struct_size: usize,
-    /// Doubles from one node to the next in `points`; at least 3, or 0 (default) for 3. Ignored for files.
-    pub point_stride: usize,
-    /// Indices from one triangle to the next in `triangles`; at least 3, or 0 (default) for 3. Ignored for
-    /// files.
-    pub triangle_stride: usize,
-    /// Nodes not further apart than this become one, in model units. Default 0: nothing is welded, except
-    /// that nodes of STL files with equal coordinates always are.
-    pub weld_distance: f64,
-    /// Receives what was repaired, or NULL (default). Set its struct_size before. Filled on success only.
-    pub out_repairs: *mut planish_mesh_repairs,
-    /// Receives for each node given the node of the mesh that it became, counted from 0: point_count
-    /// elements, or NULL (default). Filled on success only. Must be NULL for files.
-    /// Array: [nodes].
-    pub out_node_map: *mut u32,
-    /// 1 turns triangles over until neighbours agree; with 0 (default) disagreement is an error.
-    pub orient: u32,
-    /// The number that `triangles` uses for the first node, such as 1 from Fortran. Default 0. Ignored for
-    /// files. Everything that the library hands back counts from 0.
-    pub index_base: u32,
-}
-
-record!(planish_mesh_options, 56, {
-    struct_size: 0, point_stride: 8, triangle_stride: 16, weld_distance: 24, out_repairs: 32,
-    out_node_map: 40, orient: 48, index_base: 52,
-});
-
-impl Default for planish_mesh_options {
-    fn default() -> Self {
-        let core = MeshOptions::default();
-        Self {
-            struct_size: size_of::<Self>(),
-            point_stride: 0,
-            triangle_stride: 0,
-            weld_distance: core.weld_distance,
-            out_repairs: std::ptr::null_mut(),
-            out_node_map: std::ptr::null_mut(),
-            orient: core.orient.into(),
-            index_base: core.index_base,
-        }
+record! {
+    /// How arrays or files become a mesh. Fill with planish_mesh_options_init(), then change what you need.
+    pub struct planish_mesh_options (planish_mesh_options_init; core: MeshOptions) {
+        /// Doubles from one node to the next in `points`; at least 3, or 0 (default) for 3. Ignored for files.
+        pub point_stride: usize,
+        /// Indices from one triangle to the next in `triangles`; at least 3, or 0 (default) for 3. Ignored for
+        /// files.
+        pub triangle_stride: usize,
+        /// Nodes not further apart than this become one, in model units. Default 0: nothing is welded, except
+        /// that nodes of STL files with equal coordinates always are.
+        pub weld_distance: f64 = core.weld_distance,
+        /// Receives what was repaired, or NULL (default). Set its struct_size before. Filled on success only.
+        pub out_repairs: *mut planish_mesh_repairs,
+        /// Receives for each node given the node of the mesh that it became, counted from 0: point_count
+        /// elements, or NULL (default). Filled on success only. Must be NULL for files.
+        /// Array: [nodes].
+        pub out_node_map: *mut u32,
+        /// 1 turns triangles over until neighbours agree; with 0 (default) disagreement is an error.
+        pub orient: u32 = core.orient.into(),
+        /// The number that `triangles` uses for the first node, such as 1 from Fortran. Default 0. Ignored for
+        /// files. Everything that the library hands back counts from 0.
+        pub index_base: u32 = core.index_base,
     }
 }
 
@@ -89,29 +66,22 @@ impl planish_mesh_options {
     }
 }
 
-/// What was done to arrays or a file to make a mesh of them. Set struct_size to sizeof(planish_mesh_repairs)
-/// before the call.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Default)]
-pub struct planish_mesh_repairs {
-    /// sizeof(planish_mesh_repairs) as the caller sees it.
-    pub struct_size: usize,
-    /// Nodes that vanished because they were welded to others.
-    pub welded_node_count: usize,
-    /// Triangles that vanished because welding made two of their nodes one.
-    pub dropped_triangle_count: usize,
-    /// Triangles that were turned over.
-    pub flipped_triangle_count: usize,
-    /// 1 if the file has texture coordinates that are no parameters, because a node has several or none.
-    pub dropped_parameters: u32,
-    /// 0.
-    pub reserved: u32,
+record! {
+    /// What was done to arrays or a file to make a mesh of them. Set struct_size to sizeof(planish_mesh_repairs)
+    /// before the call.
+    pub struct planish_mesh_repairs {
+        /// Nodes that vanished because they were welded to others.
+        pub welded_node_count: usize,
+        /// Triangles that vanished because welding made two of their nodes one.
+        pub dropped_triangle_count: usize,
+        /// Triangles that were turned over.
+        pub flipped_triangle_count: usize,
+        /// 1 if the file has texture coordinates that are no parameters, because a node has several or none.
+        pub dropped_parameters: u32,
+        /// 0.
+        pub reserved: u32,
+    }
 }
-
-record!(planish_mesh_repairs, 40, {
-    struct_size: 0, welded_node_count: 8, dropped_triangle_count: 16, flipped_triangle_count: 24,
-    dropped_parameters: 32, reserved: 36,
-});
 
 impl From<&MeshRepairs> for planish_mesh_repairs {
     fn from(repairs: &MeshRepairs) -> Self {
@@ -162,20 +132,6 @@ impl MeshOutputs<'_> {
         self.mesh.write(planish_mesh::into_raw(mesh));
         if repairs.is_empty() { planish_status::Ok } else { planish_status::InputRepaired }
     }
-}
-
-/// Fills options with the defaults.
-///
-/// options:     struct_size writable bytes.
-/// struct_size: sizeof(planish_mesh_options).
-/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn planish_mesh_options_init(
-    options: *mut planish_mesh_options,
-    struct_size: usize,
-) -> planish_status {
-    // SAFETY: the caller's promise.
-    guard(|| unsafe { init_options(options, struct_size) })
 }
 
 /// Makes a mesh from arrays, which are copied.

@@ -1,8 +1,6 @@
 //! Where a mesh gets its (u,v) from.
 
-use super::arguments::{
-    ArgumentError, Record, ReportOut, choice, deref_mut, flag, init_options, options, slice,
-};
+use super::arguments::{ArgumentError, Record, ReportOut, choice, deref_mut, flag, options, slice};
 use super::guard::guard;
 use super::mesh::planish_mesh;
 use super::progress::with_control;
@@ -48,72 +46,41 @@ pub enum planish_border {
 /// The value of stretch_steps that goes on until the stretch no longer falls.
 pub const PLANISH_UNLIMITED: u32 = u32::MAX;
 
-/// How a mesh gets its parameters. Fill with planish_parameterize_options_init(), then change what you need.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct planish_parameterize_options {
-    /// Set by planish_parameterize_options_init().
-    pub struct_size: usize,
-    /// A positive number for each node: large where more parameter area is wanted. NULL (default) for all 1.
-    /// Array: [nodes].
-    pub node_weights: *const f64,
-    /// Hears of the progress and may cancel; NULL (default) for nobody.
-    pub progress: planish_progress,
-    /// Handed to progress as it is.
-    pub user: *mut c_void,
-    /// Outward bulge of a square's sides, in sides, 0 to 0.5: keeps triangles between nodes of one side open.
-    /// Default 0.02.
-    pub bulge: f64,
-    /// How far border nodes slide with the stretch, 0 to 1. Default 0.
-    pub boundary_slide: f64,
-    /// A planish_map_method. Default PLANISH_MAP_METHOD_MEAN_VALUE.
-    pub method: u32,
-    /// A planish_border. Default PLANISH_BORDER_AUTO.
-    pub border: u32,
-    /// For PLANISH_BORDER_CORNERS: four nodes of the longest boundary loop in its order, counted from 0.
-    pub corners: [u32; 4],
-    /// Most steps that lower the stretch after the first map: 0 for none, PLANISH_UNLIMITED (default) until it
-    /// no longer falls.
-    pub stretch_steps: u32,
-    /// Sweeps that smooth the logarithm of the stretch before each step. Default 0.
-    pub rings: u32,
-    /// 1 (default) closes holes by fans of triangles while the map is computed; 0 lets them become convex.
-    pub fill_holes: u32,
-    /// With PLANISH_BORDER_AUTO: 1 (default) also unrolls the map with a free border, and takes that if it
-    /// neither folds nor overlaps itself and stretches less; 0 does not.
-    pub unroll: u32,
-    /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
-    pub thread_count: u32,
-    /// 0.
-    pub reserved: u32,
-}
-
-record!(planish_parameterize_options, 96, {
-    struct_size: 0, node_weights: 8, progress: 16, user: 24, bulge: 32, boundary_slide: 40, method: 48,
-    border: 52, corners: 56, stretch_steps: 72, rings: 76, fill_holes: 80, unroll: 84,
-    thread_count: 88, reserved: 92,
-});
-
-impl Default for planish_parameterize_options {
-    fn default() -> Self {
-        let core = ParameterizeOptions::default();
-        Self {
-            struct_size: size_of::<Self>(),
-            node_weights: std::ptr::null(),
-            progress: None,
-            user: std::ptr::null_mut(),
-            bulge: core.bulge,
-            boundary_slide: core.boundary_slide,
-            method: planish_map_method::MeanValue as u32,
-            border: planish_border::Auto as u32,
-            corners: [0; 4],
-            stretch_steps: PLANISH_UNLIMITED,
-            rings: core.rings as u32,
-            fill_holes: core.fill_holes.into(),
-            unroll: core.unroll.into(),
-            thread_count: 0,
-            reserved: 0,
-        }
+record! {
+    /// How a mesh gets its parameters. Fill with planish_parameterize_options_init(), then change what you need.
+    pub struct planish_parameterize_options (planish_parameterize_options_init; core: ParameterizeOptions) {
+        /// A positive number for each node: large where more parameter area is wanted. NULL (default) for all 1.
+        /// Array: [nodes].
+        pub node_weights: *const f64,
+        /// Hears of the progress and may cancel; NULL (default) for nobody.
+        pub progress: planish_progress,
+        /// Handed to progress as it is.
+        pub user: *mut c_void,
+        /// Outward bulge of a square's sides, in sides, 0 to 0.5: keeps triangles between nodes of one side open.
+        /// Default 0.02.
+        pub bulge: f64 = core.bulge,
+        /// How far border nodes slide with the stretch, 0 to 1. Default 0.
+        pub boundary_slide: f64 = core.boundary_slide,
+        /// A planish_map_method. Default PLANISH_MAP_METHOD_MEAN_VALUE.
+        pub method: u32 = planish_map_method::MeanValue as u32,
+        /// A planish_border. Default PLANISH_BORDER_AUTO.
+        pub border: u32 = planish_border::Auto as u32,
+        /// For PLANISH_BORDER_CORNERS: four nodes of the longest boundary loop in its order, counted from 0.
+        pub corners: [u32; 4],
+        /// Most steps that lower the stretch after the first map: 0 for none, PLANISH_UNLIMITED (default) until it
+        /// no longer falls.
+        pub stretch_steps: u32 = PLANISH_UNLIMITED,
+        /// Sweeps that smooth the logarithm of the stretch before each step. Default 0.
+        pub rings: u32 = core.rings as u32,
+        /// 1 (default) closes holes by fans of triangles while the map is computed; 0 lets them become convex.
+        pub fill_holes: u32 = core.fill_holes.into(),
+        /// With PLANISH_BORDER_AUTO: 1 (default) also unrolls the map with a free border, and takes that if it
+        /// neither folds nor overlaps itself and stretches less; 0 does not.
+        pub unroll: u32 = core.unroll.into(),
+        /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+        pub thread_count: u32,
+        /// 0.
+        pub reserved: u32,
     }
 }
 
@@ -161,41 +128,34 @@ impl From<Border> for planish_border {
     }
 }
 
-/// How good a map is and what it took. Set struct_size to sizeof(planish_parameterize_report) before the call;
-/// the report is filled as far as that goes, on success only.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Default)]
-pub struct planish_parameterize_report {
-    /// sizeof(planish_parameterize_report) as the caller sees it.
-    pub struct_size: usize,
-    /// L2 stretch of all triangles: 1 is an isometry; infinite if a triangle has no parameter area.
-    pub stretch: f64,
-    /// The largest stretch in any direction anywhere, in the same scale.
-    pub max_stretch: f64,
-    /// The largest ratio of a triangle's area in space to that in the parameters, by the smallest.
-    pub area_ratio: f64,
-    /// Wall time in seconds.
-    pub seconds: f64,
-    /// Triangles turned over against the rest: folds of the map.
-    pub flipped_count: usize,
-    /// Triangles of exactly zero parameter area.
-    pub degenerate_count: usize,
-    /// Factorizations of the linear system, all candidates together.
-    pub solve_count: usize,
-    /// Steps that lowered the stretch of the map returned.
-    pub step_count: usize,
-    /// Everything worth knowing: bits of planish_remark.
-    pub remarks: u64,
-    /// The border that was taken: a planish_border.
-    pub border: u32,
-    /// 1 if the border slid with the stretch.
-    pub border_slid: u32,
+record! {
+    /// How good a map is and what it took. Set struct_size to sizeof(planish_parameterize_report) before the call;
+    /// the report is filled as far as that goes, on success only.
+    pub struct planish_parameterize_report {
+        /// L2 stretch of all triangles: 1 is an isometry; infinite if a triangle has no parameter area.
+        pub stretch: f64,
+        /// The largest stretch in any direction anywhere, in the same scale.
+        pub max_stretch: f64,
+        /// The largest ratio of a triangle's area in space to that in the parameters, by the smallest.
+        pub area_ratio: f64,
+        /// Wall time in seconds.
+        pub seconds: f64,
+        /// Triangles turned over against the rest: folds of the map.
+        pub flipped_count: usize,
+        /// Triangles of exactly zero parameter area.
+        pub degenerate_count: usize,
+        /// Factorizations of the linear system, all candidates together.
+        pub solve_count: usize,
+        /// Steps that lowered the stretch of the map returned.
+        pub step_count: usize,
+        /// Everything worth knowing: bits of planish_remark.
+        pub remarks: u64,
+        /// The border that was taken: a planish_border.
+        pub border: u32,
+        /// 1 if the border slid with the stretch.
+        pub border_slid: u32,
+    }
 }
-
-record!(planish_parameterize_report, 88, {
-    struct_size: 0, stretch: 8, max_stretch: 16, area_ratio: 24, seconds: 32, flipped_count: 40,
-    degenerate_count: 48, solve_count: 56, step_count: 64, remarks: 72, border: 80, border_slid: 84,
-});
 
 impl From<&ParameterizeReport> for planish_parameterize_report {
     fn from(report: &ParameterizeReport) -> Self {
@@ -225,20 +185,6 @@ fn remarks(core: Remarks) -> u64 {
         (Remarks::HIGH_STRETCH, planish_remark::SegmentationAdvised),
     ];
     bits.into_iter().filter(|&(remark, _)| core.contains(remark)).map(|(_, bit)| bit as u64).sum()
-}
-
-/// Fills options with the defaults, which suit tensor surfaces.
-///
-/// options:     struct_size writable bytes.
-/// struct_size: sizeof(planish_parameterize_options).
-/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn planish_parameterize_options_init(
-    options: *mut planish_parameterize_options,
-    struct_size: usize,
-) -> planish_status {
-    // SAFETY: the caller's promise.
-    guard(|| unsafe { init_options(options, struct_size) })
 }
 
 /// Gives each node of a disk, possibly with holes, its (u,v). Parameters that the mesh has are replaced.

@@ -1,6 +1,6 @@
 //! The common view of tensor surfaces, T-splines and PHT-splines: Bezier patches; and conversion.
 
-use super::arguments::{ArgumentError, ReportOut, deref, init_options, options, out, rows_mut};
+use super::arguments::{ArgumentError, ReportOut, deref, options, out, rows_mut};
 use super::guard::guard;
 use super::planish_status;
 use super::surface::{planish_surface, query_surface};
@@ -8,55 +8,30 @@ use crate::bezier::BezierPatch;
 use crate::surface::Patches;
 use glam::DVec2;
 
-/// A Bezier patch: the polynomial or rational piece of a surface over a rectangle of parameters. Set struct_size
-/// to sizeof(planish_patch) before the call; filled as far as that goes, on success only.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct planish_patch {
-    /// sizeof(planish_patch) as the caller sees it.
-    pub struct_size: usize,
-    /// Least u of the rectangle.
-    pub u_min: f64,
-    /// Largest u of the rectangle.
-    pub u_max: f64,
-    /// Least v of the rectangle.
-    pub v_min: f64,
-    /// Largest v of the rectangle.
-    pub v_max: f64,
-    /// Number of ordinates: (degree_u + 1) * (degree_v + 1).
-    pub ordinate_count: usize,
-    /// Numbers of an ordinate: dim, or dim + 1 if the patch is rational.
-    pub ordinate_width: usize,
-    /// Degree along u.
-    pub degree_u: u32,
-    /// Degree along v.
-    pub degree_v: u32,
-    /// 1 if the last number of each ordinate is a weight, and the others are multiplied by it; else 0.
-    pub is_rational: u32,
-    /// 0.
-    pub reserved: u32,
-}
-
-record!(planish_patch, 72, {
-    struct_size: 0, u_min: 8, u_max: 16, v_min: 24, v_max: 32, ordinate_count: 40, ordinate_width: 48,
-    degree_u: 56, degree_v: 60, is_rational: 64, reserved: 68,
-});
-
-impl Default for planish_patch {
-    fn default() -> Self {
-        Self {
-            struct_size: size_of::<Self>(),
-            u_min: 0.0,
-            u_max: 0.0,
-            v_min: 0.0,
-            v_max: 0.0,
-            ordinate_count: 0,
-            ordinate_width: 0,
-            degree_u: 0,
-            degree_v: 0,
-            is_rational: 0,
-            reserved: 0,
-        }
+record! {
+    /// A Bezier patch: the polynomial or rational piece of a surface over a rectangle of parameters. Set struct_size
+    /// to sizeof(planish_patch) before the call; filled as far as that goes, on success only.
+    pub struct planish_patch {
+        /// Least u of the rectangle.
+        pub u_min: f64,
+        /// Largest u of the rectangle.
+        pub u_max: f64,
+        /// Least v of the rectangle.
+        pub v_min: f64,
+        /// Largest v of the rectangle.
+        pub v_max: f64,
+        /// Number of ordinates: (degree_u + 1) * (degree_v + 1).
+        pub ordinate_count: usize,
+        /// Numbers of an ordinate: dim, or dim + 1 if the patch is rational.
+        pub ordinate_width: usize,
+        /// Degree along u.
+        pub degree_u: u32,
+        /// Degree along v.
+        pub degree_v: u32,
+        /// 1 if the last number of each ordinate is a weight, and the others are multiplied by it; else 0.
+        pub is_rational: u32,
+        /// 0.
+        pub reserved: u32,
     }
 }
 
@@ -137,36 +112,12 @@ pub unsafe extern "C" fn planish_surface_copy_patch(
     })
 }
 
-/// How a surface is converted. Fill with planish_convert_options_init(), then change what you need.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct planish_convert_options {
-    /// Set by planish_convert_options_init().
-    pub struct_size: usize,
-    /// Most control points of the result; with more the call fails. Default 4000000.
-    pub max_coefficients: usize,
-}
-
-record!(planish_convert_options, 16, { struct_size: 0, max_coefficients: 8 });
-
-impl Default for planish_convert_options {
-    fn default() -> Self {
-        Self { struct_size: size_of::<Self>(), max_coefficients: 4_000_000 }
+record! {
+    /// How a surface is converted. Fill with planish_convert_options_init(), then change what you need.
+    pub struct planish_convert_options (planish_convert_options_init) {
+        /// Most control points of the result; with more the call fails. Default 4000000.
+        pub max_coefficients: usize = 4_000_000,
     }
-}
-
-/// Fills options with the defaults.
-///
-/// options: not NULL.
-/// size:    sizeof(planish_convert_options).
-/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn planish_convert_options_init(
-    options: *mut planish_convert_options,
-    size: usize,
-) -> planish_status {
-    // SAFETY: the caller's promise.
-    guard(|| unsafe { init_options(options, size) })
 }
 
 /// Makes a tensor surface that is the same surface exactly, with the same trims. A surface with local refinement

@@ -1,8 +1,8 @@
 //! PHT-splines: fits, parts in and out.
 
 use super::arguments::{
-    ArgumentError, array_len, choice, copy, copy_rows, deref, deref_mut, flag, init_options, options, out,
-    rows_mut, slice, slice_mut_or_none,
+    ArgumentError, array_len, choice, copy, copy_rows, deref, deref_mut, flag, options, out, rows_mut, slice,
+    slice_mut_or_none,
 };
 use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;
@@ -32,100 +32,61 @@ pub enum planish_pht_estimator {
     LocalCubic = 2,
 }
 
-/// Options of PHT fits. Fill with planish_pht_options_init(), then change what you need.
-///
-/// A datum is a node of the mesh, or a point; a sample is a datum, or the middle of a triangle.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct planish_pht_options {
-    /// Set by planish_pht_options_init().
-    pub struct_size: usize,
-    /// The largest error allowed at the data, positive, measured in tolerance_scale. Default 1e-3.
-    pub tolerance: f64,
-    /// Weight of the bending energy of each cell, mapped to the unit cell; lowered where cells cannot be split any
-    /// more. Default 1e-3.
-    pub smoothing: f64,
-    /// How a mesh without parameters gets them; NULL (default) for a circle, with one stretch step unless the
-    /// tolerance is fine and the plain map even. Of this record progress, user and thread_count are not looked at, and node_weights must be
-    /// NULL. Not used for points.
-    pub parameterize: *const planish_parameterize_options,
-    /// A positive weight for each datum; NULL (default) for all 1.
-    /// Array: [data].
-    pub weights: *const f64,
-    /// Hears of the progress and may cancel; NULL (default) for nobody.
-    pub progress: planish_progress,
-    /// Handed to progress as it is.
-    pub user: *mut c_void,
-    /// Receives the (u,v) at which the error of each datum is measured: two numbers for each datum, or NULL
-    /// (default). Written on success only.
-    /// Array: [data, 2].
-    pub out_parameters: *mut f64,
-    /// Receives the error of each datum in model units: one number for each datum, or NULL (default). Written
-    /// on success only.
-    /// Array: [data].
-    pub out_errors: *mut f64,
-    /// Most cells, at least the initial ones. Default 200000.
-    pub max_cells: usize,
-    /// A planish_tolerance_scale. Default PLANISH_TOLERANCE_SCALE_RELATIVE.
-    pub tolerance_scale: u32,
-    /// A planish_pht_estimator. Default PLANISH_PHT_ESTIMATOR_GLOBAL.
-    pub estimator: u32,
-    /// A planish_regularize. Default PLANISH_REGULARIZE_AUTO.
-    pub regularize: u32,
-    /// Cells along u to start from, 1 to 4095. Default 1.
-    pub grid_u: u32,
-    /// Cells along v to start from, 1 to 4095. Default 1.
-    pub grid_v: u32,
-    /// Deepest level of a cell, at most 20. Default 12.
-    pub max_level: u32,
-    /// A cell with fewer samples is not split, at least 1. Default 2.
-    pub min_samples: u32,
-    /// Levels by which cells that share an edge may differ; 0 for any number. Default 1.
-    pub grade: u32,
-    /// Sweeps of parameter correction in each round of the fit of a shape. Default 1.
-    pub correction_sweeps: u32,
-    /// 1 measures the closest-point distance of the nodes for the report. Default 0.
-    pub measure_distance: u32,
-    /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
-    pub thread_count: u32,
-    /// 0.
-    pub reserved: u32,
-}
-
-record!(planish_pht_options, 128, {
-    struct_size: 0, tolerance: 8, smoothing: 16, parameterize: 24, weights: 32, progress: 40, user: 48,
-    out_parameters: 56, out_errors: 64, max_cells: 72, tolerance_scale: 80, estimator: 84, regularize: 88,
-    grid_u: 92, grid_v: 96, max_level: 100, min_samples: 104, grade: 108, correction_sweeps: 112,
-    measure_distance: 116, thread_count: 120, reserved: 124,
-});
-
-impl Default for planish_pht_options {
-    fn default() -> Self {
-        let core = PhtOptions::default();
-        Self {
-            struct_size: size_of::<Self>(),
-            tolerance: core.tolerance.value,
-            smoothing: core.smoothing,
-            parameterize: std::ptr::null(),
-            weights: std::ptr::null(),
-            progress: None,
-            user: std::ptr::null_mut(),
-            out_parameters: std::ptr::null_mut(),
-            out_errors: std::ptr::null_mut(),
-            max_cells: core.max_cells,
-            tolerance_scale: 0,
-            estimator: planish_pht_estimator::Global as u32,
-            regularize: 0,
-            grid_u: core.initial_grid[0] as u32,
-            grid_v: core.initial_grid[1] as u32,
-            max_level: core.max_level,
-            min_samples: core.min_samples as u32,
-            grade: core.grade,
-            correction_sweeps: core.correction_sweeps as u32,
-            measure_distance: core.measure_distance.into(),
-            thread_count: 0,
-            reserved: 0,
-        }
+record! {
+    /// Options of PHT fits. Fill with planish_pht_options_init(), then change what you need.
+    ///
+    /// A datum is a node of the mesh, or a point; a sample is a datum, or the middle of a triangle.
+    pub struct planish_pht_options (planish_pht_options_init; core: PhtOptions) {
+        /// The largest error allowed at the data, positive, measured in tolerance_scale. Default 1e-3.
+        pub tolerance: f64 = core.tolerance.value,
+        /// Weight of the bending energy of each cell, mapped to the unit cell; lowered where cells cannot be split any
+        /// more. Default 1e-3.
+        pub smoothing: f64 = core.smoothing,
+        /// How a mesh without parameters gets them; NULL (default) for a circle, with one stretch step unless the
+        /// tolerance is fine and the plain map even. Of this record progress, user and thread_count are not looked at, and node_weights must be
+        /// NULL. Not used for points.
+        pub parameterize: *const planish_parameterize_options,
+        /// A positive weight for each datum; NULL (default) for all 1.
+        /// Array: [data].
+        pub weights: *const f64,
+        /// Hears of the progress and may cancel; NULL (default) for nobody.
+        pub progress: planish_progress,
+        /// Handed to progress as it is.
+        pub user: *mut c_void,
+        /// Receives the (u,v) at which the error of each datum is measured: two numbers for each datum, or NULL
+        /// (default). Written on success only.
+        /// Array: [data, 2].
+        pub out_parameters: *mut f64,
+        /// Receives the error of each datum in model units: one number for each datum, or NULL (default). Written
+        /// on success only.
+        /// Array: [data].
+        pub out_errors: *mut f64,
+        /// Most cells, at least the initial ones. Default 200000.
+        pub max_cells: usize = core.max_cells,
+        /// A planish_tolerance_scale. Default PLANISH_TOLERANCE_SCALE_RELATIVE.
+        pub tolerance_scale: u32,
+        /// A planish_pht_estimator. Default PLANISH_PHT_ESTIMATOR_GLOBAL.
+        pub estimator: u32 = planish_pht_estimator::Global as u32,
+        /// A planish_regularize. Default PLANISH_REGULARIZE_AUTO.
+        pub regularize: u32,
+        /// Cells along u to start from, 1 to 4095. Default 1.
+        pub grid_u: u32 = core.initial_grid[0] as u32,
+        /// Cells along v to start from, 1 to 4095. Default 1.
+        pub grid_v: u32 = core.initial_grid[1] as u32,
+        /// Deepest level of a cell, at most 20. Default 12.
+        pub max_level: u32 = core.max_level,
+        /// A cell with fewer samples is not split, at least 1. Default 2.
+        pub min_samples: u32 = core.min_samples as u32,
+        /// Levels by which cells that share an edge may differ; 0 for any number. Default 1.
+        pub grade: u32 = core.grade,
+        /// Sweeps of parameter correction in each round of the fit of a shape. Default 1.
+        pub correction_sweeps: u32 = core.correction_sweeps as u32,
+        /// 1 measures the closest-point distance of the nodes for the report. Default 0.
+        pub measure_distance: u32 = core.measure_distance.into(),
+        /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+        pub thread_count: u32,
+        /// 0.
+        pub reserved: u32,
     }
 }
 
@@ -196,20 +157,6 @@ unsafe fn fit(
         })??;
         Ok(outputs.store_surface(fit.surface, &fit.parameters, &fit.errors, &fit.report))
     }
-}
-
-/// Fills options with the defaults.
-///
-/// options:     struct_size writable bytes.
-/// struct_size: sizeof(planish_pht_options).
-/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn planish_pht_options_init(
-    options: *mut planish_pht_options,
-    struct_size: usize,
-) -> planish_status {
-    // SAFETY: the caller's promise.
-    guard(|| unsafe { init_options(options, struct_size) })
 }
 
 /// Fits a PHT-spline to the shape of a mesh: a smooth bicubic surface whose cells are as small as the shape asks,
@@ -468,53 +415,20 @@ fn region(numbers: &[f64]) -> Domain {
     Domain { min: DVec2::new(numbers[0], numbers[2]), max: DVec2::new(numbers[1], numbers[3]) }
 }
 
-/// How a tensor surface becomes a PHT-spline. Fill with planish_pht_convert_options_init(), then change what you
-/// need.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct planish_pht_convert_options {
-    /// Set by planish_pht_convert_options_init().
-    pub struct_size: usize,
-    /// Largest distance at equal parameters, in model units; 0 (default) takes all knot lines, which is exact up to
-    /// degree 3.
-    pub tolerance: f64,
-    /// Most cells; with more the call fails. Default 200000.
-    pub max_cells: usize,
-    /// Deepest level of a cell, at most 20. Default 12.
-    pub max_level: u32,
-    /// 0.
-    pub reserved: u32,
-}
-
-record!(planish_pht_convert_options, 32, {
-    struct_size: 0, tolerance: 8, max_cells: 16, max_level: 24, reserved: 28,
-});
-
-impl Default for planish_pht_convert_options {
-    fn default() -> Self {
-        let core = ConvertOptions::default();
-        Self {
-            struct_size: size_of::<Self>(),
-            tolerance: core.tolerance,
-            max_cells: core.max_cells,
-            max_level: core.max_level,
-            reserved: 0,
-        }
+record! {
+    /// How a tensor surface becomes a PHT-spline. Fill with planish_pht_convert_options_init(), then change what you
+    /// need.
+    pub struct planish_pht_convert_options (planish_pht_convert_options_init; core: ConvertOptions) {
+        /// Largest distance at equal parameters, in model units; 0 (default) takes all knot lines, which is exact up to
+        /// degree 3.
+        pub tolerance: f64 = core.tolerance,
+        /// Most cells; with more the call fails. Default 200000.
+        pub max_cells: usize = core.max_cells,
+        /// Deepest level of a cell, at most 20. Default 12.
+        pub max_level: u32 = core.max_level,
+        /// 0.
+        pub reserved: u32,
     }
-}
-
-/// Fills options with the defaults.
-///
-/// options:     struct_size writable bytes.
-/// struct_size: sizeof(planish_pht_convert_options).
-/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn planish_pht_convert_options_init(
-    options: *mut planish_pht_convert_options,
-    struct_size: usize,
-) -> planish_status {
-    // SAFETY: the caller's promise.
-    guard(|| unsafe { init_options(options, struct_size) })
 }
 
 /// Makes a PHT-spline of a tensor surface, with its weights and trims.

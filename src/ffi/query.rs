@@ -1,8 +1,8 @@
 //! Questions to surfaces of any family: tessellation, closest points, deviation.
 
 use super::arguments::{
-    ArgumentError, ReportOut, array_len, copy_rows, deref, flag, init_options, options, out, slice,
-    slice_mut, slice_mut_or_none,
+    ArgumentError, ReportOut, array_len, copy_rows, deref, flag, options, out, slice, slice_mut,
+    slice_mut_or_none,
 };
 use super::guard::guard;
 use super::mesh::planish_mesh;
@@ -16,66 +16,34 @@ use crate::query::project::{ProjectOptions, Projector};
 use crate::query::tessellate::{TessellateOptions, Tessellation, tessellate};
 use glam::DVec2;
 
-/// How fine a tessellation is. Fill with planish_tessellate_options_init(), then change what you need.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct planish_tessellate_options {
-    /// Set by planish_tessellate_options_init().
-    pub struct_size: usize,
-    /// Largest distance between the surface and the middles of the edges, in model units, positive; 0 (default)
-    /// takes 1e-3 of the surface's diagonal.
-    pub chord_tolerance: f64,
-    /// Longest edge in model units, positive; 0 (default) for no limit.
-    pub max_edge_length: f64,
-    /// Most nodes; with more the call fails. Default 4000000.
-    pub max_point_count: usize,
-    /// 1 (default) keeps to the part inside the trims, 0 covers the whole domain.
-    pub keep_trims: u32,
-    /// 0.
-    pub reserved: u32,
-    /// Receives how good the mesh is, or NULL (default). Set its struct_size before. Filled on success only; not
-    /// looked at where the options are part of others.
-    pub out_report: *mut planish_tessellate_report,
-}
-
-record!(planish_tessellate_options, 48, {
-    struct_size: 0, chord_tolerance: 8, max_edge_length: 16, max_point_count: 24, keep_trims: 32, reserved: 36,
-    out_report: 40,
-});
-
-/// How good a tessellation is. Set struct_size to sizeof(planish_tessellate_report) before the call; filled as far
-/// as that goes.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct planish_tessellate_report {
-    /// sizeof(planish_tessellate_report) as the caller sees it.
-    pub struct_size: usize,
-    /// Smallest angle of a triangle in space, in radians.
-    pub smallest_angle: f64,
-    /// Largest distance measured between the middle of an edge and the surface, in model units.
-    pub chord_error: f64,
-}
-
-record!(planish_tessellate_report, 24, { struct_size: 0, smallest_angle: 8, chord_error: 16 });
-
-impl Default for planish_tessellate_report {
-    fn default() -> Self {
-        Self { struct_size: size_of::<Self>(), smallest_angle: 0.0, chord_error: 0.0 }
+record! {
+    /// How fine a tessellation is. Fill with planish_tessellate_options_init(), then change what you need.
+    pub struct planish_tessellate_options (planish_tessellate_options_init; core: TessellateOptions) {
+        /// Largest distance between the surface and the middles of the edges, in model units, positive; 0 (default)
+        /// takes 1e-3 of the surface's diagonal.
+        pub chord_tolerance: f64 = core.chord_tolerance,
+        /// Longest edge in model units, positive; 0 (default) for no limit.
+        pub max_edge_length: f64 = core.max_edge_length,
+        /// Most nodes; with more the call fails. Default 4000000.
+        pub max_point_count: usize = core.max_points,
+        /// 1 (default) keeps to the part inside the trims, 0 covers the whole domain.
+        pub keep_trims: u32 = u32::from(core.keep_trims),
+        /// 0.
+        pub reserved: u32,
+        /// Receives how good the mesh is, or NULL (default). Set its struct_size before. Filled on success only; not
+        /// looked at where the options are part of others.
+        pub out_report: *mut planish_tessellate_report,
     }
 }
 
-impl Default for planish_tessellate_options {
-    fn default() -> Self {
-        let core = TessellateOptions::default();
-        Self {
-            struct_size: size_of::<Self>(),
-            chord_tolerance: core.chord_tolerance,
-            max_edge_length: core.max_edge_length,
-            max_point_count: core.max_points,
-            keep_trims: u32::from(core.keep_trims),
-            reserved: 0,
-            out_report: std::ptr::null_mut(),
-        }
+record! {
+    /// How good a tessellation is. Set struct_size to sizeof(planish_tessellate_report) before the call; filled as far
+    /// as that goes.
+    pub struct planish_tessellate_report {
+        /// Smallest angle of a triangle in space, in radians.
+        pub smallest_angle: f64,
+        /// Largest distance measured between the middle of an edge and the surface, in model units.
+        pub chord_error: f64,
     }
 }
 
@@ -93,20 +61,6 @@ impl planish_tessellate_options {
 
 fn check_reserved(record: &'static str, given: u32) -> Result<(), ArgumentError> {
     if given == 0 { Ok(()) } else { Err(ArgumentError::Reserved { record, given }) }
-}
-
-/// Fills options with the defaults.
-///
-/// options: not NULL.
-/// size:    sizeof(planish_tessellate_options).
-/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn planish_tessellate_options_init(
-    options: *mut planish_tessellate_options,
-    size: usize,
-) -> planish_status {
-    // SAFETY: the caller's promise.
-    guard(|| unsafe { init_options(options, size) })
 }
 
 /// Makes a triangle mesh of a surface in space. Its nodes lie on the surface and carry their (u,v) as
@@ -138,53 +92,21 @@ pub unsafe extern "C" fn planish_surface_tessellate(
     })
 }
 
-/// How points are projected. Fill with planish_project_options_init(), then change what you need.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct planish_project_options {
-    /// Set by planish_project_options_init().
-    pub struct_size: usize,
-    /// A row u, v near the answer for each point, or NULL (default). It saves time and may choose between
-    /// equally near places; the answer is the nearest place all the same. Borrowed.
-    /// Array: [points, 2].
-    pub guesses: *const f64,
-    /// Points farther from the surface than this get NaN, and the call returns
-    /// PLANISH_STATUS_POINTS_OUTSIDE. Not negative. Default infinity.
-    pub max_distance: f64,
-    /// 1 (default) looks for the nearest place inside the trims, 0 in the whole domain.
-    pub keep_trims: u32,
-    /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
-    pub thread_count: u32,
-}
-
-record!(planish_project_options, 32, {
-    struct_size: 0, guesses: 8, max_distance: 16, keep_trims: 24, thread_count: 28,
-});
-
-impl Default for planish_project_options {
-    fn default() -> Self {
-        Self {
-            struct_size: size_of::<Self>(),
-            guesses: std::ptr::null(),
-            max_distance: f64::INFINITY,
-            keep_trims: 1,
-            thread_count: 0,
-        }
+record! {
+    /// How points are projected. Fill with planish_project_options_init(), then change what you need.
+    pub struct planish_project_options (planish_project_options_init) {
+        /// A row u, v near the answer for each point, or NULL (default). It saves time and may choose between
+        /// equally near places; the answer is the nearest place all the same. Borrowed.
+        /// Array: [points, 2].
+        pub guesses: *const f64,
+        /// Points farther from the surface than this get NaN, and the call returns
+        /// PLANISH_STATUS_POINTS_OUTSIDE. Not negative. Default infinity.
+        pub max_distance: f64 = f64::INFINITY,
+        /// 1 (default) looks for the nearest place inside the trims, 0 in the whole domain.
+        pub keep_trims: u32 = 1,
+        /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+        pub thread_count: u32,
     }
-}
-
-/// Fills options with the defaults.
-///
-/// options: not NULL.
-/// size:    sizeof(planish_project_options).
-/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn planish_project_options_init(
-    options: *mut planish_project_options,
-    size: usize,
-) -> planish_status {
-    // SAFETY: the caller's promise.
-    guard(|| unsafe { init_options(options, size) })
 }
 
 /// Finds the place on a surface nearest to each point, anywhere on the surface: there is no start to choose,
@@ -240,80 +162,51 @@ pub unsafe extern "C" fn planish_surface_project(
     })
 }
 
-/// How a surface is compared with a mesh. Fill with planish_deviation_options_init(), then change what you
-/// need.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct planish_deviation_options {
-    /// Set by planish_deviation_options_init().
-    pub struct_size: usize,
-    /// Chord tolerance of the tessellation that is measured back from, in model units; 0 (default) takes 1e-3
-    /// of the surface's diagonal.
-    pub chord_tolerance: f64,
-    /// Longest edge of that tessellation in model units; 0 (default) takes 1e-2 of the mesh's diagonal.
-    /// Smaller holes may be missed.
-    pub max_edge_length: f64,
-    /// 1 (default): only the part of the surface inside its trims counts.
-    pub keep_trims: u32,
-    /// 1 (default): the mesh's parameters, if it has any, are where searches start. The distances are the
-    /// least ones all the same.
-    pub use_parameters: u32,
-    /// 1: measure from the surface to the mesh as well, which notices filled holes and surplus sheets.
-    /// Default 0.
-    pub measure_back: u32,
-    /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
-    pub thread_count: u32,
-}
-
-record!(planish_deviation_options, 40, {
-    struct_size: 0, chord_tolerance: 8, max_edge_length: 16, keep_trims: 24, use_parameters: 28,
-    measure_back: 32, thread_count: 36,
-});
-
-impl Default for planish_deviation_options {
-    fn default() -> Self {
-        let core = DeviationOptions::default();
-        Self {
-            struct_size: size_of::<Self>(),
-            chord_tolerance: core.chord_tolerance,
-            max_edge_length: core.max_edge_length,
-            keep_trims: u32::from(core.keep_trims),
-            use_parameters: u32::from(core.use_parameters),
-            measure_back: u32::from(core.measure_back),
-            thread_count: 0,
-        }
+record! {
+    /// How a surface is compared with a mesh. Fill with planish_deviation_options_init(), then change what you
+    /// need.
+    pub struct planish_deviation_options (planish_deviation_options_init; core: DeviationOptions) {
+        /// Chord tolerance of the tessellation that is measured back from, in model units; 0 (default) takes 1e-3
+        /// of the surface's diagonal.
+        pub chord_tolerance: f64 = core.chord_tolerance,
+        /// Longest edge of that tessellation in model units; 0 (default) takes 1e-2 of the mesh's diagonal.
+        /// Smaller holes may be missed.
+        pub max_edge_length: f64 = core.max_edge_length,
+        /// 1 (default): only the part of the surface inside its trims counts.
+        pub keep_trims: u32 = u32::from(core.keep_trims),
+        /// 1 (default): the mesh's parameters, if it has any, are where searches start. The distances are the
+        /// least ones all the same.
+        pub use_parameters: u32 = u32::from(core.use_parameters),
+        /// 1: measure from the surface to the mesh as well, which notices filled holes and surplus sheets.
+        /// Default 0.
+        pub measure_back: u32 = u32::from(core.measure_back),
+        /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+        pub thread_count: u32,
     }
 }
 
-/// Distances between a surface and a mesh, in model units. Set struct_size to
-/// sizeof(planish_deviation_report) before the call; filled as far as that goes, on success only.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Default)]
-pub struct planish_deviation_report {
-    /// sizeof(planish_deviation_report) as the caller sees it.
-    pub struct_size: usize,
-    /// Largest distance from a node to its nearest place on the surface.
-    pub max_distance: f64,
-    /// Square root of the mean of its square.
-    pub rms_distance: f64,
-    /// Its mean.
-    pub mean_distance: f64,
-    /// Largest distance from a place on the surface to the mesh; NaN unless measure_back asked for it.
-    pub max_back_distance: f64,
-    /// u of that place; NaN unless asked for.
-    pub worst_back_u: f64,
-    /// v of that place; NaN unless asked for.
-    pub worst_back_v: f64,
-    /// The node farthest from the surface.
-    pub worst_index: usize,
-    /// Places on the surface that were measured back from.
-    pub back_count: usize,
+record! {
+    /// Distances between a surface and a mesh, in model units. Set struct_size to
+    /// sizeof(planish_deviation_report) before the call; filled as far as that goes, on success only.
+    pub struct planish_deviation_report {
+        /// Largest distance from a node to its nearest place on the surface.
+        pub max_distance: f64,
+        /// Square root of the mean of its square.
+        pub rms_distance: f64,
+        /// Its mean.
+        pub mean_distance: f64,
+        /// Largest distance from a place on the surface to the mesh; NaN unless measure_back asked for it.
+        pub max_back_distance: f64,
+        /// u of that place; NaN unless asked for.
+        pub worst_back_u: f64,
+        /// v of that place; NaN unless asked for.
+        pub worst_back_v: f64,
+        /// The node farthest from the surface.
+        pub worst_index: usize,
+        /// Places on the surface that were measured back from.
+        pub back_count: usize,
+    }
 }
-
-record!(planish_deviation_report, 72, {
-    struct_size: 0, max_distance: 8, rms_distance: 16, mean_distance: 24, max_back_distance: 32,
-    worst_back_u: 40, worst_back_v: 48, worst_index: 56, back_count: 64,
-});
 
 impl From<&DeviationReport> for planish_deviation_report {
     fn from(report: &DeviationReport) -> Self {
@@ -329,20 +222,6 @@ impl From<&DeviationReport> for planish_deviation_report {
             back_count: report.back_count,
         }
     }
-}
-
-/// Fills options with the defaults.
-///
-/// options: not NULL.
-/// size:    sizeof(planish_deviation_options).
-/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn planish_deviation_options_init(
-    options: *mut planish_deviation_options,
-    size: usize,
-) -> planish_status {
-    // SAFETY: the caller's promise.
-    guard(|| unsafe { init_options(options, size) })
 }
 
 /// Measures how far the nodes of a mesh lie from a surface in space: closest-point distances.

@@ -77,74 +77,64 @@ impl From<StopReason> for planish_stop_reason {
     }
 }
 
-/// What a fit did and how good it is. Set struct_size to sizeof(planish_fit_report) before the call; the
-/// report is filled as far as that goes, on success only. Errors and lengths are in model units (for a field,
-/// in units of its values) and measured on the finished surface.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Default)]
-pub struct planish_fit_report {
-    /// sizeof(planish_fit_report) as the caller sees it.
-    pub struct_size: usize,
-    /// Largest distance between a datum and the surface at the datum's (u,v): what the tolerance bounds.
-    pub max_error: f64,
-    /// Square root of the mean of its square.
-    pub rms_error: f64,
-    /// Its mean.
-    pub mean_error: f64,
-    /// The tolerance that was kept or missed.
-    pub tolerance: f64,
-    /// Diagonal of the data's bounding box: an error divided by it is relative.
-    pub diagonal: f64,
-    /// Largest distance from a triangle's centroid or an edge's middle to the surface's tangent plane at the
-    /// mean of the nodes' (u,v) (for a field: to its value there); 0 for data without triangles.
-    pub max_interior_error: f64,
-    /// The part of max_interior_error that flat facets on a curved shape explain.
-    pub facet_sagitta: f64,
-    /// Largest closest-point distance from a node to the surface; NaN unless measure_distance asked for it.
-    pub max_distance: f64,
-    /// Weight of the smoothing energy in the surface returned.
-    pub smoothing: f64,
-    /// L2 stretch of the map: 1 is an isometry; 0 for data without triangles.
-    pub stretch: f64,
-    /// Wall time spent on the map, in seconds.
-    pub parameterize_seconds: f64,
-    /// Wall time in all, in seconds.
-    pub seconds: f64,
-    /// The datum with the largest error, counted from 0.
-    pub worst_index: usize,
-    /// Different knots along u.
-    pub grid_u: usize,
-    /// Different knots along v.
-    pub grid_v: usize,
-    /// Unknowns of the fit. The surface may have more control points, which these determine.
-    pub coefficient_count: usize,
-    /// Cells without data inside the trims.
-    pub empty_cell_count: usize,
-    /// Triangles that are turned over or flat in the parameter plane.
-    pub flipped_count: usize,
-    /// Everything worth knowing: bits of planish_remark.
-    pub remarks: u64,
-    /// Rounds of fitting and measuring.
-    pub pass_count: u32,
-    /// Why the fit ended: a planish_stop_reason.
-    pub stop_reason: u32,
-    /// Cells of an adaptive mesh; 0 for a grid.
-    pub cell_count: usize,
-    /// Cells of it in which an error exceeds the tolerance.
-    pub rough_cell_count: usize,
-    /// The deepest level of its cells: how often one of the first was halved.
-    pub deepest_level: u32,
-    /// 0.
-    pub reserved: u32,
+record! {
+    /// What a fit did and how good it is. Set struct_size to sizeof(planish_fit_report) before the call; the
+    /// report is filled as far as that goes, on success only. Errors and lengths are in model units (for a field,
+    /// in units of its values) and measured on the finished surface.
+    pub struct planish_fit_report {
+        /// Largest distance between a datum and the surface at the datum's (u,v): what the tolerance bounds.
+        pub max_error: f64,
+        /// Square root of the mean of its square.
+        pub rms_error: f64,
+        /// Its mean.
+        pub mean_error: f64,
+        /// The tolerance that was kept or missed.
+        pub tolerance: f64,
+        /// Diagonal of the data's bounding box: an error divided by it is relative.
+        pub diagonal: f64,
+        /// Largest distance from a triangle's centroid or an edge's middle to the surface's tangent plane at the
+        /// mean of the nodes' (u,v) (for a field: to its value there); 0 for data without triangles.
+        pub max_interior_error: f64,
+        /// The part of max_interior_error that flat facets on a curved shape explain.
+        pub facet_sagitta: f64,
+        /// Largest closest-point distance from a node to the surface; NaN unless measure_distance asked for it.
+        pub max_distance: f64,
+        /// Weight of the smoothing energy in the surface returned.
+        pub smoothing: f64,
+        /// L2 stretch of the map: 1 is an isometry; 0 for data without triangles.
+        pub stretch: f64,
+        /// Wall time spent on the map, in seconds.
+        pub parameterize_seconds: f64,
+        /// Wall time in all, in seconds.
+        pub seconds: f64,
+        /// The datum with the largest error, counted from 0.
+        pub worst_index: usize,
+        /// Different knots along u.
+        pub grid_u: usize,
+        /// Different knots along v.
+        pub grid_v: usize,
+        /// Unknowns of the fit. The surface may have more control points, which these determine.
+        pub coefficient_count: usize,
+        /// Cells without data inside the trims.
+        pub empty_cell_count: usize,
+        /// Triangles that are turned over or flat in the parameter plane.
+        pub flipped_count: usize,
+        /// Everything worth knowing: bits of planish_remark.
+        pub remarks: u64,
+        /// Rounds of fitting and measuring.
+        pub pass_count: u32,
+        /// Why the fit ended: a planish_stop_reason.
+        pub stop_reason: u32,
+        /// Cells of an adaptive mesh; 0 for a grid.
+        pub cell_count: usize,
+        /// Cells of it in which an error exceeds the tolerance.
+        pub rough_cell_count: usize,
+        /// The deepest level of its cells: how often one of the first was halved.
+        pub deepest_level: u32,
+        /// 0.
+        pub reserved: u32,
+    }
 }
-
-record!(planish_fit_report, 192, {
-    struct_size: 0, max_error: 8, rms_error: 16, mean_error: 24, tolerance: 32, diagonal: 40,
-    max_interior_error: 48, facet_sagitta: 56, max_distance: 64, smoothing: 72, stretch: 80,
-    parameterize_seconds: 88, seconds: 96, worst_index: 104, grid_u: 112, grid_v: 120,
-    coefficient_count: 128, empty_cell_count: 136, flipped_count: 144, remarks: 152, pass_count: 160,
-    stop_reason: 164, cell_count: 168, rough_cell_count: 176, deepest_level: 184, reserved: 188,
-});
 
 impl From<&FitReport> for planish_fit_report {
     fn from(report: &FitReport) -> Self {

@@ -1,8 +1,6 @@
 //! Rows of points on meshes.
 
-use super::arguments::{
-    ArgumentError, array_len, choice, deref, init_options, options, out, rows_mut, slice_mut,
-};
+use super::arguments::{ArgumentError, array_len, choice, deref, options, out, rows_mut, slice_mut};
 use super::guard::guard;
 use super::mesh::planish_mesh;
 use super::planish_status;
@@ -20,44 +18,23 @@ pub enum planish_row_source {
     Node = 1,
 }
 
-/// What rows to take from a mesh. Fill with planish_sample_rows_options_init(), then change what you need.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct planish_sample_rows_options {
-    /// Set by planish_sample_rows_options_init().
-    pub struct_size: usize,
-    /// About how far apart points are along a row, in model units; 0 (default) takes the mean length of edges.
-    pub spacing: f64,
-    /// The loop or node that the first row is nearest to. Default 0.
-    pub begin_index: usize,
-    /// The loop or node that the last row is nearest to. Default 1.
-    pub end_index: usize,
-    /// Hears of the progress and may cancel; NULL (default) for nobody.
-    pub progress: planish_progress,
-    /// Handed to progress as it is.
-    pub user: *mut c_void,
-    /// A planish_row_source: what begin_index counts. Default PLANISH_ROW_SOURCE_LOOP.
-    pub begin: u32,
-    /// A planish_row_source: what end_index counts. Default PLANISH_ROW_SOURCE_LOOP.
-    pub end: u32,
-}
-
-record!(planish_sample_rows_options, 56, {
-    struct_size: 0, spacing: 8, begin_index: 16, end_index: 24, progress: 32, user: 40, begin: 48, end: 52,
-});
-
-impl Default for planish_sample_rows_options {
-    fn default() -> Self {
-        Self {
-            struct_size: size_of::<Self>(),
-            spacing: 0.0,
-            begin_index: 0,
-            end_index: 1,
-            progress: None,
-            user: std::ptr::null_mut(),
-            begin: planish_row_source::Loop as u32,
-            end: planish_row_source::Loop as u32,
-        }
+record! {
+    /// What rows to take from a mesh. Fill with planish_sample_rows_options_init(), then change what you need.
+    pub struct planish_sample_rows_options (planish_sample_rows_options_init) {
+        /// About how far apart points are along a row, in model units; 0 (default) takes the mean length of edges.
+        pub spacing: f64,
+        /// The loop or node that the first row is nearest to. Default 0.
+        pub begin_index: usize,
+        /// The loop or node that the last row is nearest to. Default 1.
+        pub end_index: usize = 1,
+        /// Hears of the progress and may cancel; NULL (default) for nobody.
+        pub progress: planish_progress,
+        /// Handed to progress as it is.
+        pub user: *mut c_void,
+        /// A planish_row_source: what begin_index counts. Default PLANISH_ROW_SOURCE_LOOP.
+        pub begin: u32 = planish_row_source::Loop as u32,
+        /// A planish_row_source: what end_index counts. Default PLANISH_ROW_SOURCE_LOOP.
+        pub end: u32 = planish_row_source::Loop as u32,
     }
 }
 
@@ -65,20 +42,6 @@ impl Default for planish_sample_rows_options {
 fn source(given: u32, index: usize, name: &'static str) -> Result<Source, ArgumentError> {
     let node = u32::try_from(index).unwrap_or(u32::MAX);
     choice(given, &[Source::Loop(index), Source::Node(node)], name)
-}
-
-/// Fills options with the defaults.
-///
-/// options: not NULL.
-/// size:    sizeof(planish_sample_rows_options).
-/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn planish_sample_rows_options_init(
-    options: *mut planish_sample_rows_options,
-    size: usize,
-) -> planish_status {
-    // SAFETY: the caller's promise.
-    guard(|| unsafe { init_options(options, size) })
 }
 
 /// Takes closed rows of points from a mesh: level curves of a harmonic field between two loops or nodes, which all

@@ -1,6 +1,6 @@
 //! STEP files.
 
-use super::arguments::{ArgumentError, ReportOut, choice, deref, init_options, options, text};
+use super::arguments::{ArgumentError, ReportOut, choice, deref, options, text};
 use super::guard::guard;
 use super::planish_status;
 use super::surface::planish_surface;
@@ -43,46 +43,24 @@ pub enum planish_step_form {
     Patches = 2,
 }
 
-/// What was written to a STEP file.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct planish_step_report {
-    /// Set this to sizeof(planish_step_report) before the call.
-    pub struct_size: usize,
-    /// Largest distance between an edge's curve in space and the image of its p-curve, measured on the curves
-    /// written, in model units.
-    pub curve_deviation: f64,
-    /// The uncertainty that the file states, in model units: 1e-7 of the diagonal, or more if the curves need it.
-    pub uncertainty: f64,
-    /// Diagonal of the box around the part of the surface inside the trims.
-    pub diagonal: f64,
-    /// Bounds of all faces, the outer ones included.
-    pub loop_count: usize,
-    /// Edges; one between two faces counts once.
-    pub edge_count: usize,
-    /// Faces.
-    pub face_count: usize,
-    /// Control points of the surfaces of all faces.
-    pub pole_count: usize,
-}
-
-record!(planish_step_report, 64, {
-    struct_size: 0, curve_deviation: 8, uncertainty: 16, diagonal: 24, loop_count: 32, edge_count: 40,
-    face_count: 48, pole_count: 56,
-});
-
-impl Default for planish_step_report {
-    fn default() -> Self {
-        Self {
-            struct_size: size_of::<Self>(),
-            curve_deviation: 0.0,
-            uncertainty: 0.0,
-            diagonal: 0.0,
-            loop_count: 0,
-            edge_count: 0,
-            face_count: 0,
-            pole_count: 0,
-        }
+record! {
+    /// What was written to a STEP file.
+    pub struct planish_step_report {
+        /// Largest distance between an edge's curve in space and the image of its p-curve, measured on the curves
+        /// written, in model units.
+        pub curve_deviation: f64,
+        /// The uncertainty that the file states, in model units: 1e-7 of the diagonal, or more if the curves need it.
+        pub uncertainty: f64,
+        /// Diagonal of the box around the part of the surface inside the trims.
+        pub diagonal: f64,
+        /// Bounds of all faces, the outer ones included.
+        pub loop_count: usize,
+        /// Edges; one between two faces counts once.
+        pub edge_count: usize,
+        /// Faces.
+        pub face_count: usize,
+        /// Control points of the surfaces of all faces.
+        pub pole_count: usize,
     }
 }
 
@@ -101,62 +79,36 @@ impl From<StepReport> for planish_step_report {
     }
 }
 
-/// What a STEP file says beside the shape. Fill with planish_step_options_init(), then change what you need.
-/// Texts are UTF-8, end with a NUL and are borrowed.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct planish_step_options {
-    /// Set by planish_step_options_init().
-    pub struct_size: usize,
-    /// Name of the product; NULL (default) for "surface".
-    pub product: *const c_char,
-    /// Who made it; NULL (default) for nobody.
-    pub author: *const c_char,
-    /// For whom; NULL (default) for nobody.
-    pub organization: *const c_char,
-    /// When, such as "2026-01-31T12:00:00"; NULL (default) for 1970-01-01T00:00:00, so that equal input gives
-    /// equal bytes.
-    pub timestamp: *const c_char,
-    /// Receives what was written, or NULL (default). Set its struct_size before. Filled on success only.
-    pub out_report: *mut planish_step_report,
-    /// A planish_step_schema; PLANISH_STEP_SCHEMA_AP214 (default).
-    pub schema: u32,
-    /// A planish_unit, what one model unit is; PLANISH_UNIT_MILLIMETRE (default).
-    pub unit: u32,
-    /// Most control points of PLANISH_STEP_FORM_TENSOR. Default 4000000.
-    pub max_coefficients: usize,
-    /// A planish_step_form, what is written of a T-spline or PHT-spline; PLANISH_STEP_FORM_TENSOR (default), which
-    /// is also taken where the form is of another family.
-    pub form: u32,
-    /// By how much the levels of cells in one face of PLANISH_STEP_FORM_PATCHES may differ. Default 1; more gives
-    /// fewer faces with more control points.
-    pub level_spread: u32,
-    /// A D1RC-spline is written as a tensor surface fitted within this, in model units, at the nodes of a fine
-    /// tessellation; 0 (default) takes 1e-3 of the diagonal.
-    pub tolerance: f64,
-}
-
-record!(planish_step_options, 80, {
-    struct_size: 0, product: 8, author: 16, organization: 24, timestamp: 32, out_report: 40, schema: 48, unit: 52,
-    max_coefficients: 56, form: 64, level_spread: 68, tolerance: 72,
-});
-
-impl Default for planish_step_options {
-    fn default() -> Self {
-        Self {
-            struct_size: size_of::<Self>(),
-            product: std::ptr::null(),
-            author: std::ptr::null(),
-            organization: std::ptr::null(),
-            timestamp: std::ptr::null(),
-            out_report: std::ptr::null_mut(),
-            schema: planish_step_schema::Ap214 as u32,
-            unit: planish_unit::Millimetre as u32,
-            max_coefficients: StepOptions::default().max_coefficients,
-            form: planish_step_form::Tensor as u32,
-            level_spread: StepOptions::default().level_spread,
-            tolerance: 0.0,
-        }
+record! {
+    /// What a STEP file says beside the shape. Fill with planish_step_options_init(), then change what you need.
+    /// Texts are UTF-8, end with a NUL and are borrowed.
+    pub struct planish_step_options (planish_step_options_init) {
+        /// Name of the product; NULL (default) for "surface".
+        pub product: *const c_char,
+        /// Who made it; NULL (default) for nobody.
+        pub author: *const c_char,
+        /// For whom; NULL (default) for nobody.
+        pub organization: *const c_char,
+        /// When, such as "2026-01-31T12:00:00"; NULL (default) for 1970-01-01T00:00:00, so that equal input gives
+        /// equal bytes.
+        pub timestamp: *const c_char,
+        /// Receives what was written, or NULL (default). Set its struct_size before. Filled on success only.
+        pub out_report: *mut planish_step_report,
+        /// A planish_step_schema; PLANISH_STEP_SCHEMA_AP214 (default).
+        pub schema: u32 = planish_step_schema::Ap214 as u32,
+        /// A planish_unit, what one model unit is; PLANISH_UNIT_MILLIMETRE (default).
+        pub unit: u32 = planish_unit::Millimetre as u32,
+        /// Most control points of PLANISH_STEP_FORM_TENSOR. Default 4000000.
+        pub max_coefficients: usize = StepOptions::default().max_coefficients,
+        /// A planish_step_form, what is written of a T-spline or PHT-spline; PLANISH_STEP_FORM_TENSOR (default), which
+        /// is also taken where the form is of another family.
+        pub form: u32 = planish_step_form::Tensor as u32,
+        /// By how much the levels of cells in one face of PLANISH_STEP_FORM_PATCHES may differ. Default 1; more gives
+        /// fewer faces with more control points.
+        pub level_spread: u32 = StepOptions::default().level_spread,
+        /// A D1RC-spline is written as a tensor surface fitted within this, in model units, at the nodes of a fine
+        /// tessellation; 0 (default) takes 1e-3 of the diagonal.
+        pub tolerance: f64,
     }
 }
 
@@ -183,20 +135,6 @@ impl planish_step_options {
             tolerance: self.tolerance,
         })
     }
-}
-
-/// Fills options with the defaults.
-///
-/// options: not NULL.
-/// size:    sizeof(planish_step_options).
-/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn planish_step_options_init(
-    options: *mut planish_step_options,
-    size: usize,
-) -> planish_status {
-    // SAFETY: the caller's promise.
-    guard(|| unsafe { init_options(options, size) })
 }
 
 /// Writes a surface in space as a STEP file with one face, bounded by the surface's trims or, if it has none, by its

@@ -1,8 +1,8 @@
 //! Surfaces of any family.
 
 use super::arguments::{
-    ArgumentError, array_len, choice, copy_rows, deref, deref_mut, init_options, options, out, rows_mut,
-    slice, slice_mut, slice_mut_or_none, stride, strided_len,
+    ArgumentError, array_len, choice, copy_rows, deref, deref_mut, options, out, rows_mut, slice, slice_mut,
+    slice_mut_or_none, stride, strided_len,
 };
 use super::guard::{Failure, guard};
 use super::planish_status;
@@ -205,41 +205,22 @@ const _: () = {
     assert!(planish_flag::NoNormal as u8 == FLAG_NO_NORMAL);
 };
 
-/// How points are evaluated. Fill with planish_eval_options_init(), then change what you need.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct planish_eval_options {
-    /// Set by planish_eval_options_init().
-    pub struct_size: usize,
-    /// Doubles from one point to the next in `uv`; at least 2, or 0 (default) for 2. Must be 0 for grids.
-    pub uv_stride: usize,
-    /// Doubles from one point's results to the next; at least as many as a point has, or 0 (default) for
-    /// exactly so many. What lies between is left alone.
-    pub out_stride: usize,
-    /// Receives bits of planish_flag, one element for each point; NULL (default) for none.
-    /// Array: [points].
-    pub out_flags: *mut u8,
-    /// A planish_outside. Default PLANISH_OUTSIDE_FAIL.
-    pub outside: u32,
-    /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it, and fewer than
-    /// about a thousand points are evaluated on the calling thread alone.
-    pub thread_count: u32,
-}
-
-record!(planish_eval_options, 40, {
-    struct_size: 0, uv_stride: 8, out_stride: 16, out_flags: 24, outside: 32, thread_count: 36,
-});
-
-impl Default for planish_eval_options {
-    fn default() -> Self {
-        Self {
-            struct_size: size_of::<Self>(),
-            uv_stride: 0,
-            out_stride: 0,
-            out_flags: std::ptr::null_mut(),
-            outside: planish_outside::Fail as u32,
-            thread_count: 0,
-        }
+record! {
+    /// How points are evaluated. Fill with planish_eval_options_init(), then change what you need.
+    pub struct planish_eval_options (planish_eval_options_init) {
+        /// Doubles from one point to the next in `uv`; at least 2, or 0 (default) for 2. Must be 0 for grids.
+        pub uv_stride: usize,
+        /// Doubles from one point's results to the next; at least as many as a point has, or 0 (default) for
+        /// exactly so many. What lies between is left alone.
+        pub out_stride: usize,
+        /// Receives bits of planish_flag, one element for each point; NULL (default) for none.
+        /// Array: [points].
+        pub out_flags: *mut u8,
+        /// A planish_outside. Default PLANISH_OUTSIDE_FAIL.
+        pub outside: u32 = planish_outside::Fail as u32,
+        /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it, and fewer than
+        /// about a thousand points are evaluated on the calling thread alone.
+        pub thread_count: u32,
     }
 }
 
@@ -292,20 +273,6 @@ unsafe fn eval_points(
         let uv = slice(uv, strided_len::<f64>(count, uv_stride, 2, "uv")?, "uv")?;
         eval(surface, quantity, Points::new(uv, uv_stride, count), &options, out, name)
     }
-}
-
-/// Fills options with the defaults.
-///
-/// options:     struct_size writable bytes.
-/// struct_size: sizeof(planish_eval_options).
-/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn planish_eval_options_init(
-    options: *mut planish_eval_options,
-    struct_size: usize,
-) -> planish_status {
-    // SAFETY: the caller's promise.
-    guard(|| unsafe { init_options(options, struct_size) })
 }
 
 /// What `find` reads from a surface; 0 for NULL.

@@ -1,8 +1,8 @@
 //! Tensor product B-spline surfaces: fits, parts in and out.
 
 use super::arguments::{
-    ArgumentError, Record, array_len, choice, copy, copy_rows, deref, deref_mut, flag, init_options, options,
-    out, rows_mut, slice,
+    ArgumentError, Record, array_len, choice, copy, copy_rows, deref, deref_mut, flag, options, out,
+    rows_mut, slice,
 };
 use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;
@@ -81,103 +81,63 @@ pub enum planish_regularize {
     Always = 2,
 }
 
-/// Options of tensor fits. Fill with planish_tensor_options_init(), then change what you need.
-///
-/// A datum is a node of the mesh, or a point.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct planish_tensor_options {
-    /// Set by planish_tensor_options_init().
-    pub struct_size: usize,
-    /// The largest error allowed at the data, positive, measured in tolerance_scale. Default 1e-3.
-    pub tolerance: f64,
-    /// Weight of the bending energy; 0 (default) takes the largest of 1e-3, 1e-4, 1e-5, 1e-6 that meets the
-    /// tolerance (for PLANISH_TENSOR_METHOD_FERGUSON 1e-3).
-    pub smoothing: f64,
-    /// How far the knots reach beyond the data, as a fraction of the data's range, 0 to 10. Default 0.1.
-    pub buffer: f64,
-    /// How a mesh without parameters gets them; NULL (default) for the defaults. Of this record progress, user
-    /// and thread_count are not looked at, and node_weights must be NULL. Not used for points.
-    pub parameterize: *const planish_parameterize_options,
-    /// A positive weight for each datum; NULL (default) for all 1.
-    /// Array: [data].
-    pub weights: *const f64,
-    /// Hears of the progress and may cancel; NULL (default) for nobody.
-    pub progress: planish_progress,
-    /// Handed to progress as it is.
-    pub user: *mut c_void,
-    /// Receives the (u,v) at which the error of each datum is measured: two numbers for each datum, or NULL
-    /// (default). Written on success only.
-    /// Array: [data, 2].
-    pub out_parameters: *mut f64,
-    /// Receives the error of each datum in model units: one number for each datum, or NULL (default). Written
-    /// on success only.
-    /// Array: [data].
-    pub out_errors: *mut f64,
-    /// Most unknowns of one grid, at least 4. Default 66049.
-    pub max_coefficients: usize,
-    /// A planish_tolerance_scale. Default PLANISH_TOLERANCE_SCALE_RELATIVE.
-    pub tolerance_scale: u32,
-    /// A planish_tensor_method. Default PLANISH_TENSOR_METHOD_LEAST_SQUARES.
-    pub method: u32,
-    /// A planish_ends. Default PLANISH_ENDS_NATURAL.
-    pub ends: u32,
-    /// A planish_energy. Default PLANISH_ENERGY_BEAM.
-    pub energy: u32,
-    /// A planish_regularize. Default PLANISH_REGULARIZE_AUTO.
-    pub regularize: u32,
-    /// Most knots along one direction, at least 2. Default 257.
-    pub max_grid: u32,
-    /// Knots along u to use without refinement, 2 to 8193; 0 (default, then grid_v too) refines.
-    pub grid_u: u32,
-    /// Knots along v to use without refinement, 2 to 8193; 0 (default, then grid_u too) refines.
-    pub grid_v: u32,
-    /// Sweeps of parameter correction on each grid: data move to their foot points, then the fit is repeated.
-    /// Default 0.
-    pub correction_sweeps: u32,
-    /// 1 measures the closest-point distance of the nodes for the report. Default 0.
-    pub measure_distance: u32,
-    /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
-    pub thread_count: u32,
-    /// 0.
-    pub reserved: u32,
-}
-
-record!(planish_tensor_options, 136, {
-    struct_size: 0, tolerance: 8, smoothing: 16, buffer: 24, parameterize: 32, weights: 40, progress: 48,
-    user: 56, out_parameters: 64, out_errors: 72, max_coefficients: 80, tolerance_scale: 88, method: 92,
-    ends: 96, energy: 100, regularize: 104, max_grid: 108, grid_u: 112, grid_v: 116, correction_sweeps: 120,
-    measure_distance: 124, thread_count: 128, reserved: 132,
-});
-
-impl Default for planish_tensor_options {
-    fn default() -> Self {
-        let core = TensorOptions::default();
-        Self {
-            struct_size: size_of::<Self>(),
-            tolerance: core.tolerance.value,
-            smoothing: core.smoothing,
-            buffer: core.buffer,
-            parameterize: std::ptr::null(),
-            weights: std::ptr::null(),
-            progress: None,
-            user: std::ptr::null_mut(),
-            out_parameters: std::ptr::null_mut(),
-            out_errors: std::ptr::null_mut(),
-            max_coefficients: core.max_coefficients,
-            tolerance_scale: planish_tolerance_scale::Relative as u32,
-            method: planish_tensor_method::LeastSquares as u32,
-            ends: planish_ends::Natural as u32,
-            energy: planish_energy::Beam as u32,
-            regularize: planish_regularize::Auto as u32,
-            max_grid: core.max_grid as u32,
-            grid_u: 0,
-            grid_v: 0,
-            correction_sweeps: core.correction_sweeps as u32,
-            measure_distance: core.measure_distance.into(),
-            thread_count: 0,
-            reserved: 0,
-        }
+record! {
+    /// Options of tensor fits. Fill with planish_tensor_options_init(), then change what you need.
+    ///
+    /// A datum is a node of the mesh, or a point.
+    pub struct planish_tensor_options (planish_tensor_options_init; core: TensorOptions) {
+        /// The largest error allowed at the data, positive, measured in tolerance_scale. Default 1e-3.
+        pub tolerance: f64 = core.tolerance.value,
+        /// Weight of the bending energy; 0 (default) takes the largest of 1e-3, 1e-4, 1e-5, 1e-6 that meets the
+        /// tolerance (for PLANISH_TENSOR_METHOD_FERGUSON 1e-3).
+        pub smoothing: f64 = core.smoothing,
+        /// How far the knots reach beyond the data, as a fraction of the data's range, 0 to 10. Default 0.1.
+        pub buffer: f64 = core.buffer,
+        /// How a mesh without parameters gets them; NULL (default) for the defaults. Of this record progress, user
+        /// and thread_count are not looked at, and node_weights must be NULL. Not used for points.
+        pub parameterize: *const planish_parameterize_options,
+        /// A positive weight for each datum; NULL (default) for all 1.
+        /// Array: [data].
+        pub weights: *const f64,
+        /// Hears of the progress and may cancel; NULL (default) for nobody.
+        pub progress: planish_progress,
+        /// Handed to progress as it is.
+        pub user: *mut c_void,
+        /// Receives the (u,v) at which the error of each datum is measured: two numbers for each datum, or NULL
+        /// (default). Written on success only.
+        /// Array: [data, 2].
+        pub out_parameters: *mut f64,
+        /// Receives the error of each datum in model units: one number for each datum, or NULL (default). Written
+        /// on success only.
+        /// Array: [data].
+        pub out_errors: *mut f64,
+        /// Most unknowns of one grid, at least 4. Default 66049.
+        pub max_coefficients: usize = core.max_coefficients,
+        /// A planish_tolerance_scale. Default PLANISH_TOLERANCE_SCALE_RELATIVE.
+        pub tolerance_scale: u32 = planish_tolerance_scale::Relative as u32,
+        /// A planish_tensor_method. Default PLANISH_TENSOR_METHOD_LEAST_SQUARES.
+        pub method: u32 = planish_tensor_method::LeastSquares as u32,
+        /// A planish_ends. Default PLANISH_ENDS_NATURAL.
+        pub ends: u32 = planish_ends::Natural as u32,
+        /// A planish_energy. Default PLANISH_ENERGY_BEAM.
+        pub energy: u32 = planish_energy::Beam as u32,
+        /// A planish_regularize. Default PLANISH_REGULARIZE_AUTO.
+        pub regularize: u32 = planish_regularize::Auto as u32,
+        /// Most knots along one direction, at least 2. Default 257.
+        pub max_grid: u32 = core.max_grid as u32,
+        /// Knots along u to use without refinement, 2 to 8193; 0 (default, then grid_v too) refines.
+        pub grid_u: u32,
+        /// Knots along v to use without refinement, 2 to 8193; 0 (default, then grid_u too) refines.
+        pub grid_v: u32,
+        /// Sweeps of parameter correction on each grid: data move to their foot points, then the fit is repeated.
+        /// Default 0.
+        pub correction_sweeps: u32 = core.correction_sweeps as u32,
+        /// 1 measures the closest-point distance of the nodes for the report. Default 0.
+        pub measure_distance: u32 = core.measure_distance.into(),
+        /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+        pub thread_count: u32,
+        /// 0.
+        pub reserved: u32,
     }
 }
 
@@ -248,20 +208,6 @@ unsafe fn fit(
         })??;
         Ok(outputs.store_surface(fit.surface, &fit.parameters, &fit.errors, &fit.report))
     }
-}
-
-/// Fills options with the defaults.
-///
-/// options:     struct_size writable bytes.
-/// struct_size: sizeof(planish_tensor_options).
-/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn planish_tensor_options_init(
-    options: *mut planish_tensor_options,
-    struct_size: usize,
-) -> planish_status {
-    // SAFETY: the caller's promise.
-    guard(|| unsafe { init_options(options, struct_size) })
 }
 
 /// Fits a bicubic surface to the shape of a mesh, within a tolerance if the limits allow it. A mesh without

@@ -1,8 +1,6 @@
 //! Values and forces between meshes whose nodes do not match.
 
-use super::arguments::{
-    ReportOut, array_len, choice, copy_rows, deref, init_options, options, out, rows_mut, slice,
-};
+use super::arguments::{ReportOut, array_len, choice, copy_rows, deref, options, out, rows_mut, slice};
 use super::field::{planish_field_options, tolerance_scale, with_field_options};
 use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;
@@ -35,79 +33,54 @@ pub enum planish_far_rule {
     Keep = 1,
 }
 
-/// How values are carried. Fill with planish_transfer_options_init(), then change what you need.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct planish_transfer_options {
-    /// Set by planish_transfer_options_init().
-    pub struct_size: usize,
-    /// How fields on the source are fitted: the grid (given, found for a sample field, or chosen from the number of
-    /// nodes, about four of them a coefficient), mask, weights; also threads and progress of the transfer. NULL
-    /// (default) for the defaults. Borrowed for the call.
-    pub field: *const planish_field_options,
-    /// How far from the source's surface a target may lie, measured in distance_scale, not negative; infinity for
-    /// anywhere. Default 0.05.
-    pub max_distance: f64,
-    /// A planish_tolerance_scale: of the diagonal of the source's points, or model units. Default
-    /// PLANISH_TOLERANCE_SCALE_RELATIVE.
-    pub distance_scale: u32,
-    /// A planish_far_rule. Default PLANISH_FAR_RULE_REFUSE.
-    pub far_rule: u32,
-}
-
-record!(planish_transfer_options, 32, {
-    struct_size: 0, field: 8, max_distance: 16, distance_scale: 24, far_rule: 28,
-});
-
-impl Default for planish_transfer_options {
-    fn default() -> Self {
-        Self {
-            struct_size: size_of::<Self>(),
-            field: std::ptr::null(),
-            max_distance: TransferOptions::default().max_distance,
-            distance_scale: planish_tolerance_scale::Relative as u32,
-            far_rule: planish_far_rule::Refuse as u32,
-        }
+record! {
+    /// How values are carried. Fill with planish_transfer_options_init(), then change what you need.
+    pub struct planish_transfer_options (planish_transfer_options_init) {
+        /// How fields on the source are fitted: the grid (given, found for a sample field, or chosen from the number of
+        /// nodes, about four of them a coefficient), mask, weights; also threads and progress of the transfer. NULL
+        /// (default) for the defaults. Borrowed for the call.
+        pub field: *const planish_field_options,
+        /// How far from the source's surface a target may lie, measured in distance_scale, not negative; infinity for
+        /// anywhere. Default 0.05.
+        pub max_distance: f64 = TransferOptions::default().max_distance,
+        /// A planish_tolerance_scale: of the diagonal of the source's points, or model units. Default
+        /// PLANISH_TOLERANCE_SCALE_RELATIVE.
+        pub distance_scale: u32 = planish_tolerance_scale::Relative as u32,
+        /// A planish_far_rule. Default PLANISH_FAR_RULE_REFUSE.
+        pub far_rule: u32 = planish_far_rule::Refuse as u32,
     }
 }
 
-/// How well source and targets lie on one another. Set struct_size to sizeof(planish_transfer_report) before the
-/// call; the report is filled as far as that goes, on success only. Lengths are in model units.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Default)]
-pub struct planish_transfer_report {
-    /// sizeof(planish_transfer_report) as the caller sees it.
-    pub struct_size: usize,
-    /// The largest distance of a target to the source's surface.
-    pub max_distance: f64,
-    /// Square root of the mean of its square.
-    pub rms_distance: f64,
-    /// The distance that was allowed.
-    pub limit: f64,
-    /// The largest distance between a node of the source and its surface at the node's (u,v).
-    pub max_shape_error: f64,
-    /// Square root of the mean of its square.
-    pub rms_shape_error: f64,
-    /// Wall time in all, in seconds.
-    pub seconds: f64,
-    /// The target with the largest distance, counted from 0.
-    pub farthest_index: usize,
-    /// Targets beyond the limit.
-    pub far_count: usize,
-    /// Knots of the grid along u.
-    pub grid_u: usize,
-    /// Knots of the grid along v.
-    pub grid_v: usize,
-    /// Unknowns of a fit on the grid.
-    pub coefficient_count: usize,
-    /// Everything worth knowing of the source's surface: bits of planish_remark.
-    pub remarks: u64,
+record! {
+    /// How well source and targets lie on one another. Set struct_size to sizeof(planish_transfer_report) before the
+    /// call; the report is filled as far as that goes, on success only. Lengths are in model units.
+    pub struct planish_transfer_report {
+        /// The largest distance of a target to the source's surface.
+        pub max_distance: f64,
+        /// Square root of the mean of its square.
+        pub rms_distance: f64,
+        /// The distance that was allowed.
+        pub limit: f64,
+        /// The largest distance between a node of the source and its surface at the node's (u,v).
+        pub max_shape_error: f64,
+        /// Square root of the mean of its square.
+        pub rms_shape_error: f64,
+        /// Wall time in all, in seconds.
+        pub seconds: f64,
+        /// The target with the largest distance, counted from 0.
+        pub farthest_index: usize,
+        /// Targets beyond the limit.
+        pub far_count: usize,
+        /// Knots of the grid along u.
+        pub grid_u: usize,
+        /// Knots of the grid along v.
+        pub grid_v: usize,
+        /// Unknowns of a fit on the grid.
+        pub coefficient_count: usize,
+        /// Everything worth knowing of the source's surface: bits of planish_remark.
+        pub remarks: u64,
+    }
 }
-
-record!(planish_transfer_report, 104, {
-    struct_size: 0, max_distance: 8, rms_distance: 16, limit: 24, max_shape_error: 32, rms_shape_error: 40,
-    seconds: 48, farthest_index: 56, far_count: 64, grid_u: 72, grid_v: 80, coefficient_count: 88, remarks: 96,
-});
 
 impl From<&TransferReport> for planish_transfer_report {
     fn from(report: &TransferReport) -> Self {
@@ -129,40 +102,33 @@ impl From<&TransferReport> for planish_transfer_report {
     }
 }
 
-/// What a transfer keeps of forces, moments and work. Set struct_size to sizeof(planish_balance_report) before the
-/// call; the report is filled as far as that goes, on success only.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Default)]
-pub struct planish_balance_report {
-    /// sizeof(planish_balance_report) as the caller sees it.
-    pub struct_size: usize,
-    /// Sum of the forces on the targets.
-    pub force_given: [f64; 3],
-    /// Sum of the forces that arrive at the nodes of the source.
-    pub force_arrived: [f64; 3],
-    /// Length of the difference, as a fraction of the sum of the lengths of the forces given: roundoff.
-    pub force_error: f64,
-    /// Moment of the forces on the targets.
-    pub moment_given: [f64; 3],
-    /// Moment of the forces that arrive.
-    pub moment_arrived: [f64; 3],
-    /// Length of the difference.
-    pub moment_error: f64,
-    /// What moment_error cannot exceed but by roundoff: the sum over the targets of the force's length times the
-    /// distance to the source's surface.
-    pub moment_bound: f64,
-    /// Work of the forces given along the displacements that arrive at the targets.
-    pub work_given: f64,
-    /// Work of the forces that arrive along the displacements given.
-    pub work_arrived: f64,
-    /// The difference, as a fraction of the sum of the targets' works without their signs: roundoff.
-    pub work_error: f64,
+record! {
+    /// What a transfer keeps of forces, moments and work. Set struct_size to sizeof(planish_balance_report) before the
+    /// call; the report is filled as far as that goes, on success only.
+    pub struct planish_balance_report {
+        /// Sum of the forces on the targets.
+        pub force_given: [f64; 3],
+        /// Sum of the forces that arrive at the nodes of the source.
+        pub force_arrived: [f64; 3],
+        /// Length of the difference, as a fraction of the sum of the lengths of the forces given: roundoff.
+        pub force_error: f64,
+        /// Moment of the forces on the targets.
+        pub moment_given: [f64; 3],
+        /// Moment of the forces that arrive.
+        pub moment_arrived: [f64; 3],
+        /// Length of the difference.
+        pub moment_error: f64,
+        /// What moment_error cannot exceed but by roundoff: the sum over the targets of the force's length times the
+        /// distance to the source's surface.
+        pub moment_bound: f64,
+        /// Work of the forces given along the displacements that arrive at the targets.
+        pub work_given: f64,
+        /// Work of the forces that arrive along the displacements given.
+        pub work_arrived: f64,
+        /// The difference, as a fraction of the sum of the targets' works without their signs: roundoff.
+        pub work_error: f64,
+    }
 }
-
-record!(planish_balance_report, 152, {
-    struct_size: 0, force_given: 8, force_arrived: 32, force_error: 56, moment_given: 64, moment_arrived: 88,
-    moment_error: 112, moment_bound: 120, work_given: 128, work_arrived: 136, work_error: 144,
-});
 
 impl From<&Balance> for planish_balance_report {
     fn from(balance: &Balance) -> Self {
@@ -180,20 +146,6 @@ impl From<&Balance> for planish_balance_report {
             work_error: balance.work_error,
         }
     }
-}
-
-/// Fills options with the defaults.
-///
-/// options: not NULL.
-/// size:    sizeof(planish_transfer_options).
-/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn planish_transfer_options_init(
-    options: *mut planish_transfer_options,
-    size: usize,
-) -> planish_status {
-    // SAFETY: the caller's promise.
-    guard(|| unsafe { init_options(options, size) })
 }
 
 /// Makes a transfer from the nodes of a mesh to points near it. The points of the mesh are fitted by a surface over its

@@ -1,8 +1,7 @@
 //! T-splines with control curves: skins of rows, parts in and out, knots in and out.
 
 use super::arguments::{
-    ArgumentError, ReportOut, array_len, choice, copy, deref, deref_mut, flag, init_options, options, out,
-    rows_mut, slice,
+    ArgumentError, ReportOut, array_len, choice, copy, deref, deref_mut, flag, options, out, rows_mut, slice,
 };
 use super::curve::planish_curve;
 use super::guard::{Failure, guard};
@@ -56,47 +55,39 @@ pub enum planish_v_rule {
     Mean = 1,
 }
 
-/// What a skin did beside what every fit reports. Lengths are in model units.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Default)]
-pub struct planish_skin_report {
-    /// Set this to sizeof(planish_skin_report) before the call.
-    pub struct_size: usize,
-    /// By how much control curves may be larger than the rows, 1 at least. Equal steps give 3 at most; rows much
-    /// nearer to one another than to the next make it large.
-    pub overshoot: f64,
-    /// A bound of the distance between the surface and the skin through the section curves at any (u,v); NaN unless
-    /// certify asked for it, or if a section is no cubic.
-    pub certified_distance: f64,
-    /// The part of the error that fewer knots along v leave; 0 with a knot for each row.
-    pub v_error: f64,
-    /// The first row that looks reversed or shifted against the one before it, counted from 0; -1 if there is none.
-    pub twisted_row: i64,
-    /// Control curves of the surface.
-    pub curve_count: usize,
-    /// Control points of the shortest control curve.
-    pub least_count: usize,
-    /// Control points of the longest control curve.
-    pub largest_count: usize,
-    /// Control points of the same surface as a tensor surface: what planish_surface_to_tensor() makes.
-    pub tensor_count: usize,
-    /// Control points of the same surface in strips: what PLANISH_STEP_FORM_STRIPS writes.
-    pub strip_count: usize,
-    /// Control points of the skin over common knots; 0 unless compare asked for it.
-    pub common_count: usize,
-    /// Knots that the removal pass took out.
-    pub removed_knot_count: usize,
-    /// Points that lay on the one before them.
-    pub merged_point_count: usize,
-    /// Rows that were turned round or given another first point.
-    pub aligned_row_count: usize,
+record! {
+    /// What a skin did beside what every fit reports. Lengths are in model units.
+    pub struct planish_skin_report {
+        /// By how much control curves may be larger than the rows, 1 at least. Equal steps give 3 at most; rows much
+        /// nearer to one another than to the next make it large.
+        pub overshoot: f64,
+        /// A bound of the distance between the surface and the skin through the section curves at any (u,v); NaN unless
+        /// certify asked for it, or if a section is no cubic.
+        pub certified_distance: f64,
+        /// The part of the error that fewer knots along v leave; 0 with a knot for each row.
+        pub v_error: f64,
+        /// The first row that looks reversed or shifted against the one before it, counted from 0; -1 if there is none.
+        pub twisted_row: i64,
+        /// Control curves of the surface.
+        pub curve_count: usize,
+        /// Control points of the shortest control curve.
+        pub least_count: usize,
+        /// Control points of the longest control curve.
+        pub largest_count: usize,
+        /// Control points of the same surface as a tensor surface: what planish_surface_to_tensor() makes.
+        pub tensor_count: usize,
+        /// Control points of the same surface in strips: what PLANISH_STEP_FORM_STRIPS writes.
+        pub strip_count: usize,
+        /// Control points of the skin over common knots; 0 unless compare asked for it.
+        pub common_count: usize,
+        /// Knots that the removal pass took out.
+        pub removed_knot_count: usize,
+        /// Points that lay on the one before them.
+        pub merged_point_count: usize,
+        /// Rows that were turned round or given another first point.
+        pub aligned_row_count: usize,
+    }
 }
-
-record!(planish_skin_report, 112, {
-    struct_size: 0, overshoot: 8, certified_distance: 16, v_error: 24, twisted_row: 32, curve_count: 40,
-    least_count: 48, largest_count: 56, tensor_count: 64, strip_count: 72, common_count: 80,
-    removed_knot_count: 88, merged_point_count: 96, aligned_row_count: 104,
-});
 
 impl From<&SkinReport> for planish_skin_report {
     fn from(report: &SkinReport) -> Self {
@@ -119,110 +110,68 @@ impl From<&SkinReport> for planish_skin_report {
     }
 }
 
-/// Options of skins. Fill with planish_skin_options_init(), then change what you need.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct planish_skin_options {
-    /// Set by planish_skin_options_init().
-    pub struct_size: usize,
-    /// The largest error allowed at the points, positive, measured in tolerance_scale. Default 1e-3.
-    pub tolerance: f64,
-    /// For each row two vectors of dim numbers, the slopes at its begin and its end, derivatives with respect to
-    /// chord length (a unit tangent keeps the pace); NULL (default) unless ends is PLANISH_SECTION_ENDS_SLOPES. Not
-    /// used for curves.
-    /// Array: [rows, 2, dim].
-    pub end_slopes: *const f64,
-    /// For each point of the first row, or each different knot of the first curve, a vector of dim numbers: the
-    /// derivative across it with respect to length along v; NULL (default) for no curvature there.
-    /// Array: [*, dim].
-    pub begin_tangents: *const f64,
-    /// The same at the last row.
-    /// Array: [*, dim].
-    pub end_tangents: *const f64,
-    /// Hears of the progress and may cancel; NULL (default) for nobody.
-    pub progress: planish_progress,
-    /// Handed to progress as it is.
-    pub user: *mut c_void,
-    /// Receives the (u,v) at which the error of each point is measured: two numbers for each point, or NULL
-    /// (default; for curves it must be). Written on success only.
-    /// Array: [data, 2].
-    pub out_parameters: *mut f64,
-    /// Receives the error of each point in model units, or NULL (default; for curves it must be). Written on success
-    /// only.
-    /// Array: [data].
-    pub out_errors: *mut f64,
-    /// Receives what only skins report, or NULL (default). Set its struct_size before. Filled on success only.
-    pub out_report: *mut planish_skin_report,
-    /// Numbers of a point, at least 1. Default 3. Not used for curves.
-    pub dim: usize,
-    /// A planish_tolerance_scale. Default PLANISH_TOLERANCE_SCALE_RELATIVE.
-    pub tolerance_scale: u32,
-    /// A planish_skin_method. Default PLANISH_SKIN_METHOD_CONTROL_CURVES.
-    pub method: u32,
-    /// 1 if rows are closed: their first point is not repeated. Default 0.
-    pub closed: u32,
-    /// A planish_section_ends. Default PLANISH_SECTION_ENDS_AUTO. Not used for curves.
-    pub ends: u32,
-    /// 1 if the last row is followed by the first one; needs three rows, and no tangents. Default 0.
-    pub closed_v: u32,
-    /// A planish_v_rule. Default PLANISH_V_RULE_ENDPOINTS.
-    pub v_rule: u32,
-    /// 1 turns rows round, and moves the first point of closed ones, where that brings them nearer to the row
-    /// before. Default 0. Not used for curves.
-    pub align: u32,
-    /// 1 looks for fewer knots along v than rows. Default 0.
-    pub approximate_v: u32,
-    /// Places between two data at which a control curve is checked too, at most 100; 0 as in the paper. Default 3.
-    pub extra_checks: u32,
-    /// 1 inserts a knot into every span that needs one in each pass: faster, some more control points. Default 0.
-    pub batch: u32,
-    /// 1 takes knots out again that turn out not to be needed. Default 0.
-    pub removal: u32,
-    /// 1 bounds the distance from the skin through the section curves. Default 0.
-    pub certify: u32,
-    /// 1 counts the control points of PLANISH_SKIN_METHOD_COMMON_KNOTS for the report. Default 0.
-    pub compare: u32,
-    /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
-    pub thread_count: u32,
-}
-
-record!(planish_skin_options, 144, {
-    struct_size: 0, tolerance: 8, end_slopes: 16, begin_tangents: 24, end_tangents: 32, progress: 40, user: 48,
-    out_parameters: 56, out_errors: 64, out_report: 72, dim: 80, tolerance_scale: 88, method: 92, closed: 96,
-    ends: 100, closed_v: 104, v_rule: 108, align: 112, approximate_v: 116, extra_checks: 120, batch: 124,
-    removal: 128, certify: 132, compare: 136, thread_count: 140,
-});
-
-impl Default for planish_skin_options {
-    fn default() -> Self {
-        let core = SkinOptions::default();
-        Self {
-            struct_size: size_of::<Self>(),
-            tolerance: core.tolerance.value,
-            end_slopes: std::ptr::null(),
-            begin_tangents: std::ptr::null(),
-            end_tangents: std::ptr::null(),
-            progress: None,
-            user: std::ptr::null_mut(),
-            out_parameters: std::ptr::null_mut(),
-            out_errors: std::ptr::null_mut(),
-            out_report: std::ptr::null_mut(),
-            dim: 3,
-            tolerance_scale: 0,
-            method: planish_skin_method::ControlCurves as u32,
-            closed: core.closed.into(),
-            ends: planish_section_ends::Auto as u32,
-            closed_v: core.closed_v.into(),
-            v_rule: planish_v_rule::Endpoints as u32,
-            align: core.align.into(),
-            approximate_v: core.approximate_v.into(),
-            extra_checks: core.extra_checks as u32,
-            batch: core.batch.into(),
-            removal: core.removal.into(),
-            certify: core.certify.into(),
-            compare: core.compare.into(),
-            thread_count: 0,
-        }
+record! {
+    /// Options of skins. Fill with planish_skin_options_init(), then change what you need.
+    pub struct planish_skin_options (planish_skin_options_init; core: SkinOptions) {
+        /// The largest error allowed at the points, positive, measured in tolerance_scale. Default 1e-3.
+        pub tolerance: f64 = core.tolerance.value,
+        /// For each row two vectors of dim numbers, the slopes at its begin and its end, derivatives with respect to
+        /// chord length (a unit tangent keeps the pace); NULL (default) unless ends is PLANISH_SECTION_ENDS_SLOPES. Not
+        /// used for curves.
+        /// Array: [rows, 2, dim].
+        pub end_slopes: *const f64,
+        /// For each point of the first row, or each different knot of the first curve, a vector of dim numbers: the
+        /// derivative across it with respect to length along v; NULL (default) for no curvature there.
+        /// Array: [*, dim].
+        pub begin_tangents: *const f64,
+        /// The same at the last row.
+        /// Array: [*, dim].
+        pub end_tangents: *const f64,
+        /// Hears of the progress and may cancel; NULL (default) for nobody.
+        pub progress: planish_progress,
+        /// Handed to progress as it is.
+        pub user: *mut c_void,
+        /// Receives the (u,v) at which the error of each point is measured: two numbers for each point, or NULL
+        /// (default; for curves it must be). Written on success only.
+        /// Array: [data, 2].
+        pub out_parameters: *mut f64,
+        /// Receives the error of each point in model units, or NULL (default; for curves it must be). Written on success
+        /// only.
+        /// Array: [data].
+        pub out_errors: *mut f64,
+        /// Receives what only skins report, or NULL (default). Set its struct_size before. Filled on success only.
+        pub out_report: *mut planish_skin_report,
+        /// Numbers of a point, at least 1. Default 3. Not used for curves.
+        pub dim: usize = 3,
+        /// A planish_tolerance_scale. Default PLANISH_TOLERANCE_SCALE_RELATIVE.
+        pub tolerance_scale: u32,
+        /// A planish_skin_method. Default PLANISH_SKIN_METHOD_CONTROL_CURVES.
+        pub method: u32 = planish_skin_method::ControlCurves as u32,
+        /// 1 if rows are closed: their first point is not repeated. Default 0.
+        pub closed: u32 = core.closed.into(),
+        /// A planish_section_ends. Default PLANISH_SECTION_ENDS_AUTO. Not used for curves.
+        pub ends: u32 = planish_section_ends::Auto as u32,
+        /// 1 if the last row is followed by the first one; needs three rows, and no tangents. Default 0.
+        pub closed_v: u32 = core.closed_v.into(),
+        /// A planish_v_rule. Default PLANISH_V_RULE_ENDPOINTS.
+        pub v_rule: u32 = planish_v_rule::Endpoints as u32,
+        /// 1 turns rows round, and moves the first point of closed ones, where that brings them nearer to the row
+        /// before. Default 0. Not used for curves.
+        pub align: u32 = core.align.into(),
+        /// 1 looks for fewer knots along v than rows. Default 0.
+        pub approximate_v: u32 = core.approximate_v.into(),
+        /// Places between two data at which a control curve is checked too, at most 100; 0 as in the paper. Default 3.
+        pub extra_checks: u32 = core.extra_checks as u32,
+        /// 1 inserts a knot into every span that needs one in each pass: faster, some more control points. Default 0.
+        pub batch: u32 = core.batch.into(),
+        /// 1 takes knots out again that turn out not to be needed. Default 0.
+        pub removal: u32 = core.removal.into(),
+        /// 1 bounds the distance from the skin through the section curves. Default 0.
+        pub certify: u32 = core.certify.into(),
+        /// 1 counts the control points of PLANISH_SKIN_METHOD_COMMON_KNOTS for the report. Default 0.
+        pub compare: u32 = core.compare.into(),
+        /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+        pub thread_count: u32,
     }
 }
 
@@ -304,20 +253,6 @@ unsafe fn run(
         skin_report.store((&fit.skin).into());
         Ok(outputs.store_skin(fit))
     }
-}
-
-/// Fills options with the defaults.
-///
-/// options: not NULL.
-/// size:    sizeof(planish_skin_options).
-/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (the size).
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn planish_skin_options_init(
-    options: *mut planish_skin_options,
-    size: usize,
-) -> planish_status {
-    // SAFETY: the caller's promise.
-    guard(|| unsafe { init_options(options, size) })
 }
 
 /// Skins rows of points: a surface over the unit square on which row after row lies within the tolerance, u along

@@ -117,7 +117,7 @@ fn ok(status: planish_status) {
 
 /// Options with their defaults, or an empty report.
 fn record<T: Record>() -> T {
-    T::defaults()
+    T::default()
 }
 
 fn c(text: &str) -> CString {

@@ -1,6 +1,8 @@
 //! Records that are shorter, longer or wrong.
 
 use super::*;
+use serde_json::Value;
+use std::collections::BTreeMap;
 
 /// A caller's record with room for more fields.
 #[repr(C)]
@@ -65,57 +67,86 @@ fn every_init_refuses_null() {
     }
 }
 
+/// The bytes of each record's defaults, by its name.
+fn defaults() -> BTreeMap<&'static str, Vec<u8>> {
+    fn bytes<T: Record>() -> (&'static str, Vec<u8>) {
+        let record = T::default();
+        // SAFETY: a record has no padding.
+        let bytes = unsafe { std::slice::from_raw_parts((&raw const record).cast::<u8>(), size_of::<T>()) };
+        (T::NAME, bytes.to_vec())
+    }
+    BTreeMap::from([
+        bytes::<planish_decimate_options>(),
+        bytes::<planish_interpolate_options>(),
+        bytes::<planish_d1rc_options>(),
+        bytes::<planish_decimate_options>(),
+        bytes::<planish_vtk_options>(),
+        bytes::<planish_field_options>(),
+        bytes::<planish_mesh_options>(),
+        bytes::<planish_parameterize_options>(),
+        bytes::<planish_convert_options>(),
+        bytes::<planish_pht_options>(),
+        bytes::<planish_pht_convert_options>(),
+        bytes::<planish_tessellate_options>(),
+        bytes::<planish_project_options>(),
+        bytes::<planish_deviation_options>(),
+        bytes::<planish_sample_rows_options>(),
+        bytes::<planish_step_options>(),
+        bytes::<planish_eval_options>(),
+        bytes::<planish_tensor_options>(),
+        bytes::<planish_transfer_options>(),
+        bytes::<planish_skin_options>(),
+    ])
+}
+
+/// The bits that a default of `planish.api.json` stands for in a field of some type.
+fn bits(api: &Value, default: &str, of: &str) -> u64 {
+    let named = |name: &str| {
+        let enumerators = api["enumerations"].as_array().into_iter().flatten();
+        let enumerators = enumerators.flat_map(|enumeration| enumeration["enumerators"].as_array()).flatten();
+        let all = enumerators.chain(api["constants"].as_array().into_iter().flatten());
+        all.into_iter().find(|each| each["name"] == name).and_then(|each| each["value"].as_u64())
+    };
+    let number = |text: &str| match text {
+        "infinity" => f64::INFINITY,
+        "pi" => std::f64::consts::PI,
+        _ => text.parse().unwrap_or_else(|_| panic!("{text} is no number")),
+    };
+    match default {
+        "NULL" => 0,
+        _ if default.starts_with("PLANISH_") => {
+            named(default).unwrap_or_else(|| panic!("{default} is unknown"))
+        }
+        _ if of == "double" => default.split(" / ").map(number).reduce(|a, b| a / b).unwrap().to_bits(),
+        _ => default.parse().unwrap_or_else(|_| panic!("{default} is no default of {of}")),
+    }
+}
+
 #[test]
-fn defaults_are_those_of_the_header() {
-    let mut mesh: planish_mesh_options = canary();
-    let mut map: planish_parameterize_options = canary();
-    let mut tensor: planish_tensor_options = canary();
-    let mut skin: planish_skin_options = canary();
-    // SAFETY: each of its size.
-    unsafe {
-        ok(planish_mesh_options_init(&mut mesh, size_of_val(&mesh)));
-        ok(planish_parameterize_options_init(&mut map, size_of_val(&map)));
-        ok(planish_tensor_options_init(&mut tensor, size_of_val(&tensor)));
-        ok(planish_skin_options_init(&mut skin, size_of_val(&skin)));
+fn defaults_are_those_that_the_header_tells() {
+    let api: Value = serde_json::from_str(include_str!("../../../bindings/planish.api.json")).unwrap();
+    let mut defaults = defaults();
+    for record in api["records"].as_array().unwrap() {
+        let name = record["name"].as_str().unwrap();
+        if !name.ends_with("_options") {
+            continue;
+        }
+        let bytes = defaults.remove(name).unwrap_or_else(|| panic!("{name} is missing in this test"));
+        assert_eq!(record["size"], bytes.len(), "{name}");
+        let fields = record["fields"].as_array().unwrap();
+        let ends =
+            fields[1..].iter().map(|field| field["offset"].as_u64().unwrap() as usize).chain([bytes.len()]);
+        for (field, end) in fields.iter().zip(ends).skip(1) {
+            let offset = field["offset"].as_u64().unwrap() as usize;
+            let told = bits(&api, field["default"].as_str().unwrap_or("0"), field["type"].as_str().unwrap());
+            let mut found = [0; 8];
+            // an array of numbers has zeros only
+            let width = (end - offset).min(8);
+            found[..width].copy_from_slice(&bytes[offset..offset + width]);
+            assert_eq!(u64::from_le_bytes(found), told, "{name}.{}", field["name"]);
+        }
     }
-    assert_eq!((skin.tolerance, skin.dim, skin.tolerance_scale, skin.method), (1e-3, 3, 0, 0));
-    assert_eq!((skin.closed, skin.ends, skin.closed_v, skin.v_rule, skin.align), (0, 0, 0, 0, 0));
-    assert_eq!((skin.approximate_v, skin.extra_checks, skin.batch, skin.removal), (0, 3, 0, 0));
-    assert_eq!((skin.certify, skin.compare, skin.thread_count), (0, 0, 0));
-    assert!(skin.end_slopes.is_null() && skin.begin_tangents.is_null() && skin.end_tangents.is_null());
-    assert!(skin.out_parameters.is_null() && skin.out_errors.is_null() && skin.out_report.is_null());
-    assert!(skin.progress.is_none() && skin.user.is_null());
-    assert_eq!((mesh.point_stride, mesh.triangle_stride, mesh.weld_distance), (0, 0, 0.0));
-    assert_eq!((mesh.orient, mesh.index_base), (0, 0));
-    assert!(mesh.out_repairs.is_null() && mesh.out_node_map.is_null());
-    assert_eq!((map.bulge, map.boundary_slide, map.method, map.border), (0.02, 0.0, 0, 0));
-    assert_eq!((map.stretch_steps, map.rings, map.fill_holes, map.unroll), (PLANISH_UNLIMITED, 0, 1, 1));
-    assert_eq!((map.thread_count, map.reserved), (0, 0));
-    assert!(map.node_weights.is_null() && map.progress.is_none() && map.user.is_null());
-    assert_eq!((tensor.tolerance, tensor.smoothing, tensor.buffer), (1e-3, 0.0, 0.1));
-    assert_eq!((tensor.max_coefficients, tensor.max_grid), (66049, 257));
-    assert_eq!((tensor.tolerance_scale, tensor.method, tensor.ends, tensor.energy), (0, 0, 0, 0));
-    assert_eq!((tensor.regularize, tensor.grid_u, tensor.grid_v, tensor.correction_sweeps), (0, 0, 0, 0));
-    assert_eq!((tensor.measure_distance, tensor.thread_count, tensor.reserved), (0, 0, 0));
-    assert!(tensor.parameterize.is_null() && tensor.weights.is_null() && tensor.progress.is_none());
-    let (mut pht, mut convert): (planish_pht_options, planish_pht_convert_options) = (canary(), canary());
-    // SAFETY: each of its size.
-    unsafe {
-        ok(planish_pht_options_init(&mut pht, size_of_val(&pht)));
-        ok(planish_pht_convert_options_init(&mut convert, size_of_val(&convert)));
-    }
-    assert_eq!((pht.tolerance, pht.smoothing, pht.max_cells, pht.max_level), (1e-3, 1e-3, 200_000, 12));
-    assert_eq!((pht.tolerance_scale, pht.estimator, pht.regularize, pht.min_samples), (0, 0, 0, 2));
-    assert_eq!((pht.grid_u, pht.grid_v, pht.grade, pht.correction_sweeps), (1, 1, 1, 1));
-    assert_eq!((pht.measure_distance, pht.thread_count, pht.reserved), (0, 0, 0));
-    assert!(pht.parameterize.is_null() && pht.weights.is_null() && pht.progress.is_none());
-    assert_eq!((convert.tolerance, convert.max_cells, convert.max_level), (0.0, 200_000, 12));
-    assert!(tensor.out_parameters.is_null() && tensor.out_errors.is_null() && tensor.user.is_null());
-    let mut transfer: planish_transfer_options = canary();
-    // SAFETY: of its size.
-    ok(unsafe { planish_transfer_options_init(&mut transfer, size_of_val(&transfer)) });
-    assert_eq!((transfer.max_distance, transfer.distance_scale, transfer.far_rule), (0.05, 0, 0));
-    assert!(transfer.field.is_null());
+    assert!(defaults.is_empty(), "{:?}", defaults.keys());
 }
 
 #[test]

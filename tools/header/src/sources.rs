@@ -40,7 +40,7 @@ pub struct Source {
     pub file: syn::File,
 }
 
-/// `record! { pub struct planish_x_options (init planish_x_options_init) { pub field: type = default, } }`
+/// `record! { pub struct planish_x_options (planish_x_options_init; core: XOptions) { pub field: type = default, } }`
 struct Record {
     attributes: Vec<Attribute>,
     visibility: Visibility,
@@ -66,8 +66,8 @@ impl Parse for Record {
         if input.peek(syn::token::Paren) {
             let inner;
             syn::parenthesized!(inner in input);
-            inner.parse::<Ident>()?;
             init = Some(inner.parse()?);
+            inner.parse::<proc_macro2::TokenStream>()?; // where defaults come from is Rust's business
         }
         let inner;
         syn::braced!(inner in input);
