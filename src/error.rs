@@ -10,6 +10,7 @@ use crate::export::ExportError;
 use crate::export::native::LoadError;
 use crate::export::step::StepError;
 use crate::fit::common::FitError;
+use crate::fit::conversion::ConversionError;
 use crate::fit::d1rc::D1rcFitError;
 use crate::fit::field::transfer::TransferError;
 use crate::fit::skin::SkinError;
@@ -17,6 +18,7 @@ use crate::knots::KnotError;
 use crate::layout::LayoutError;
 use crate::layout::of_mesh::MeshLayoutError;
 use crate::mesh::{CutError, DecimateError, MeshError, ReadError};
+use crate::model::ModelError;
 use crate::parameterize::ParameterizeError;
 use crate::parameterize::sphere::SphereError;
 use crate::query::deviation::DeviationError;
@@ -142,7 +144,13 @@ pub enum Error {
     /// A file cannot be written.
     #[error(transparent)]
     Export(#[from] ExportError),
-    /// A surface cannot be written as a face.
+    /// Parts do not make a model.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// A surface has no model.
+    #[error(transparent)]
+    Conversion(#[from] ConversionError),
+    /// A model cannot be written.
     #[error(transparent)]
     Step(#[from] StepError),
     /// A saved surface cannot be loaded.
@@ -205,7 +213,9 @@ impl Error {
             Self::SampleRows(error) => (error.kind(), error.index()),
             Self::Tessellate(error) => (error.kind(), None),
             Self::Export(error) => (error.kind(), None),
-            Self::Step(error) => (error.kind(), error.index()),
+            Self::Model(error) => (error.kind(), error.index()),
+            Self::Conversion(error) => (error.kind(), error.index()),
+            Self::Step(error) => (error.kind(), None),
             Self::Load(error) => (error.kind(), error.index()),
             Self::Trim(error) => (error.kind(), error.index()),
             Self::Combine(error) => (error.kind(), error.index()),

@@ -30,6 +30,7 @@
 //! * [`tmesh`]: hierarchical T-meshes, their cells and vertices.
 //! * [`surface`]: what every surface can do, and the families.
 //! * [`query`]: tessellation, closest points, deviation; fits measure themselves with it.
+//! * [`model`]: faces that share edges and vertices.
 //! * [`fit`]: one measure of error for all, and the methods.
 //! * [`export`]: files for other programs, the library's own format.
 //! * [`samples`]: seeded shapes for demonstrations, tests and benchmarks.
@@ -51,6 +52,7 @@ pub mod knots;
 pub mod layout;
 pub mod linalg;
 pub mod mesh;
+pub mod model;
 mod options;
 pub mod parameterize;
 pub mod query;

@@ -4,7 +4,9 @@ use super::arguments::{ArgumentError, ReportOut, choice, deref, options, text};
 use super::guard::guard;
 use super::planish_status;
 use super::surface::planish_surface;
-use crate::export::step::{Form, Schema, StepOptions, StepReport, Unit, write};
+use crate::export::step::{Schema, StepOptions, StepReport, Unit, write};
+use crate::fit::conversion::{ConversionOptions, to_model};
+use crate::model::{Form, FormOptions};
 use std::ffi::c_char;
 use std::path::Path;
 
@@ -99,13 +101,13 @@ record! {
         /// A planish_unit, what one model unit is; PLANISH_UNIT_MILLIMETRE (default).
         pub unit: u32 = planish_unit::Millimetre as u32,
         /// Most control points of PLANISH_STEP_FORM_TENSOR. Default 4000000.
-        pub max_coefficients: usize = StepOptions::default().max_coefficients,
+        pub max_coefficients: usize = FormOptions::default().max_coefficients,
         /// A planish_step_form, what is written of a T-spline or PHT-spline; PLANISH_STEP_FORM_TENSOR (default), which
         /// is also taken where the form is of another family.
         pub form: u32 = planish_step_form::Tensor as u32,
         /// By how much the levels of cells in one face of PLANISH_STEP_FORM_PATCHES may differ. Default 1; more gives
         /// fewer faces with more control points.
-        pub level_spread: u32 = StepOptions::default().level_spread,
+        pub level_spread: u32 = FormOptions::default().level_spread,
         /// A D1RC-spline is written as a tensor surface fitted within this, in model units, at the nodes of a fine
         /// tessellation; 0 (default) takes 1e-3 of the diagonal.
         pub tolerance: f64,
@@ -115,7 +117,7 @@ record! {
 impl planish_step_options {
     /// # Safety
     /// The texts are NULL or end with a NUL, and nobody changes them for `'a`.
-    unsafe fn core<'a>(&self) -> Result<StepOptions<'a>, ArgumentError> {
+    pub(super) unsafe fn core<'a>(&self) -> Result<StepOptions<'a>, ArgumentError> {
         let defaults = StepOptions::default();
         let or = |at: *const c_char, name, default| match at.is_null() {
             true => Ok(default),
@@ -129,11 +131,17 @@ impl planish_step_options {
             author: or(self.author, "author", defaults.author)?,
             organization: or(self.organization, "organization", defaults.organization)?,
             timestamp: or(self.timestamp, "timestamp", defaults.timestamp)?,
+        })
+    }
+
+    /// How a surface becomes what is written.
+    fn conversion(&self) -> Result<ConversionOptions, ArgumentError> {
+        let form = FormOptions {
             form: choice(self.form, &[Form::Tensor, Form::Strips, Form::Patches], "form")?,
             level_spread: self.level_spread,
             max_coefficients: self.max_coefficients,
-            tolerance: self.tolerance,
-        })
+        };
+        Ok(ConversionOptions { form, tolerance: self.tolerance })
     }
 }
 
@@ -165,9 +173,10 @@ pub unsafe extern "C" fn planish_surface_write_step(
         let surface = deref(surface, "surface")?.family()?;
         let path = text(path, "path")?;
         let given = self::options(options)?;
-        let core = given.core()?;
+        let (core, conversion) = (given.core()?, given.conversion()?);
         let report = ReportOut::new(given.out_report)?;
-        report.store(write(surface, &core, Path::new(path))?.into());
+        let model = to_model(surface, &conversion)?;
+        report.store(write(&model, &core, Path::new(path))?.into());
         Ok(())
     })
 }

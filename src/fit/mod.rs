@@ -1,6 +1,7 @@
 //! Fitting: what all methods share, and a folder for each.
 
 pub mod common;
+pub mod conversion;
 pub mod curve;
 pub mod d1rc;
 pub mod field;

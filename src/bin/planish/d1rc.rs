@@ -1,6 +1,6 @@
 //! `planish d1rc`.
 
-use crate::output::{self, Table};
+use crate::output::{self, Step, Table};
 use crate::{Failure, Outcome};
 use clap::{Args, ValueEnum};
 use planish::Control;
@@ -75,7 +75,8 @@ pub fn run(arguments: &D1rcArguments) -> Result<Outcome, Failure> {
     print!("{}", table(arguments, &mesh, &sharp, &surface));
     let surface = surface.into();
     let product = arguments.mesh.file_stem().unwrap_or_default().to_string_lossy();
-    let step = StepOptions { product: &product, ..StepOptions::default() };
+    let text = StepOptions { product: &product, ..StepOptions::default() };
+    let step = Step { text, ..Step::default() };
     arguments.out.iter().try_for_each(|path| output::write_surface(&surface, path, &step))?;
     Ok(Outcome::Done)
 }

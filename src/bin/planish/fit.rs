@@ -1,16 +1,18 @@
 //! `planish fit`.
 
-use crate::output::{self, Fit, Table};
+use crate::output::{self, Fit, Step, Table};
 use crate::{Failure, Outcome};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
-use planish::export::step::{Form, StepOptions, Unit};
+use planish::export::step::{StepOptions, Unit};
 use planish::fit::common::Regularize;
+use planish::fit::conversion::ConversionOptions;
 use planish::fit::d1rc::{self, D1rcFitOptions};
 use planish::fit::pht::{self, PhtOptions};
 use planish::fit::report::{FitReport, Remarks, StopReason, Tolerance, ToleranceScale};
 use planish::fit::tensor::{self, Ends, Method, TensorOptions};
 use planish::mesh::{Mesh, MeshOptions, MeshRepairs, read};
+use planish::model::{Form, FormOptions};
 use planish::parameterize::{Border, ParameterizeOptions};
 use planish::{Control, Error};
 use serde_json::json;
@@ -137,20 +139,24 @@ pub fn run(arguments: &FitArguments) -> Result<Outcome, Failure> {
     }
     let fit = fit_with_bar(&mesh, arguments)?;
     let stem = arguments.mesh.file_stem().unwrap_or_default().to_string_lossy();
-    let step = StepOptions {
+    let text = StepOptions {
         unit: match arguments.unit {
             UnitName::Mm => Unit::Millimetre,
             UnitName::M => Unit::Metre,
             UnitName::Inch => Unit::Inch,
         },
         product: arguments.product.as_deref().unwrap_or(&stem),
+        ..StepOptions::default()
+    };
+    let form = FormOptions {
         form: match arguments.step_form {
             FormName::Tensor => Form::Tensor,
             FormName::Patches => Form::Patches,
         },
         level_spread: arguments.level_spread,
-        ..StepOptions::default()
+        ..FormOptions::default()
     };
+    let step = Step { text, conversion: ConversionOptions { form, ..ConversionOptions::default() } };
     for path in &arguments.out {
         output::write_fit(&mesh, &fit, path, &step)?;
     }

@@ -1,12 +1,11 @@
 //! `planish morph`.
 
-use crate::output::{write_png, write_surface};
+use crate::output::{Step, write_png, write_surface};
 use crate::picture::{Picture, View};
 use crate::{Failure, Outcome};
 use clap::Args;
 use glam::{DVec2, DVec3};
 use planish::Control;
-use planish::export::step::StepOptions;
 use planish::export::vtk::on_surface;
 use planish::fit::common::Regularize;
 use planish::fit::report::{Remarks, Tolerance};
@@ -85,7 +84,7 @@ pub fn run(arguments: &MorphArguments) -> Result<Outcome, Failure> {
         write_png(&picture, &numbered(&arguments.out, frame))?;
     }
     if let Some(path) = &arguments.save {
-        write_surface(&last.into(), path, &StepOptions::default())?;
+        write_surface(&last.into(), path, &Step::default())?;
     }
     let is_met = [&shape, &way].iter().all(|fit| !fit.report.remarks.has(Remarks::TOLERANCE_NOT_MET));
     Ok(if is_met { Outcome::Done } else { Outcome::ToleranceNotMet })

@@ -6,6 +6,7 @@ use glam::DVec2;
 use planish::Control;
 use planish::export::step::{self, StepOptions};
 use planish::export::{native, obj, vtk};
+use planish::fit::conversion::{ConversionOptions, to_model};
 use planish::fit::report::FitReport;
 use planish::mesh::{Mesh, MeshRepairs};
 use planish::query::tessellate::{TessellateOptions, tessellate};
@@ -82,8 +83,15 @@ pub struct Fit {
     pub errors: Vec<f64>,
 }
 
-/// Writes a fit in the format of the name; `step` says what STEP files say beside the shape.
-pub fn write_fit(mesh: &Mesh, fit: &Fit, path: &Path, step: &StepOptions) -> Result<(), Failure> {
+/// What STEP files hold of a surface, and what they say beside the shape.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Step<'a> {
+    pub conversion: ConversionOptions,
+    pub text: StepOptions<'a>,
+}
+
+/// Writes a fit in the format of the name.
+pub fn write_fit(mesh: &Mesh, fit: &Fit, path: &Path, step: &Step) -> Result<(), Failure> {
     if extension(path) == "vtu" {
         let data = vtk::PointData { name: "deviation", dim: 1, values: &fit.errors };
         let moved = vtk::on_surface(fit.surface.as_surface(), mesh, &fit.parameters)?;
@@ -94,10 +102,10 @@ pub fn write_fit(mesh: &Mesh, fit: &Fit, path: &Path, step: &StepOptions) -> Res
 }
 
 /// Writes a surface in the format of the name.
-pub fn write_surface(surface: &AnySurface, path: &Path, step: &StepOptions) -> Result<(), Failure> {
+pub fn write_surface(surface: &AnySurface, path: &Path, step: &Step) -> Result<(), Failure> {
     match extension(path).as_str() {
         "step" | "stp" => {
-            step::write(surface, step, path)?;
+            step::write(&to_model(surface, &step.conversion)?, &step.text, path)?;
         }
         "vtu" => match surface.as_surface().patches() {
             Some(patches) => vtk::write_patches(patches, path)?,

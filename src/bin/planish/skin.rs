@@ -1,12 +1,14 @@
 //! `planish skin`.
 
-use crate::output::{self, Table};
+use crate::output::{self, Step, Table};
 use crate::{Failure, Outcome};
 use clap::{Args, ValueEnum};
 use planish::Control;
-use planish::export::step::{Form, StepOptions, Unit};
+use planish::export::step::{StepOptions, Unit};
+use planish::fit::conversion::ConversionOptions;
 use planish::fit::report::{Remarks, Tolerance, ToleranceScale};
 use planish::fit::skin::{Rows, SectionEnds, SkinFit, SkinMethod, SkinOptions, VRule, skin};
+use planish::model::{Form, FormOptions};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
@@ -125,7 +127,11 @@ fn write(
 ) -> Result<(), Failure> {
     let stem = arguments.rows.file_stem().unwrap_or_default().to_string_lossy();
     let form = if arguments.step_form == FormName::Strips { Form::Strips } else { Form::Tensor };
-    let step = StepOptions { unit: Unit::Millimetre, product: &stem, form, ..StepOptions::default() };
+    let form = FormOptions { form, ..FormOptions::default() };
+    let step = Step {
+        text: StepOptions { unit: Unit::Millimetre, product: &stem, ..StepOptions::default() },
+        conversion: ConversionOptions { form, ..ConversionOptions::default() },
+    };
     if output::is_step(path) && arguments.step_form == FormName::Common {
         let options = SkinOptions { method: SkinMethod::CommonKnots, ..*options };
         let common = skin(rows, &options, &mut Control::new(arguments.threads))?;

@@ -128,6 +128,16 @@ impl<'a> Reader<'a> {
         usize::try_from(value).map_err(|_| self.wrong(format!("the count {value} is too large")))
     }
 
+    /// A count that fits into 32 bits.
+    pub(super) fn number(&mut self) -> Result<u32, LoadError> {
+        let value = self.u64()?;
+        u32::try_from(value).map_err(|_| self.wrong(format!("the number {value} is too large")))
+    }
+
+    pub(super) fn double(&mut self) -> Result<f64, LoadError> {
+        Ok(f64::from_le_bytes(self.take()?))
+    }
+
     pub(super) fn flag(&mut self) -> Result<bool, LoadError> {
         match self.u64()? {
             0 => Ok(false),

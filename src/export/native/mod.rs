@@ -5,7 +5,7 @@
 //! offset  type          content
 //!  0      8 bytes       "PLANISH" and a zero
 //!  8      u32           version of the format, 1
-//! 12      u32           kind: 0 tensor surface, 1 T-spline, 2 PHT-spline, 3 D1RC-spline, 16 curve
+//! 12      u32           kind: 0 tensor surface, 1 T-spline, 2 PHT-spline, 3 D1RC-spline, 16 curve, 17 model
 //! 16      u64           size of the whole in bytes
 //! 24                    what the family needs, see its module
 //! end-8   u64           CRC-32 (IEEE 802.3) of all bytes before
@@ -15,12 +15,14 @@
 mod bytes;
 mod curve;
 mod d1rc;
+mod model;
 mod pht;
 mod tensor;
 mod tspline;
 
 use super::error::{ExportError, write_file};
 use crate::curve::Curve;
+use crate::model::Model;
 use crate::surface::AnySurface;
 use bytes::Reader;
 pub use bytes::Writer;
@@ -38,7 +40,7 @@ pub enum LoadError {
         reason: String,
     },
     /// The bytes are not what they claim to be.
-    #[error("not a saved surface or curve: byte {byte}: {problem}")]
+    #[error("not a saved surface, curve or model: byte {byte}: {problem}")]
     Format {
         /// Where.
         byte: usize,
@@ -84,8 +86,9 @@ const PHT: u32 = 2;
 const D1RC: u32 = 3;
 /// What is no surface has kinds from 16 on.
 const CURVE: u32 = 16;
+const MODEL: u32 = 17;
 
-/// A surface or curve that the format knows.
+/// A surface, curve or model that the format knows.
 pub trait Save {
     /// Its kind as the file says it.
     fn file_kind(&self) -> u32;
@@ -130,6 +133,7 @@ pub fn load(bytes: &[u8]) -> Result<AnySurface, LoadError> {
         D1RC => AnySurface::D1rc(d1rc::read(&mut reader)?),
         TSPLINE => AnySurface::TSpline(tspline::read(&mut reader)?),
         CURVE => return Err(reader.wrong("this is a curve, not a surface")),
+        MODEL => return Err(reader.wrong("this is a model, not a surface")),
         _ => return Err(reader.wrong(format!("the kind {kind} is unknown"))),
     };
     reader.end()?;
@@ -147,6 +151,17 @@ pub fn load_curve(bytes: &[u8]) -> Result<Curve, LoadError> {
     Ok(curve)
 }
 
+/// The model that bytes of [`save`] hold.
+pub fn load_model(bytes: &[u8]) -> Result<Model, LoadError> {
+    let (kind, mut reader) = Reader::open(bytes)?;
+    if kind != MODEL {
+        return Err(reader.wrong(format!("the kind is {kind}, not that of a model")));
+    }
+    let model = model::read(&mut reader)?;
+    reader.end()?;
+    Ok(model)
+}
+
 /// Saves to a file.
 pub fn save_file<S: Save + ?Sized>(surface: &S, path: &Path) -> Result<(), ExportError> {
     write_file(path, &save(surface))
@@ -160,6 +175,11 @@ pub fn load_file(path: &Path) -> Result<AnySurface, LoadError> {
 /// Loads a curve from a file.
 pub fn load_curve_file(path: &Path) -> Result<Curve, LoadError> {
     load_curve(&read_file(path)?)
+}
+
+/// Loads a model from a file.
+pub fn load_model_file(path: &Path) -> Result<Model, LoadError> {
+    load_model(&read_file(path)?)
 }
 
 fn read_file(path: &Path) -> Result<Vec<u8>, LoadError> {

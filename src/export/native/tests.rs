@@ -158,3 +158,25 @@ fn curves_and_surfaces_are_not_taken_for_one_another() {
     let refused = load_curve(&save(tensor().as_saved())).unwrap_err();
     assert!(refused.to_string().contains("the kind is 0"), "{refused}");
 }
+
+#[test]
+fn models_are_saved_to_the_bit_and_damage_is_refused() {
+    use crate::model::of_parts;
+    use crate::model::shapes::{circle, hollow_cube, pipe, rectangle, torus_piece, trimmed};
+    let trimmed = trimmed(torus_piece(), vec![rectangle(0.1, 0.9), circle([0.5, 0.5], 0.2, 12)]);
+    for model in [of_parts(&trimmed, vec![trimmed.clone()]).unwrap(), hollow_cube(false), pipe()] {
+        let bytes = save(&model);
+        assert_eq!(bytes.len(), save_size(&model));
+        assert_eq!(load_model(&bytes).unwrap(), model);
+        assert!(load(&bytes).is_err() && load_curve(&bytes).is_err());
+        for at in (24..bytes.len() - 8).step_by(37) {
+            let mut damaged = bytes[..bytes.len() - 8].to_vec();
+            damaged[at] ^= 0x41;
+            let sum = u64::from(crc32fast::hash(&damaged));
+            damaged.extend(sum.to_le_bytes());
+            if let Ok(loaded) = load_model(&damaged) {
+                assert_ne!(loaded, model, "byte {at} does not matter");
+            }
+        }
+    }
+}

@@ -1,10 +1,9 @@
 //! Knots that begin and end with full multiplicity, as other programs expect them: the same surface, cut off at
 //! the ends of its domain.
 
-use super::StepError;
-use crate::knots::KnotVector;
+use crate::geometry::Axis;
 use crate::surface::Surface;
-use crate::surface::tensor::{Axis, TensorSurface};
+use crate::surface::tensor::{TensorError, TensorSurface};
 use glam::DVec3;
 
 /// A surface in space as the format holds it.
@@ -22,10 +21,7 @@ pub(super) struct Net {
 
 impl Net {
     /// The net of a surface in space.
-    pub fn new(surface: &TensorSurface) -> Result<Self, StepError> {
-        let (knots_u, knots_v) = (surface.knots(Axis::U), surface.knots(Axis::V));
-        check_whole(knots_u, Axis::U)?;
-        check_whole(knots_v, Axis::V)?;
+    pub fn new(surface: &TensorSurface) -> Result<Self, TensorError> {
         let whole = surface.restrict(surface.domain())?;
         let knots = [Axis::U, Axis::V].map(|axis| whole.knots(axis).clone());
         Ok(Self {
@@ -37,19 +33,10 @@ impl Net {
     }
 }
 
-/// Refuses knots inside the domain at which the surface falls apart.
-fn check_whole(knots: &KnotVector, axis: Axis) -> Result<(), StepError> {
-    let (degree, (from, to)) = (knots.degree(), knots.domain());
-    let torn = |run: &[f64]| run[0] == run[degree] && from < run[0] && run[0] < to;
-    match knots.knots().windows(degree + 1).position(torn) {
-        None => Ok(()),
-        Some(index) => Err(StepError::Torn { axis, index, degree }),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::knots::KnotVector;
     use crate::samples::Random;
     use glam::DVec2;
 

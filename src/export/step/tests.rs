@@ -1,64 +1,22 @@
 use super::*;
 use crate::Control;
 use crate::fit::tensor::{TensorOptions, fit_mesh};
+use crate::geometry::Axis;
 use crate::knots::KnotVector;
+use crate::model::shapes::{circle, rectangle, torus_piece, trimmed, wave};
+use crate::model::{Form, FormOptions, ModelError, of_parts, of_surface};
 use crate::samples;
-use crate::surface::{Region, Trims};
+use crate::surface::tensor::TensorSurface;
+use crate::surface::{AnySurface, ConvertError, Surface, Trims};
+use glam::DVec2;
 use std::collections::HashSet;
-use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
-/// A wave over the unit square, bicubic with some inner knots.
-fn wave() -> TensorSurface {
-    let knots = KnotVector::clamped(&[0.0, 0.2, 0.5, 0.6, 1.0], 3).unwrap();
-    let count = knots.basis_count();
-    let mut points = Vec::new();
-    for i in 0..count {
-        for j in 0..count {
-            let (x, y) = (knots.greville(i), knots.greville(j));
-            points.extend([x, y, 0.2 * (5.0 * x).sin() * (4.0 * y).cos()]);
-        }
-    }
-    TensorSurface::new(3, knots.clone(), knots, points, None).unwrap()
-}
-
-/// A quarter of a torus tube by a quarter of its ring, exactly.
-fn torus_piece() -> TensorSurface {
-    let knots = KnotVector::clamped(&[0.0, 1.0], 2).unwrap();
-    let (ring, tube) = (3.0, 1.0);
-    let w = [1.0, FRAC_1_SQRT_2, 1.0];
-    let arc = [(1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
-    let (mut points, mut weights) = (Vec::new(), Vec::new());
-    for (i, (cx, cy)) in arc.into_iter().enumerate() {
-        for (j, (tr, tz)) in arc.into_iter().enumerate() {
-            let radius = ring + tube * tr;
-            points.extend([radius * cx, radius * cy, tube * tz]);
-            weights.push(w[i] * w[j]);
-        }
-    }
-    TensorSurface::new(3, knots.clone(), knots, points, Some(weights)).unwrap()
-}
-
-fn circle(center: [f64; 2], radius: f64, count: usize) -> Vec<DVec2> {
-    let place = |k: usize| DVec2::from(center) + radius * DVec2::from_angle(TAU * k as f64 / count as f64);
-    (0..count).map(place).collect()
-}
-
-fn rectangle(min: f64, max: f64) -> Vec<DVec2> {
-    [(min, min), (min, max), (max, max), (max, min)].map(DVec2::from).to_vec() // clockwise
-}
-
-fn trimmed(mut surface: TensorSurface, loops: Vec<Vec<DVec2>>) -> TensorSurface {
-    let trims = Trims::new(loops, &surface.domain()).unwrap();
-    *surface.region_mut() = Region { data_box: None, trims };
-    surface
+fn model(surface: &TensorSurface) -> Model {
+    of_parts(surface, vec![surface.clone()]).unwrap()
 }
 
 fn text(surface: &TensorSurface) -> (String, StepReport) {
-    to_text(&surface.clone().into(), &StepOptions::default()).unwrap()
-}
-
-fn refusal(surface: &TensorSurface) -> StepError {
-    to_text(&surface.clone().into(), &StepOptions::default()).map(|(_, report)| report).unwrap_err()
+    to_text(&model(surface), &StepOptions::default()).unwrap()
 }
 
 /// The numbers of the entities that a text without quotes refers to.
@@ -118,14 +76,14 @@ fn options_are_in_the_file() {
         timestamp: "2026-01-31T12:00:00",
         ..StepOptions::default()
     };
-    let text = to_text(&wave().into(), &options).unwrap().0;
+    let text = to_text(&model(&wave()), &options).unwrap().0;
     check_syntax(&text);
     for part in
         ["AP242_MANAGED", "'INCH'", "Fl\\X2\\00E4\\X0\\che", "('A. N. Other'),('O''Hara')", "2026-01-31"]
     {
         assert!(text.contains(part), "{part}");
     }
-    let metres = to_text(&wave().into(), &StepOptions { unit: Unit::Metre, ..options }).unwrap().0;
+    let metres = to_text(&model(&wave()), &StepOptions { unit: Unit::Metre, ..options }).unwrap().0;
     assert!(metres.contains("SI_UNIT($,.METRE.)"));
 }
 
@@ -136,47 +94,6 @@ fn the_domain_has_four_edges_and_simple_curves() {
     // borders of a bicubic are cubics: nothing but rounding is between the curves
     assert!(report.curve_deviation < 1e-14, "{report:?}");
     assert_eq!(text.matches("=VERTEX_POINT(").count(), 4);
-}
-
-#[test]
-fn material_is_on_the_left_of_every_bound() {
-    for flip in [false, true] {
-        let mut loops = vec![circle([0.3, 0.3], 0.1, 12), rectangle(0.1, 0.9), circle([0.7, 0.7], 0.1, 7)];
-        if flip {
-            loops.iter_mut().for_each(|polyline| polyline.reverse());
-        }
-        let bounds = loops::bounds(&trimmed(wave(), loops)).unwrap();
-        let area = |p: &Vec<DVec2>| -> f64 {
-            (0..p.len()).map(|k| p[k].perp_dot(p[(k + 1) % p.len()])).sum::<f64>() / 2.0
-        };
-        assert!((area(&bounds[0]) - 0.64).abs() < 1e-12);
-        assert!(bounds[1..].iter().all(|hole| area(hole) < 0.0));
-    }
-}
-
-#[test]
-fn edges_close_and_lie_on_the_surface() {
-    let holes = vec![rectangle(0.05, 0.95), circle([0.5, 0.5], 0.3, 300), circle([0.87, 0.87], 0.03, 3)];
-    for surface in [trimmed(wave(), holes.clone()), trimmed(torus_piece(), holes)] {
-        let loops = loops::bounds(&surface).unwrap();
-        let shell = Shell::new(&[&surface], &loops, 1e-7).unwrap();
-        // corners of the rectangle and the triangle; a round hole has two edges
-        assert_eq!(shell.faces[0].bounds.iter().map(Vec::len).collect::<Vec<_>>(), [4, 2, 3]);
-        for edge in &shell.edges {
-            assert_ne!(edge.start, edge.end);
-            let (curve, pcurve) = (&edge.image.curve, &edge.image.pcurve);
-            assert_eq!(curve.knots().domain(), pcurve.knots().domain());
-            let (from, to) = curve.knots().domain();
-            for k in 0..=777 {
-                let t = from + (to - from) * f64::from(k) / 777.0;
-                let uv = surface.domain().clamp(DVec2::from_slice(&pcurve.eval(t)));
-                let mut point = [0.0; 3];
-                surface.eval_rows(&[uv], 0, &mut point);
-                let off = glam::DVec3::from(point).distance(glam::DVec3::from_slice(&curve.eval(t)));
-                assert!(off <= 1e-7, "{off:e} at {t}");
-            }
-        }
-    }
 }
 
 #[test]
@@ -205,37 +122,6 @@ fn a_pole_has_no_edge() {
 }
 
 #[test]
-fn what_is_no_face_is_refused() {
-    let trims = |loops| refusal(&trimmed(wave(), loops));
-    let eight = [(0.1, 0.1), (0.9, 0.9), (0.9, 0.1), (0.1, 0.9)].map(DVec2::from).to_vec();
-    assert!(matches!(trims(vec![eight]), StepError::Crossing { index: 0, .. }));
-    let overlapping = vec![rectangle(0.1, 0.6), rectangle(0.4, 0.9)];
-    assert!(matches!(trims(overlapping), StepError::Crossing { index: 1, .. }));
-    let corner_on_a_side = [(0.125, 0.5), (0.25, 0.25), (0.25, 0.75)].map(DVec2::from).to_vec();
-    let touching = vec![rectangle(0.125, 0.875), corner_on_a_side];
-    assert!(matches!(trims(touching), StepError::Crossing { .. }));
-    let twice = vec![rectangle(0.1, 0.4), rectangle(0.6, 0.9)];
-    assert_eq!(trims(twice), StepError::Pieces { count: 2 });
-    let island = vec![rectangle(0.1, 0.9), rectangle(0.2, 0.8), rectangle(0.4, 0.6)];
-    assert_eq!(trims(island), StepError::Pieces { count: 2 });
-    let point = vec![rectangle(0.1, 0.9), vec![DVec2::splat(0.5); 3]];
-    assert_eq!(trims(point), StepError::Empty { index: 1 });
-
-    let line = KnotVector::clamped(&[0.0, 1.0], 1).unwrap();
-    let surface = |dim, scale| {
-        let points = (0..4 * dim).map(|k| scale * ((k * k) % 7) as f64).collect();
-        TensorSurface::new(dim, line.clone(), line.clone(), points, None).unwrap()
-    };
-    assert_eq!(refusal(&surface(2, 1.0)), ExportError::Dimension { dim: 2 }.into());
-    assert!(matches!(refusal(&surface(3, 0.0)), StepError::Size { .. }));
-    assert!(matches!(refusal(&surface(3, 4e307)), StepError::Size { .. }));
-    let torn = KnotVector::new(vec![0., 0., 0.5, 0.5, 1., 1.], 1).unwrap();
-    let points = (0..24).map(f64::from).collect();
-    let torn = TensorSurface::new(3, torn, line.clone(), points, None).unwrap();
-    assert_eq!(refusal(&torn), StepError::Torn { axis: Axis::U, index: 2, degree: 1 });
-}
-
-#[test]
 fn a_fitted_panel_keeps_its_windows() {
     let mesh = samples::fuselage_panel(1).unwrap();
     let fit = fit_mesh(&mesh, &TensorOptions::default(), &mut Control::default()).unwrap();
@@ -249,11 +135,11 @@ fn a_fitted_panel_keeps_its_windows() {
 #[test]
 fn files_appear_whole_or_not_at_all() {
     let path = std::env::temp_dir().join(format!("planish_{}.step", std::process::id()));
-    write(&wave().into(), &StepOptions::default(), &path).unwrap();
+    write(&model(&wave()), &StepOptions::default(), &path).unwrap();
     let written = std::fs::read_to_string(&path).unwrap();
     assert_eq!(written, text(&wave()).0);
-    let crossing = trimmed(wave(), vec![rectangle(0.1, 0.6), rectangle(0.4, 0.9)]);
-    assert!(write(&crossing.into(), &StepOptions::default(), &path).is_err());
+    let nowhere = path.join("below_a_file.step");
+    assert!(write(&model(&wave()), &StepOptions::default(), &nowhere).is_err());
     assert_eq!(std::fs::read_to_string(&path).unwrap(), written);
     std::fs::remove_file(&path).unwrap();
 }
@@ -266,24 +152,23 @@ fn a_t_spline_is_written_whole_or_in_strips() {
     let rows = Rows { points: &set.points, counts: &set.counts, dim: 3 };
     let fit = skin(&rows, &SkinOptions::default(), &mut Control::new(1)).unwrap();
     let surface = AnySurface::from(fit.surface.clone());
-    let whole = StepOptions::default();
-    let (_, report) = to_text(&surface, &whole).unwrap();
+    let in_form = |surface: &AnySurface, form| {
+        let model = of_surface(surface, &FormOptions { form, ..FormOptions::default() }).unwrap();
+        to_text(&model, &StepOptions::default()).unwrap()
+    };
+    let (_, report) = in_form(&surface, Form::Tensor);
     assert_eq!((report.face_count, report.pole_count), (1, fit.skin.tensor_count));
-    let strips = StepOptions { form: Form::Strips, ..whole };
-    let (text, report) = to_text(&surface, &strips).unwrap();
+    let (text, report) = in_form(&surface, Form::Strips);
     assert_eq!((report.face_count, report.pole_count), (set.counts.len() - 1, fit.skin.strip_count));
     assert_eq!(text.matches("ADVANCED_FACE").count(), report.face_count);
 
-    let limited = StepOptions { max_coefficients: 10, ..whole };
-    let error = to_text(&surface, &limited).unwrap_err();
-    assert_eq!(
-        error,
-        StepError::Convert(ConvertError::TooLarge { needed: fit.skin.tensor_count, limit: 10 })
-    );
+    let limited = FormOptions { max_coefficients: 10, ..FormOptions::default() };
+    let too_large = ConvertError::TooLarge { needed: fit.skin.tensor_count, limit: 10 };
+    assert_eq!(of_surface(&surface, &limited), Err(ModelError::Convert(too_large)));
     let mut trimmed = fit.surface;
     let triangle = [(0.1, 0.1), (0.9, 0.1), (0.5, 0.8)].map(|(u, v)| DVec2::new(u, v)).to_vec();
     trimmed.region_mut().trims = Trims::new(vec![triangle], &trimmed.domain()).unwrap();
-    let (text, report) = to_text(&trimmed.into(), &strips).unwrap();
+    let (text, report) = in_form(&trimmed.into(), Form::Strips);
     check_syntax(&text);
     // three corners, and two more where each line of v between strips enters and leaves
     assert_eq!(report.edge_count - report.face_count, 3 + 2 * (report.face_count - 1) - 1);
@@ -295,13 +180,14 @@ fn a_pht_spline_is_a_shell_of_patches() {
     use crate::tmesh::Cell;
     let mut pht = PhtSurface::from_tensor(&wave(), &ConvertOptions::default()).unwrap();
     pht.split(&[Cell { level: 0, i: 0, j: 0 }, Cell { level: 1, i: 1, j: 1 }]).unwrap();
-    let options = |level_spread| StepOptions { form: Form::Patches, level_spread, ..StepOptions::default() };
+    let options = |level_spread| FormOptions { form: Form::Patches, level_spread, ..FormOptions::default() };
     for loops in [Vec::new(), vec![rectangle(0.1, 0.9), circle([0.4, 0.5], 0.1, 40)]] {
         pht.region_mut().trims = Trims::new(loops.clone(), &pht.domain()).unwrap();
         let surface = AnySurface::from(pht.clone());
         let holes = loops.len().saturating_sub(1);
         for level_spread in [0, 1, 20] {
-            let (text, report) = to_text(&surface, &options(level_spread)).unwrap();
+            let model = of_surface(&surface, &options(level_spread)).unwrap();
+            let (text, report) = to_text(&model, &StepOptions::default()).unwrap();
             check_syntax(&text);
             let counts = ["=ADVANCED_FACE(", "=EDGE_CURVE(", "=VERTEX_POINT(", "=EDGE_LOOP("]
                 .map(|name| text.matches(name).count());

@@ -2,35 +2,72 @@
 
 use super::net::Net;
 use super::part21::{Id, Part21, Real, Text, list};
-use super::shell::{Edge, Face, Shell};
-use super::{Schema, StepOptions, StepReport, Unit};
+use super::{Schema, StepError, StepOptions, StepReport, Unit};
 use crate::curve::Curve;
+use crate::model::{Carrier, EdgeId, Face, Frame, Model, Role, Shell};
 use glam::DVec3;
 
 /// The whole file.
-pub(super) fn file(nets: &[Net], shell: &Shell, report: &StepReport, options: &StepOptions) -> String {
+pub(super) fn file(model: &Model, report: &StepReport, options: &StepOptions) -> Result<String, StepError> {
     let mut out = Part21::default();
     let definition = product(&mut out, options);
     let context = context(&mut out, options.unit, report.uncertainty);
-    let placement = placement(&mut out);
-    let faces = faces(&mut out, nets, shell);
-    let shell = out.add(format!("OPEN_SHELL('',{})", list(faces)));
-    let model = out.add(format!("SHELL_BASED_SURFACE_MODEL('',({shell}))"));
+    let placement = axes(&mut out, DVec3::ZERO, DVec3::Z, DVec3::X);
+    let faces = faces(&mut out, model)?;
+    let items = items(&mut out, model, &faces);
     let name = Text(options.product);
-    let items = list([placement, model]);
-    let shape = out.add(format!("MANIFOLD_SURFACE_SHAPE_REPRESENTATION({name},{items},{context})"));
+    let kind = match model.shells().iter().all(|shell| shell.role == Role::Open) {
+        true => "MANIFOLD_SURFACE_SHAPE_REPRESENTATION",
+        false if model.shells().iter().any(|shell| shell.role == Role::Open) => "SHAPE_REPRESENTATION",
+        false => "ADVANCED_BREP_SHAPE_REPRESENTATION",
+    };
+    let items = list([placement].into_iter().chain(items));
+    let shape = out.add(format!("{kind}({name},{items},{context})"));
     out.add(format!("SHAPE_DEFINITION_REPRESENTATION({definition},{shape})"));
-    out.finish(&header(options))
+    Ok(out.finish(&header(model, options)))
 }
 
-fn header(options: &StepOptions) -> [String; 3] {
+/// The solids, and all open shells together.
+fn items(out: &mut Part21, model: &Model, faces: &[Id]) -> Vec<Id> {
+    let shell_of = |out: &mut Part21, kind: &str, shell: &Shell| {
+        let faces = list(shell.faces.iter().map(|face| faces[face.index()]));
+        out.add(format!("{kind}('',{faces})"))
+    };
+    let (mut items, mut open) = (Vec::new(), Vec::new());
+    for (id, shell) in model.shell_ids().zip(model.shells()) {
+        match shell.role {
+            Role::Open => open.push(shell_of(out, "OPEN_SHELL", shell)),
+            Role::VoidIn(_) => {}
+            Role::Solid => {
+                let outer = shell_of(out, "CLOSED_SHELL", shell);
+                let mut voids = Vec::new();
+                for void in model.shells().iter().filter(|void| void.role == Role::VoidIn(id)) {
+                    let inner = shell_of(out, "CLOSED_SHELL", void);
+                    voids.push(out.add(format!("ORIENTED_CLOSED_SHELL('',*,{inner},.T.)")));
+                }
+                items.push(match voids.is_empty() {
+                    true => out.add(format!("MANIFOLD_SOLID_BREP('',{outer})")),
+                    false => out.add(format!("BREP_WITH_VOIDS('',{outer},{})", list(voids))),
+                });
+            }
+        }
+    }
+    if !open.is_empty() {
+        items.push(out.add(format!("SHELL_BASED_SURFACE_MODEL('',{})", list(open))));
+    }
+    items
+}
+
+fn header(model: &Model, options: &StepOptions) -> [String; 3] {
+    let is_open = model.shells().iter().all(|shell| shell.role == Role::Open);
+    let content = if is_open { "trimmed spline surface" } else { "solid of spline surfaces" };
     let schema = match options.schema {
         Schema::Ap214 => "AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }",
         Schema::Ap242 => "AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF { 1 0 10303 442 1 1 4 }",
     };
     let program = concat!("planish ", env!("CARGO_PKG_VERSION"));
     [
-        "FILE_DESCRIPTION(('trimmed spline surface'),'2;1')".to_owned(),
+        format!("FILE_DESCRIPTION(({}),'2;1')", Text(content)),
         format!(
             "FILE_NAME({},{},({}),({}),{},{},'')",
             Text(options.product),
@@ -97,10 +134,14 @@ fn length_unit(out: &mut Part21, unit: Unit) -> Id {
     out.add(format!("(CONVERSION_BASED_UNIT('INCH',{inch})LENGTH_UNIT()NAMED_UNIT({length}))"))
 }
 
-fn placement(out: &mut Part21) -> Id {
-    let origin = point(out, &[0.0; 3]);
-    let [z, x] = ["0.,0.,1.", "1.,0.,0."].map(|axis| out.add(format!("DIRECTION('',({axis}))")));
+fn axes(out: &mut Part21, origin: DVec3, z: DVec3, x: DVec3) -> Id {
+    let origin = point(out, &origin.to_array());
+    let [z, x] = [z, x].map(|axis| direction(out, axis));
     out.add(format!("AXIS2_PLACEMENT_3D('',{origin},{z},{x})"))
+}
+
+fn direction(out: &mut Part21, along: DVec3) -> Id {
+    out.add(format!("DIRECTION('',{})", list(along.to_array().map(Real))))
 }
 
 fn point(out: &mut Part21, coordinates: &[f64]) -> Id {
@@ -111,6 +152,21 @@ fn point(out: &mut Part21, coordinates: &[f64]) -> Id {
 fn with_multiplicities(knots: &[f64]) -> (String, String) {
     let runs = || knots.chunk_by(|a, b| a == b);
     (list(runs().map(<[f64]>::len)), list(runs().map(|run| Real(run[0]))))
+}
+
+fn carrier(out: &mut Part21, carrier: &Carrier) -> Result<Id, StepError> {
+    let placed = |out: &mut Part21, frame: &Frame| axes(out, frame.origin(), frame.z(), frame.x());
+    Ok(match carrier {
+        Carrier::Spline(spline) => surface(out, &Net::new(spline)?),
+        Carrier::Plane(plane) => {
+            let axes = placed(out, &plane.0);
+            out.add(format!("PLANE('',{axes})"))
+        }
+        Carrier::Cylinder(cylinder) => {
+            let axes = placed(out, cylinder.frame());
+            out.add(format!("CYLINDRICAL_SURFACE('',{axes},{})", Real(cylinder.radius())))
+        }
+    })
 }
 
 fn surface(out: &mut Part21, net: &Net) -> Id {
@@ -132,38 +188,44 @@ fn surface(out: &mut Part21, net: &Net) -> Id {
 }
 
 /// Surfaces, vertices and edges once each, then the faces that refer to them.
-fn faces(out: &mut Part21, nets: &[Net], shell: &Shell) -> Vec<Id> {
+fn faces(out: &mut Part21, model: &Model) -> Result<Vec<Id>, StepError> {
     let plane = out.add(
         "(GEOMETRIC_REPRESENTATION_CONTEXT(2)PARAMETRIC_REPRESENTATION_CONTEXT()\
          REPRESENTATION_CONTEXT('','parameters'))",
     );
-    let mut surfaces = vec![None; nets.len()];
-    for face in &shell.faces {
-        surfaces[face.surface].get_or_insert_with(|| surface(out, &nets[face.surface]));
-    }
-    let vertices: Vec<Id> = shell.vertices.iter().map(|&p| vertex(out, p)).collect();
-    let mut edges = Vec::with_capacity(shell.edges.len());
-    for shared in &shell.edges {
-        let beside: Vec<Id> = shared.surfaces.iter().filter_map(|&k| surfaces[k]).collect();
-        edges.push(edge(out, &beside, plane, &vertices, shared));
-    }
-    let face_on = |face: &Face| Some(self::face(out, surfaces[face.surface]?, &edges, face));
-    shell.faces.iter().filter_map(face_on).collect()
+    let surfaces =
+        model.surfaces().iter().map(|surface| carrier(out, surface)).collect::<Result<Vec<_>, _>>()?;
+    let vertices: Vec<Id> = model.vertices().iter().map(|&place| vertex(out, place)).collect();
+    let edges: Vec<Id> = model
+        .edge_ids()
+        .map(|id| edge(out, model, id, Shared { plane, surfaces: &surfaces, vertices: &vertices }))
+        .collect();
+    Ok(model.faces().iter().map(|of| face(out, surfaces[of.surface.index()], &edges, of)).collect())
+}
+
+/// What edges refer to.
+#[derive(Clone, Copy)]
+struct Shared<'a> {
+    /// The context of p-curves.
+    plane: Id,
+    surfaces: &'a [Id],
+    vertices: &'a [Id],
 }
 
 fn face(out: &mut Part21, surface: Id, edges: &[Id], face: &Face) -> Id {
     let mut bounds = Vec::with_capacity(face.bounds.len());
-    for (index, sides) in face.bounds.iter().enumerate() {
-        let oriented = sides.iter().map(|side| {
-            let sense = if side.is_forward { 'T' } else { 'F' };
-            out.add(format!("ORIENTED_EDGE('',*,*,{},.{sense}.)", edges[side.edge]))
+    for (index, coedges) in face.bounds.iter().enumerate() {
+        let oriented = coedges.iter().map(|coedge| {
+            let sense = if coedge.is_forward { 'T' } else { 'F' };
+            out.add(format!("ORIENTED_EDGE('',*,*,{},.{sense}.)", edges[coedge.edge.index()]))
         });
         let oriented: Vec<Id> = oriented.collect();
         let edge_loop = out.add(format!("EDGE_LOOP('',{})", list(oriented)));
         let kind = if index == 0 { "FACE_OUTER_BOUND" } else { "FACE_BOUND" };
         bounds.push(out.add(format!("{kind}('',{edge_loop},.T.)")));
     }
-    out.add(format!("ADVANCED_FACE('',{},{surface},.T.)", list(bounds)))
+    let sense = if face.is_forward { 'T' } else { 'F' };
+    out.add(format!("ADVANCED_FACE('',{},{surface},.{sense}.)", list(bounds)))
 }
 
 fn vertex(out: &mut Part21, p: DVec3) -> Id {
@@ -171,18 +233,42 @@ fn vertex(out: &mut Part21, p: DVec3) -> Id {
     out.add(format!("VERTEX_POINT('',{point})"))
 }
 
-/// An edge with its curve in space and its p-curve on the surfaces beside it, which share their parameters.
-fn edge(out: &mut Part21, surfaces: &[Id], plane: Id, vertices: &[Id], edge: &Edge) -> Id {
-    let in_space = curve(out, &edge.image.curve);
-    let in_plane = curve(out, &edge.image.pcurve);
-    let definition = out.add(format!("DEFINITIONAL_REPRESENTATION('',({in_plane}),{plane})"));
-    let pcurves = surfaces.iter().map(|surface| out.add(format!("PCURVE('',{surface},{definition})")));
-    let pcurves = list(pcurves.collect::<Vec<_>>());
-    let all = out.add(format!("SURFACE_CURVE('',{in_space},{pcurves},.PCURVE_S1.)"));
-    out.add(format!("EDGE_CURVE('',{},{},{all},.T.)", vertices[edge.start], vertices[edge.end]))
+/// An edge with its curve in space and its p-curves on the surfaces beside it, which share their parameters. Faces
+/// with equal p-curves, such as those of one cut surface, share one.
+fn edge(out: &mut Part21, model: &Model, id: EdgeId, shared: Shared) -> Id {
+    let edge = model.edge(id);
+    let in_space = curve(out, &edge.curve);
+    let mut definitions: Vec<(&Curve, Id)> = Vec::new();
+    let mut pcurves = Vec::new();
+    let mut surfaces = Vec::new();
+    for at in model.uses(id) {
+        let Some(pcurve) = &model.coedge(at).pcurve else { continue };
+        let known = definitions.iter().find(|(other, _)| *other == pcurve).map(|&(_, id)| id);
+        let definition = known.unwrap_or_else(|| {
+            let in_plane = curve(out, pcurve);
+            out.add(format!("DEFINITIONAL_REPRESENTATION('',({in_plane}),{})", shared.plane))
+        });
+        definitions.push((pcurve, definition));
+        surfaces.push((model.face(at.face).surface, definition));
+    }
+    for &(surface, definition) in &surfaces {
+        pcurves.push(out.add(format!("PCURVE('',{},{definition})", shared.surfaces[surface.index()])));
+    }
+    let all = match surfaces[..] {
+        [] => in_space,
+        [(a, _), (b, _)] if a == b => {
+            out.add(format!("SEAM_CURVE('',{in_space},{},.PCURVE_S1.)", list(pcurves)))
+        }
+        _ => out.add(format!("SURFACE_CURVE('',{in_space},{},.PCURVE_S1.)", list(pcurves))),
+    };
+    let [start, end] = edge.vertices.map(|vertex| shared.vertices[vertex.index()]);
+    out.add(format!("EDGE_CURVE('',{start},{end},{all},.T.)"))
 }
 
 fn curve(out: &mut Part21, curve: &Curve) -> Id {
+    if let (3, &[a, b]) = (curve.dim(), curve.control_points().as_chunks::<3>().0) {
+        return line(out, curve, [a, b].map(DVec3::from));
+    }
     let points = curve.control_points().chunks_exact(curve.dim());
     let ids: Vec<Id> = points.map(|p| point(out, p)).collect();
     let (counts, knots) = with_multiplicities(curve.knots().knots());
@@ -191,4 +277,14 @@ fn curve(out: &mut Part21, curve: &Curve) -> Id {
         curve.knots().degree(),
         list(ids)
     ))
+}
+
+/// A straight edge, over the parameters of its curve.
+fn line(out: &mut Part21, curve: &Curve, [start, end]: [DVec3; 2]) -> Id {
+    let (from, to) = curve.knots().domain();
+    let speed = (end - start) / (to - from);
+    let origin = point(out, &(start - from * speed).to_array());
+    let along = direction(out, speed.normalize_or(DVec3::X));
+    let vector = out.add(format!("VECTOR('',{along},{})", Real(speed.length())));
+    out.add(format!("LINE('',{origin},{vector})"))
 }

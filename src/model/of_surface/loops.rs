@@ -1,7 +1,7 @@
 //! Trims as bounds of a face: one outer loop counter-clockwise in (u,v), holes clockwise, none touching another.
 
-use super::StepError;
-use crate::geometry::{Orientation, orientation};
+use crate::geometry::{Domain, Orientation, orientation};
+use crate::model::{ModelError, corners};
 use crate::surface::{Surface, Trims};
 use glam::DVec2;
 use spade::handles::FixedVertexHandle;
@@ -11,41 +11,39 @@ type Loop = Vec<DVec2>;
 
 /// The bounds of the part of a surface that counts, the outer one first; the border of the domain if there are
 /// no trims. Material lies to the left of each.
-pub(super) fn bounds(surface: &dyn Surface) -> Result<Vec<Loop>, StepError> {
+pub(super) fn bounds(surface: &dyn Surface) -> Result<Vec<Loop>, ModelError> {
     let trims = &surface.region().trims;
     if trims.is_empty() {
-        let domain = surface.domain();
-        let (min, max) = (domain.min, domain.max);
-        return Ok(vec![vec![min, DVec2::new(max.x, min.y), max, DVec2::new(min.x, max.y)]]);
+        return Ok(vec![corners(&surface.domain()).to_vec()]);
     }
     let loops = without_repeats(trims)?;
     check_apart(&loops)?;
     let depths = depths(&loops);
     let outer: Vec<usize> = (0..loops.len()).filter(|&k| depths[k].is_multiple_of(2)).collect();
-    let [outer] = outer[..] else { return Err(StepError::Pieces { count: outer.len() }) };
+    let [outer] = outer[..] else { return Err(ModelError::Pieces { count: outer.len() }) };
     let order = std::iter::once(outer).chain((0..loops.len()).filter(|&k| k != outer));
     Ok(order.map(|k| directed(loops[k].clone(), k == outer)).collect())
 }
 
 /// The loops without points that repeat the one before.
-fn without_repeats(trims: &Trims) -> Result<Vec<Loop>, StepError> {
+fn without_repeats(trims: &Trims) -> Result<Vec<Loop>, ModelError> {
     let clean = |(index, polyline): (usize, &Loop)| {
         let mut points = polyline.clone();
         points.dedup();
         while points.len() > 1 && points.last() == points.first() {
             points.pop();
         }
-        if points.len() < 3 { Err(StepError::Empty { index }) } else { Ok(points) }
+        if points.len() < 3 { Err(ModelError::Empty { index }) } else { Ok(points) }
     };
     trims.loops().iter().enumerate().map(clean).collect()
 }
 
 /// Refuses loops that cross or touch each other or themselves: in a triangulation that has all their sides no
 /// two sides meet, and no corner is met twice.
-fn check_apart(loops: &[Loop]) -> Result<(), StepError> {
+fn check_apart(loops: &[Loop]) -> Result<(), ModelError> {
     let mut plane = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
     let mut corners: Vec<Vec<FixedVertexHandle>> = Vec::with_capacity(loops.len());
-    let fail = |index, uv: DVec2| StepError::Crossing { index, u: uv.x, v: uv.y };
+    let fail = |index, uv: DVec2| ModelError::Crossing { index, u: uv.x, v: uv.y };
     for (index, polyline) in loops.iter().enumerate() {
         let mut vertices = Vec::with_capacity(polyline.len());
         for &uv in polyline {
@@ -76,8 +74,7 @@ fn check_apart(loops: &[Loop]) -> Result<(), StepError> {
 
 /// How many other loops each loop lies in.
 fn depths(loops: &[Loop]) -> Vec<usize> {
-    let boxes: Vec<_> =
-        loops.iter().map(|polyline| super::Domain::around(polyline.iter().copied())).collect();
+    let boxes: Vec<_> = loops.iter().map(|polyline| Domain::around(polyline.iter().copied())).collect();
     let lies_in = |k: usize, other: usize| {
         k != other && boxes[other].contains(loops[k][0]) && contains(&loops[other], loops[k][0])
     };

@@ -5,10 +5,10 @@
 //! power of the length. Pieces that meet with the same derivative get a double knot, others (at corners of the
 //! polyline, and where the surface has an edge) a triple one, so that the curve bends where its preimage does.
 
-use super::StepError;
 use crate::bezier::BezierPatch;
 use crate::curve::Curve;
 use crate::knots::KnotVector;
+use crate::model::ModelError;
 use crate::surface::tensor::{Axis, TensorSurface};
 use crate::surface::{Patches, Surface};
 use glam::{DVec2, DVec3};
@@ -39,9 +39,8 @@ const SMOOTH_SHARE: f64 = 0.1;
 const MAX_DEPTH: u32 = 12;
 /// Crossings of knot lines nearer to each other than this share of a line are one.
 const LEAST_CUT: f64 = 1e-9;
-/// Samples of a piece while it is fitted, and of a span while the finished curve is measured: different places.
+/// Samples of a piece while it is fitted; the finished curve is measured at other places.
 const FIT_SAMPLES: usize = 8;
-const MEASURE_SAMPLES: usize = 11;
 
 /// One cubic over an interval of parameters.
 struct Piece {
@@ -69,7 +68,11 @@ impl Piece {
 }
 
 /// The image of an open polyline. Parameters are lengths in space, so that both curves run at an even pace.
-pub(super) fn image(surface: &TensorSurface, polyline: &[DVec2], tolerance: f64) -> Result<Image, StepError> {
+pub(super) fn image(
+    surface: &TensorSurface,
+    polyline: &[DVec2],
+    tolerance: f64,
+) -> Result<Image, ModelError> {
     let mut pieces = Vec::new();
     let mut parameters = vec![0.0];
     let mut at = 0.0;
@@ -178,7 +181,7 @@ fn hermite(exact: &BezierPatch) -> [DVec3; 4] {
 }
 
 /// One B-spline from pieces that follow one another.
-fn join(pieces: &[Piece], tolerance: f64) -> Result<Curve, StepError> {
+fn join(pieces: &[Piece], tolerance: f64) -> Result<Curve, ModelError> {
     let (mut knots, mut control_points): (Vec<f64>, Vec<DVec3>) = (Vec::new(), Vec::new());
     let first = pieces.first().map_or(0.0, |piece| piece.from);
     knots.extend([first; 4]);
@@ -200,26 +203,4 @@ fn join(pieces: &[Piece], tolerance: f64) -> Result<Curve, StepError> {
     knots.extend(pieces.last().map(|piece| piece.to));
     let numbers = control_points.iter().flat_map(|p| p.to_array()).collect();
     Ok(Curve::new(3, KnotVector::new(knots, 3)?, numbers)?)
-}
-
-/// Largest distance of a curve from the image of its preimage on a surface, at samples of every span of either.
-pub(super) fn deviation(surface: &TensorSurface, Image { pcurve, curve }: &Image) -> f64 {
-    let mut breaks = curve.knots().breaks();
-    breaks.extend(pcurve.knots().breaks());
-    breaks.sort_by(f64::total_cmp);
-    let parameters: Vec<f64> = breaks
-        .windows(2)
-        .flat_map(|span| {
-            let (from, to) = (span[0], span[1]);
-            (0..=MEASURE_SAMPLES).map(move |k| from + (to - from) * k as f64 / MEASURE_SAMPLES as f64)
-        })
-        .collect();
-    let (mut uv, mut xyz) = (vec![0.0; 2 * parameters.len()], vec![0.0; 3 * parameters.len()]);
-    pcurve.eval_rows(&parameters, 0, &mut uv);
-    curve.eval_rows(&parameters, 0, &mut xyz);
-    let domain = surface.domain();
-    // rounding may leave the domain by a unit in the last place
-    let uv: Vec<DVec2> = uv.chunks_exact(2).map(|uv| domain.clamp(DVec2::from_slice(uv))).collect();
-    let distance = |(a, b): (DVec3, &[f64])| a.distance(DVec3::from_slice(b));
-    points(surface, &uv).into_iter().zip(xyz.chunks_exact(3)).map(distance).fold(0.0, f64::max)
 }

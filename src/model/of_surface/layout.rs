@@ -371,7 +371,7 @@ mod tests {
             let diamond = [[0.5, 0.0], [1.0, 0.5], [0.5, 1.0], [0.0, 0.5]].map(DVec2::from).to_vec();
             check(tiles.clone(), &[diamond]);
             // nearer to lines than any face may be wide
-            let near = 0.4 * crate::export::step::CURVE_TOLERANCE;
+            let near = 0.4 * super::super::CURVE_TOLERANCE;
             let layout = check(tiles.clone(), &[rectangle([near, 0.25 - near], [0.5 + near, 0.75 + near])]);
             let exact = check(tiles, &[rectangle([0.0, 0.25], [0.5, 0.75])]);
             assert_eq!(layout.faces.len(), exact.faces.len());

@@ -1,0 +1,196 @@
+//! A model.
+//!
+//! ```text
+//! offset  type          content
+//! 24      u64 x 5       counts of surfaces, vertices, edges, faces, shells
+//! 64      f64           diagonal
+//! 72                    for each surface: u64 0 and what follows dim (included) in a tensor surface;
+//!                       or u64 1 (plane) or 2 (cylinder), f64 x 9 origin, first and third axis, for a cylinder
+//!                       its f64 radius
+//!                       for each vertex: f64 x 3
+//!                       for each edge: u64 x 2 its vertices, u64 1 if it is sharp, else 0, and what follows dim
+//!                       (included) in a curve
+//!                       for each face: u64 its surface, u64 1 if it is not turned, u64 label, u64 number of loops;
+//!                       for each loop: u64 number of edges; for each of them: u64 the edge, u64 1 if it runs along
+//!                       it, u64 1 if there is a p-curve, and then the p-curve as a curve
+//!                       for each shell: u64 0 open, 1 solid, 2 void, u64 the shell it is a void in (else 0), u64
+//!                       number of faces, the faces as u64
+//! ```
+
+use super::bytes::{Reader, Writer};
+use super::{LoadError, MODEL, Save, curve, tensor};
+use crate::curve::Curve;
+use crate::model::{
+    Builder, Carrier, Coedge, Cylinder, Edge, EdgeId, Face, FaceId, Frame, Loop, Model, Plane, Role, ShellId,
+    SurfaceId, VertexId,
+};
+use glam::DVec3;
+
+/// Bytes of a count, flag, number or double.
+const FIELD: usize = 8;
+
+impl Save for Model {
+    fn file_kind(&self) -> u32 {
+        MODEL
+    }
+
+    fn content_size(&self) -> usize {
+        let surface = |carrier: &Carrier| match carrier {
+            Carrier::Spline(spline) => FIELD + spline.content_size(),
+            Carrier::Plane(_) => 10 * FIELD,
+            Carrier::Cylinder(_) => 11 * FIELD,
+        };
+        let coedge = |coedge: &Coedge| 3 * FIELD + coedge.pcurve.as_ref().map_or(0, Save::content_size);
+        let bound = |bound: &Loop| FIELD + bound.iter().map(coedge).sum::<usize>();
+        let face = |face: &Face| 4 * FIELD + face.bounds.iter().map(bound).sum::<usize>();
+        6 * FIELD
+            + self.surfaces().iter().map(surface).sum::<usize>()
+            + 3 * FIELD * self.vertices().len()
+            + self.edges().iter().map(|edge| 3 * FIELD + edge.curve.content_size()).sum::<usize>()
+            + self.faces().iter().map(face).sum::<usize>()
+            + self.shells().iter().map(|shell| (3 + shell.faces.len()) * FIELD).sum::<usize>()
+    }
+
+    fn write(&self, writer: &mut Writer) {
+        let (vertices, edges) = (self.vertices().len(), self.edges().len());
+        for count in [self.surfaces().len(), vertices, edges, self.faces().len(), self.shells().len()] {
+            writer.count(count);
+        }
+        writer.doubles(&[self.diagonal()]);
+        self.surfaces().iter().for_each(|carrier| write_carrier(carrier, writer));
+        self.vertices().iter().for_each(|place| writer.doubles(&place.to_array()));
+        for edge in self.edges() {
+            edge.vertices.iter().for_each(|vertex| writer.count(vertex.index()));
+            writer.count(usize::from(edge.is_sharp));
+            edge.curve.write(writer);
+        }
+        self.faces().iter().for_each(|face| write_face(face, writer));
+        for shell in self.shells() {
+            let (role, solid) = match shell.role {
+                Role::Open => (0, 0),
+                Role::Solid => (1, 0),
+                Role::VoidIn(solid) => (2, solid.index()),
+            };
+            [role, solid, shell.faces.len()].into_iter().for_each(|number| writer.count(number));
+            shell.faces.iter().for_each(|face| writer.count(face.index()));
+        }
+    }
+}
+
+fn write_carrier(carrier: &Carrier, writer: &mut Writer) {
+    let frame = |frame: &Frame, writer: &mut Writer| {
+        [frame.origin(), frame.x(), frame.z()].iter().for_each(|axis| writer.doubles(&axis.to_array()));
+    };
+    match carrier {
+        Carrier::Spline(spline) => {
+            writer.count(0);
+            spline.write(writer);
+        }
+        Carrier::Plane(plane) => {
+            writer.count(1);
+            frame(&plane.0, writer);
+        }
+        Carrier::Cylinder(cylinder) => {
+            writer.count(2);
+            frame(cylinder.frame(), writer);
+            writer.doubles(&[cylinder.radius()]);
+        }
+    }
+}
+
+fn write_face(face: &Face, writer: &mut Writer) {
+    writer.count(face.surface.index());
+    writer.count(usize::from(face.is_forward));
+    writer.count(face.label as usize);
+    writer.count(face.bounds.len());
+    for bound in &face.bounds {
+        writer.count(bound.len());
+        for coedge in bound {
+            writer.count(coedge.edge.index());
+            writer.count(usize::from(coedge.is_forward));
+            writer.count(usize::from(coedge.pcurve.is_some()));
+            coedge.pcurve.iter().for_each(|pcurve| pcurve.write(writer));
+        }
+    }
+}
+
+pub(super) fn read(reader: &mut Reader) -> Result<Model, LoadError> {
+    let mut counts = [0; 5];
+    for count in &mut counts {
+        *count = reader.count()?;
+    }
+    let [surfaces, vertices, edges, faces, shells] = counts;
+    let mut builder = Builder::default();
+    builder.diagonal(reader.double()?);
+    for _ in 0..surfaces {
+        builder.surface(read_carrier(reader)?);
+    }
+    for _ in 0..vertices {
+        builder.vertex(read_place(reader)?);
+    }
+    for _ in 0..edges {
+        let vertices = [reader.number()?, reader.number()?].map(VertexId::new);
+        let is_sharp = reader.flag()?;
+        builder.add_edge(Edge { curve: curve::read(reader)?, vertices, is_sharp });
+    }
+    for _ in 0..faces {
+        builder.add_face(read_face(reader)?);
+    }
+    for _ in 0..shells {
+        let (role, solid, count) = (reader.count()?, reader.number()?, reader.count()?);
+        let role = match role {
+            0 => Role::Open,
+            1 => Role::Solid,
+            2 => Role::VoidIn(ShellId::new(solid)),
+            _ => return Err(reader.wrong(format!("the role {role} of a shell is unknown"))),
+        };
+        let mut faces = Vec::new();
+        for _ in 0..count {
+            faces.push(FaceId::new(reader.number()?));
+        }
+        builder.shell(faces, role);
+    }
+    builder.finish().map_err(|error| reader.wrong(error.to_string()))
+}
+
+fn read_place(reader: &mut Reader) -> Result<DVec3, LoadError> {
+    Ok(DVec3::from_slice(&reader.doubles(3)?))
+}
+
+fn read_carrier(reader: &mut Reader) -> Result<Carrier, LoadError> {
+    match reader.count()? {
+        0 => Ok(tensor::read(reader)?.into()),
+        1 => Ok(Plane(read_frame(reader)?).into()),
+        2 => {
+            let frame = read_frame(reader)?;
+            let cylinder = Cylinder::new(frame, reader.double()?);
+            Ok(cylinder.ok_or_else(|| reader.wrong("the radius of a cylinder is not positive"))?.into())
+        }
+        kind => Err(reader.wrong(format!("the kind {kind} of a surface under a face is unknown"))),
+    }
+}
+
+fn read_frame(reader: &mut Reader) -> Result<Frame, LoadError> {
+    let [origin, x, z] = [read_place(reader)?, read_place(reader)?, read_place(reader)?];
+    Frame::from_axes(origin, z, x)
+        .ok_or_else(|| reader.wrong("axes are not at right angles or not of length 1"))
+}
+
+fn read_face(reader: &mut Reader) -> Result<Face, LoadError> {
+    let surface = SurfaceId::new(reader.number()?);
+    let is_forward = reader.flag()?;
+    let (label, loop_count) = (reader.number()?, reader.count()?);
+    let mut bounds: Vec<Loop> = Vec::new();
+    for _ in 0..loop_count {
+        let count = reader.count()?;
+        let mut bound = Vec::new();
+        for _ in 0..count {
+            let edge = EdgeId::new(reader.number()?);
+            let is_forward = reader.flag()?;
+            let pcurve: Option<Curve> = if reader.flag()? { Some(curve::read(reader)?) } else { None };
+            bound.push(Coedge { edge, is_forward, pcurve });
+        }
+        bounds.push(bound);
+    }
+    Ok(Face { surface, is_forward, bounds, label })
+}

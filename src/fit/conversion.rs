@@ -1,0 +1,93 @@
+//! Models of surfaces of any family: a spline over triangles is no tensor surface, so one is fitted to its
+//! tessellation.
+
+use super::common::{FitError, Regularize};
+use super::report::{Tolerance, ToleranceScale};
+use super::tensor::{TensorOptions, fit_mesh};
+use crate::Control;
+use crate::model::{FormOptions, Model, ModelError, of_surface};
+use crate::query::tessellate::{TessellateError, TessellateOptions, tessellate};
+use crate::surface::AnySurface;
+use crate::surface::d1rc::D1rcSurface;
+use crate::surface::tensor::TensorSurface;
+
+/// How a surface becomes a model.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ConversionOptions {
+    /// What is made of a T-spline or PHT-spline.
+    pub form: FormOptions,
+    /// A spline over triangles becomes a tensor surface fitted within this, in model units, at the nodes of a fine
+    /// tessellation; 0 takes 1e-3 of the diagonal.
+    pub tolerance: f64,
+}
+
+/// A surface has no model.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ConversionError {
+    /// Its faces are none.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// The surface has no tessellation to fit to.
+    #[error(transparent)]
+    Tessellate(#[from] TessellateError),
+    /// No tensor surface can be fitted to the surface.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+    /// The tensor surface fitted to it is farther off than allowed.
+    #[error(
+        "the nearest tensor surface is {error} off, {tolerance} is allowed: fit one yourself, or tessellate"
+    )]
+    Tolerance {
+        /// Largest distance measured.
+        error: f64,
+        /// The tolerance.
+        tolerance: f64,
+    },
+}
+
+impl ConversionError {
+    /// The class of the error.
+    pub fn kind(&self) -> crate::ErrorKind {
+        match self {
+            Self::Model(error) => error.kind(),
+            Self::Tessellate(error) => error.kind(),
+            Self::Fit(error) => error.kind(),
+            Self::Tolerance { .. } => crate::ErrorKind::TooLarge,
+        }
+    }
+
+    /// The offending trim or knot.
+    pub fn index(&self) -> Option<usize> {
+        match self {
+            Self::Model(error) => error.index(),
+            _ => None,
+        }
+    }
+}
+
+/// The part of a surface inside its trims as an open shell: see [`of_surface`].
+pub fn to_model(surface: &AnySurface, options: &ConversionOptions) -> Result<Model, ConversionError> {
+    match surface {
+        AnySurface::D1rc(d1rc) => Ok(of_surface(&fitted(d1rc, options)?.into(), &options.form)?),
+        _ => Ok(of_surface(surface, &options.form)?),
+    }
+}
+
+/// A tensor surface near a spline over triangles, with its trims.
+fn fitted(surface: &D1rcSurface, options: &ConversionOptions) -> Result<TensorSurface, ConversionError> {
+    let mesh =
+        tessellate(surface, &TessellateOptions { keep_trims: true, ..TessellateOptions::default() })?.mesh;
+    let value = if options.tolerance == 0.0 { 1e-3 * mesh.diagonal() } else { options.tolerance };
+    // nodes lie on the surface; between them the fit is as free as the chords are off
+    let fine = TessellateOptions { chord_tolerance: value / 4.0, ..TessellateOptions::default() };
+    let mesh = tessellate(surface, &fine)?.mesh;
+    let fit = TensorOptions {
+        tolerance: Tolerance { value, scale: ToleranceScale::Absolute },
+        max_coefficients: options.form.max_coefficients.min(TensorOptions::default().max_coefficients),
+        regularize: Regularize::Never,
+        ..TensorOptions::default()
+    };
+    let fit = fit_mesh(&mesh, &fit, &mut Control::default())?;
+    let (error, tolerance) = (fit.report.max_error, value);
+    if error <= tolerance { Ok(fit.surface) } else { Err(ConversionError::Tolerance { error, tolerance }) }
+}
