@@ -13,6 +13,7 @@ use crate::fit::common::FitError;
 use crate::fit::conversion::ConversionError;
 use crate::fit::d1rc::D1rcFitError;
 use crate::fit::field::transfer::TransferError;
+use crate::fit::model::ModelFitError;
 use crate::fit::skin::SkinError;
 use crate::knots::KnotError;
 use crate::layout::LayoutError;
@@ -93,6 +94,9 @@ pub enum Error {
     /// A fit is not possible.
     #[error(transparent)]
     Fit(#[from] FitError),
+    /// A mesh does not become a model.
+    #[error(transparent)]
+    ModelFit(#[from] ModelFitError),
     /// Values cannot be carried from mesh to mesh.
     #[error(transparent)]
     Transfer(#[from] TransferError),
@@ -196,6 +200,7 @@ impl Error {
             Self::MeshLayout(error) => (error.kind(), error.index()),
             Self::Sphere(error) => (error.kind(), error.index()),
             Self::Fit(error) => (error.kind(), error.index()),
+            Self::ModelFit(error) => (error.kind(), error.index()),
             Self::Transfer(error) => (error.kind(), error.index()),
             Self::D1rcFit(error) => (error.kind(), error.index()),
             Self::Skin(error) => (error.kind(), error.index()),

@@ -8,6 +8,7 @@ mod error;
 pub mod errors;
 pub(in crate::fit) mod foot_points;
 mod frame;
+pub(in crate::fit) mod hermite_cell;
 pub(in crate::fit) mod interior;
 mod parameters;
 pub mod report;

@@ -8,9 +8,9 @@
 //! of blocks of four by four.
 
 use super::data::Data;
-use super::hermite_cell::{CellMatrix, CellSums, weights};
 use crate::control::{Pool, Watch};
 use crate::fit::common::FitError;
+use crate::fit::common::hermite_cell::{CellMatrix, CellSums, weights};
 use crate::linalg::SymbolicCholesky;
 use crate::surface::pht::{Matrix, expansions};
 use crate::tmesh::{Cell, TMesh, Topology};

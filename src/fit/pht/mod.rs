@@ -13,7 +13,6 @@
 
 mod data;
 mod global;
-mod hermite_cell;
 mod local;
 mod options;
 mod refine;

@@ -1,0 +1,70 @@
+//! Foot points on a surface of patches, which may cross edges.
+
+use crate::control::Pool;
+use crate::layout::{Layout, Place};
+use crate::surface::Surface;
+use crate::surface::pht::PhtSurface;
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+/// Longest step, as a part of a patch.
+const LONGEST_STEP: f64 = 0.1;
+/// Least part of a right angle's determinant that a step is divided by: below it the tangents are nearly parallel.
+const LEAST_ANGLE: f64 = 1e-6;
+/// Samples of one piece of work.
+const PIECE: usize = 512;
+
+/// Moves each place by Gauss-Newton steps towards the foot of its point, if that brings it nearer; returns the
+/// distances.
+pub fn foot_points(
+    layout: &Layout,
+    surfaces: &[PhtSurface],
+    places: &mut [Place],
+    points: &[DVec3],
+    steps: u32,
+    pool: &Pool,
+) -> Vec<f64> {
+    let mut distances = vec![0.0; places.len()];
+    pool.run(|| {
+        let data = places.par_chunks_mut(PIECE).zip(points.par_chunks(PIECE));
+        distances.par_chunks_mut(PIECE).zip(data).for_each(|(distances, (places, points))| {
+            for ((distance, place), &point) in distances.iter_mut().zip(places).zip(points) {
+                *distance = to_foot(layout, surfaces, place, point, steps);
+            }
+        });
+    });
+    distances
+}
+
+fn to_foot(layout: &Layout, surfaces: &[PhtSurface], place: &mut Place, point: DVec3, steps: u32) -> f64 {
+    let mut row = [0.0; 9];
+    for _ in 0..steps {
+        surfaces[place.quad as usize].eval_rows(&[place.uv], 1, &mut row);
+        let [on_surface, along_u, along_v] = [0, 3, 6].map(|k| DVec3::from_slice(&row[k..k + 3]));
+        let miss = point - on_surface;
+        let next = layout.cross(place.quad, place.uv + step(miss, along_u, along_v));
+        if !(distance(surfaces, next, point) < miss.length()) {
+            return miss.length();
+        }
+        *place = next;
+    }
+    distance(surfaces, *place, point)
+}
+
+/// The step that would reach the foot on the tangent plane.
+fn step(miss: DVec3, along_u: DVec3, along_v: DVec3) -> DVec2 {
+    let (a, b, c) = (along_u.length_squared(), along_u.dot(along_v), along_v.length_squared());
+    let (p, q) = (along_u.dot(miss), along_v.dot(miss));
+    let determinant = (a * c - b * b).max(LEAST_ANGLE * a * c);
+    if !(determinant > 0.0) {
+        return DVec2::ZERO;
+    }
+    let step = DVec2::new(c * p - b * q, a * q - b * p) / determinant;
+    step.clamp(DVec2::splat(-LONGEST_STEP), DVec2::splat(LONGEST_STEP))
+}
+
+fn distance(surfaces: &[PhtSurface], place: Place, point: DVec3) -> f64 {
+    let mut row = [0.0; 3];
+    surfaces[place.quad as usize].eval_rows(&[place.uv], 0, &mut row);
+    DVec3::from_array(row).distance(point)
+}

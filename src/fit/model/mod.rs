@@ -1,0 +1,123 @@
+//! Smooth models within a tolerance: one PHT-spline a patch of a layout, fitted together.
+//!
+//! J. Deng et al., "Polynomial splines over hierarchical T-meshes", Graph. Models 70 (2008), section 5.2, carried on to any
+//! layout: the unknowns are those of a [smooth space](crate::surface::g1), so the patches share position and tangent
+//! plane to rounding whatever the data say.
+//!
+//! ```text
+//! samples: nodes, centroids, middles of edges, grids on long facets
+//! repeat   least squares over all patches, with guards where samples are few
+//!          one step towards the foot points, over edges where they lie there
+//!          split the cells in which a sample misses the tolerance, and conform the cells along edges
+//! ```
+
+mod error;
+mod foot;
+mod least_squares;
+mod options;
+mod refine;
+mod report;
+mod samples;
+#[cfg(test)]
+mod tests;
+
+pub use error::ModelFitError;
+pub use options::ModelOptions;
+pub use report::{ModelReport, PatchReport};
+pub use samples::NodePlaces;
+
+use super::common::interior::triangle_sagittas;
+use super::common::rounds::run;
+use crate::control::Control;
+use crate::layout::{Layout, Place};
+use crate::mesh::Mesh;
+use crate::query::triangles::TriangleTree;
+use crate::surface::g1::uniform;
+use crate::surface::pht::PhtSurface;
+use glam::DVec2;
+use refine::Refinement;
+use samples::Samples;
+use std::time::Instant;
+
+/// Patches that meet smoothly, with all that is known of them.
+#[derive(Debug, Clone)]
+pub struct LayoutFit {
+    /// A surface for each quad of the layout.
+    pub surfaces: Vec<PhtSurface>,
+    /// What the fit did and how good it is.
+    pub report: ModelReport,
+    /// Where each node of the mesh lies; None for a node without triangles.
+    pub places: Vec<Option<Place>>,
+    /// The error of each node, at its place; NaN without one.
+    pub errors: Vec<f64>,
+}
+
+/// Level of the cells to start from over six large patches.
+const CUBE_LEVEL: u32 = 3;
+/// Level of the cells to start from over any other layout: vertices of four quads ask for two segments an edge, and
+/// one level more leaves room for the parameters to slide.
+const LAYOUT_LEVEL: u32 = 2;
+
+/// Fits the shape of a mesh over a layout on which its nodes have places.
+pub fn fit_over_layout(
+    mesh: &Mesh,
+    layout: &Layout,
+    places: NodePlaces,
+    options: &ModelOptions,
+    control: &mut Control,
+) -> Result<LayoutFit, ModelFitError> {
+    let start = Instant::now();
+    options.check(layout.quads().len())?;
+    check_places(mesh, layout, places)?;
+    let start_level = match (options.start_level, places) {
+        (0, NodePlaces::Sphere(_)) => CUBE_LEVEL,
+        (0, NodePlaces::Patches(_)) => LAYOUT_LEVEL,
+        (level, _) => level,
+    };
+    let (tolerance, is_raised) = options.tolerance.absolute(&mesh.bounds());
+    let sagittas = triangle_sagittas(mesh);
+    let samples = Samples::new(mesh, places, layout, &sagittas);
+    super::common::checks::check_count(samples.nodes.len())?;
+    let mut refinement = Refinement {
+        layout,
+        options,
+        samples,
+        meshes: uniform(layout, start_level)?,
+        tree: TriangleTree::new(mesh),
+        sagittas,
+        tolerance,
+        before: Vec::new(),
+        rounds: 0,
+        stuck: 0,
+    };
+    let outcome = run(&mut refinement, control)?;
+    let mut report = report::measure(&refinement, &outcome, control)?;
+    report.remarks.add_if(is_raised, super::report::Remarks::TOLERANCE_RAISED);
+    report.fit_seconds = start.elapsed().as_secs_f64();
+    let round = outcome.best;
+    let mut places = vec![None; mesh.points().len()];
+    let mut errors = vec![f64::NAN; mesh.points().len()];
+    for ((&node, &place), &distance) in
+        refinement.samples.nodes.iter().zip(&round.places).zip(&round.distances)
+    {
+        places[node as usize] = Some(place);
+        errors[node as usize] = distance;
+    }
+    Ok(LayoutFit { surfaces: round.surfaces, report, places, errors })
+}
+
+fn check_places(mesh: &Mesh, layout: &Layout, places: NodePlaces) -> Result<(), ModelFitError> {
+    let expected = mesh.points().len();
+    if places.len() != expected {
+        let what = "the places of nodes";
+        return Err(super::common::FitError::Count { what, count: places.len(), expected }.into());
+    }
+    let is_inside = |uv: DVec2| uv.cmpge(DVec2::ZERO).all() && uv.cmple(DVec2::ONE).all();
+    let wrong = match places {
+        NodePlaces::Sphere(directions) => directions.iter().position(|at| !at.is_finite()),
+        NodePlaces::Patches(places) => places.iter().position(|place| {
+            place.is_some_and(|Place { quad, uv }| quad as usize >= layout.quads().len() || !is_inside(uv))
+        }),
+    };
+    wrong.map_or(Ok(()), |node| Err(ModelFitError::Place { node }))
+}
