@@ -1,5 +1,6 @@
 //! How a long call runs: on how many threads, and who hears of its progress.
 
+use crate::failure::{Classify, ErrorKind};
 use rayon::{ThreadBuilder, ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::cell::Cell;
 use std::num::NonZeroUsize;
@@ -14,6 +15,12 @@ use std::time::Duration;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("cancelled by the progress callback")]
 pub struct Cancelled;
+
+impl Classify for Cancelled {
+    fn kind(&self) -> ErrorKind {
+        ErrorKind::Cancelled
+    }
+}
 
 /// Hears the done fraction (0 to 1) and the error so far (NaN while unknown); breaks to cancel.
 pub type ProgressFn<'a> = dyn FnMut(f64, f64) -> ControlFlow<()> + 'a;

@@ -1,5 +1,7 @@
 //! Knot vectors: where the polynomial pieces of a spline meet.
 
+use crate::failure::{Classify, ErrorKind};
+
 /// Largest degree that curves and surfaces may have; their evaluation keeps one value for each of the
 /// `degree + 1` basis functions on the stack.
 pub const MAX_DEGREE: usize = 9;
@@ -73,20 +75,19 @@ pub enum KnotError {
     },
 }
 
-impl KnotError {
-    /// The class of the error.
-    pub fn kind(&self) -> crate::ErrorKind {
+impl Classify for KnotError {
+    fn kind(&self) -> ErrorKind {
         match self {
-            Self::NotFinite { .. } => crate::ErrorKind::NotFinite,
-            Self::Empty { .. } => crate::ErrorKind::Degenerate,
-            Self::Outside { .. } => crate::ErrorKind::Outside,
-            Self::NotRemovable { .. } => crate::ErrorKind::Index,
-            _ => crate::ErrorKind::InvalidArgument,
+            Self::NotFinite { .. } => ErrorKind::NotFinite,
+            Self::Empty { .. } => ErrorKind::Degenerate,
+            Self::Outside { .. } => ErrorKind::Outside,
+            Self::NotRemovable { .. } => ErrorKind::Index,
+            _ => ErrorKind::InvalidArgument,
         }
     }
 
     /// The offending knot.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match *self {
             Self::NotFinite { index }
             | Self::Decreasing { index }

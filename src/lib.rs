@@ -44,6 +44,7 @@ pub mod control;
 pub mod curve;
 pub mod error;
 pub mod export;
+pub mod failure;
 pub mod ffi;
 pub mod fit;
 pub mod geometry;
@@ -63,4 +64,5 @@ pub mod surface;
 pub mod tmesh;
 
 pub use control::Control;
-pub use error::{Error, ErrorKind};
+pub use error::Error;
+pub use failure::{Classify, ErrorKind};

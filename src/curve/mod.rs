@@ -8,6 +8,7 @@ pub use interpolate::{EndRule, Interpolant, interpolate};
 pub use refine::{KNOT_TOLERANCE, common_breaks, common_knots, on_common_knots};
 
 use crate::basis::basis_derivatives;
+use crate::failure::{Classify, ErrorKind};
 use crate::knots::{KnotError, KnotVector};
 
 /// A curve is not one.
@@ -83,23 +84,22 @@ pub enum CurveError {
     Knots(#[from] KnotError),
 }
 
-impl CurveError {
-    /// The class of the error.
-    pub fn kind(&self) -> crate::ErrorKind {
+impl Classify for CurveError {
+    fn kind(&self) -> ErrorKind {
         match self {
             Self::NotFinite { .. }
             | Self::ParameterNotFinite { .. }
             | Self::PointNotFinite { .. }
-            | Self::SlopesNotFinite => crate::ErrorKind::NotFinite,
-            Self::Outside { .. } => crate::ErrorKind::Outside,
-            Self::NotRising { .. } => crate::ErrorKind::Degenerate,
+            | Self::SlopesNotFinite => ErrorKind::NotFinite,
+            Self::Outside { .. } => ErrorKind::Outside,
+            Self::NotRising { .. } => ErrorKind::Degenerate,
             Self::Knots(error) => error.kind(),
-            _ => crate::ErrorKind::InvalidArgument,
+            _ => ErrorKind::InvalidArgument,
         }
     }
 
     /// The offending control point, or point to evaluate.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match *self {
             Self::NotFinite { index }
             | Self::ParameterNotFinite { index }

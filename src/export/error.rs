@@ -1,5 +1,6 @@
 //! What can go wrong when a file is written.
 
+use crate::failure::{Classify, ErrorKind};
 use std::path::Path;
 
 /// A file cannot be written.
@@ -31,12 +32,11 @@ pub enum ExportError {
     },
 }
 
-impl ExportError {
-    /// The class of the error.
-    pub fn kind(&self) -> crate::ErrorKind {
+impl Classify for ExportError {
+    fn kind(&self) -> ErrorKind {
         match self {
-            Self::File { .. } => crate::ErrorKind::File,
-            _ => crate::ErrorKind::InvalidArgument,
+            Self::File { .. } => ErrorKind::File,
+            _ => ErrorKind::InvalidArgument,
         }
     }
 }

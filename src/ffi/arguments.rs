@@ -1,6 +1,6 @@
 //! What C passes in: pointers, arrays, texts, numbers that stand for choices, and records.
 
-use super::guard::Failure;
+use super::failure::Failure;
 use super::planish_status;
 use crate::surface::Kind;
 use std::ffi::{CStr, c_char};
@@ -72,6 +72,12 @@ impl ArgumentError {
             Self::NoSuch { index, .. } | Self::NotUtf8 { byte: index, .. } => Some(index),
             _ => None,
         }
+    }
+}
+
+impl From<ArgumentError> for Failure {
+    fn from(error: ArgumentError) -> Self {
+        Self { status: error.status(), sentence: error.to_string(), index: error.index() }
     }
 }
 

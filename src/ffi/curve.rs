@@ -86,7 +86,7 @@ pub unsafe extern "C" fn planish_curve_fit(
         let fit = with_control(given.thread_count, given.progress, given.user, |control| {
             fit_curve(u, values, dim, &options, control)
         })??;
-        Ok(outputs.store_curve(fit))
+        Ok(outputs.store(planish_curve::into_raw(fit.curve), &[], &fit.errors, &fit.report))
     })
 }
 

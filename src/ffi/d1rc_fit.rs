@@ -51,7 +51,7 @@ pub unsafe extern "C" fn planish_d1rc_fit(
         let fit = with_control(given.thread_count, given.progress, given.user, |control| {
             fit_mesh(mesh, &core, control)
         })??;
-        Ok(outputs.store_surface(fit.surface, &fit.parameters, &fit.errors, &fit.report))
+        Ok(outputs.store(planish_surface::into_raw(fit.surface), &fit.parameters, &fit.errors, &fit.report))
     })
 }
 

@@ -8,36 +8,11 @@
 //! [`planish_status::OutOfMemory`]. Where the core cannot get memory, Rust ends the process, as it does in
 //! any Rust program; the core therefore checks sizes against limits before it asks.
 
-use super::arguments::ArgumentError;
+pub(super) use super::failure::Failure;
 use super::planish_status;
-use crate::Error;
 use std::cell::{Cell, RefCell};
 use std::panic::{self, AssertUnwindSafe, catch_unwind};
 use std::sync::Once;
-
-/// Why a call failed: its status, its sentence, and the index of the offender.
-#[derive(Debug)]
-pub(super) struct Failure {
-    status: planish_status,
-    sentence: String,
-    index: Option<usize>,
-}
-
-impl From<ArgumentError> for Failure {
-    fn from(error: ArgumentError) -> Self {
-        Self { status: error.status(), sentence: error.to_string(), index: error.index() }
-    }
-}
-
-impl<E> From<E> for Failure
-where
-    Error: From<E>,
-{
-    fn from(error: E) -> Self {
-        let error = Error::from(error);
-        Self { status: error.kind().into(), sentence: error.to_string(), index: error.index() }
-    }
-}
 
 thread_local! {
     static LAST: RefCell<(String, Option<usize>)> = const { RefCell::new((String::new(), None)) };

@@ -21,6 +21,7 @@ mod d1rc;
 mod d1rc_fit;
 mod decimate;
 mod export;
+mod failure;
 mod field;
 mod guard;
 mod mesh;

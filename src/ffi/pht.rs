@@ -155,7 +155,7 @@ unsafe fn fit(
         let fit = with_control(given.thread_count, given.progress, given.user, |control| {
             method(&options, control)
         })??;
-        Ok(outputs.store_surface(fit.surface, &fit.parameters, &fit.errors, &fit.report))
+        Ok(outputs.store(planish_surface::into_raw(fit.surface), &fit.parameters, &fit.errors, &fit.report))
     }
 }
 

@@ -1,13 +1,8 @@
 //! What fits say of themselves, and what they hand back.
 
 use super::arguments::{ArgumentError, ReportOut, out, slice_mut_or_none};
-use super::curve::planish_curve;
 use super::planish_status;
-use super::surface::planish_surface;
-use crate::fit::curve::CurveFit;
 use crate::fit::report::{FitReport, Remarks, StopReason};
-use crate::fit::skin::SkinFit;
-use crate::surface::AnySurface;
 use glam::DVec2;
 use std::mem::MaybeUninit;
 
@@ -230,7 +225,7 @@ impl<T> FitOutputs<'_, T> {
     }
 
     /// Hands everything over.
-    fn store(self, uv: &[DVec2], errors: &[f64], report: &FitReport, handle: *mut T) -> planish_status {
+    pub fn store(self, handle: *mut T, uv: &[DVec2], errors: &[f64], report: &FitReport) -> planish_status {
         if let Some(out) = self.parameters {
             write_pairs(uv, out);
         }
@@ -240,30 +235,6 @@ impl<T> FitOutputs<'_, T> {
         self.report.store(report.into());
         self.handle.write(handle);
         gravest(report.remarks.0)
-    }
-}
-
-impl FitOutputs<'_, planish_surface> {
-    pub fn store_surface(
-        self,
-        surface: impl Into<AnySurface>,
-        parameters: &[DVec2],
-        errors: &[f64],
-        report: &FitReport,
-    ) -> planish_status {
-        self.store(parameters, errors, report, planish_surface::into_raw(surface))
-    }
-
-    /// Of section curves the caller has no data to be told of.
-    pub fn store_skin(self, fit: SkinFit) -> planish_status {
-        let handle = planish_surface::into_raw(fit.surface);
-        self.store(&fit.parameters, &fit.errors, &fit.report, handle)
-    }
-}
-
-impl FitOutputs<'_, planish_curve> {
-    pub fn store_curve(self, fit: CurveFit) -> planish_status {
-        self.store(&[], &fit.errors, &fit.report, planish_curve::into_raw(fit.curve))
     }
 }
 

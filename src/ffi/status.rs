@@ -1,7 +1,7 @@
 //! What calls return, and what the thread's last failure was.
 
 use super::guard::{guard_value, last_failure};
-use crate::ErrorKind;
+use crate::failure::ErrorKind;
 use std::ffi::{CStr, c_char};
 
 /// What a call came to: 0 or positive is success, negative is an error. Test with `status < 0`.

@@ -251,7 +251,7 @@ unsafe fn run(
             method(&options, control)
         })??;
         skin_report.store((&fit.skin).into());
-        Ok(outputs.store_skin(fit))
+        Ok(outputs.store(planish_surface::into_raw(fit.surface), &fit.parameters, &fit.errors, &fit.report))
     }
 }
 

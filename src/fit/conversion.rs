@@ -5,6 +5,7 @@ use super::common::{FitError, Regularize};
 use super::report::{Tolerance, ToleranceScale};
 use super::tensor::{TensorOptions, fit_mesh};
 use crate::Control;
+use crate::failure::{Classify, ErrorKind};
 use crate::model::{FormOptions, Model, ModelError, of_surface};
 use crate::query::tessellate::{TessellateError, TessellateOptions, tessellate};
 use crate::surface::AnySurface;
@@ -45,19 +46,18 @@ pub enum ConversionError {
     },
 }
 
-impl ConversionError {
-    /// The class of the error.
-    pub fn kind(&self) -> crate::ErrorKind {
+impl Classify for ConversionError {
+    fn kind(&self) -> ErrorKind {
         match self {
             Self::Model(error) => error.kind(),
             Self::Tessellate(error) => error.kind(),
             Self::Fit(error) => error.kind(),
-            Self::Tolerance { .. } => crate::ErrorKind::TooLarge,
+            Self::Tolerance { .. } => ErrorKind::TooLarge,
         }
     }
 
     /// The offending trim or knot.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match self {
             Self::Model(error) => error.index(),
             _ => None,

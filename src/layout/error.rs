@@ -1,6 +1,6 @@
 //! What can be wrong with a layout.
 
-use crate::ErrorKind;
+use crate::failure::{Classify, ErrorKind};
 
 /// Quads do not make a layout.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -88,9 +88,8 @@ pub enum LayoutError {
     },
 }
 
-impl LayoutError {
-    /// The class of the error.
-    pub fn kind(&self) -> ErrorKind {
+impl Classify for LayoutError {
+    fn kind(&self) -> ErrorKind {
         match self {
             Self::Empty | Self::EdgeCount { .. } => ErrorKind::InvalidArgument,
             Self::VertexNumbers { .. } => ErrorKind::Index,
@@ -100,7 +99,7 @@ impl LayoutError {
     }
 
     /// The offending quad or vertex.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match *self {
             Self::RepeatedVertex { quad }
             | Self::CrowdedEdge { quad, .. }

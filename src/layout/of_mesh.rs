@@ -6,7 +6,7 @@
 use super::{Layout, LayoutError, NodeMap, complex, cube_place};
 use crate::Control;
 use crate::control::Cancelled;
-use crate::error::ErrorKind;
+use crate::failure::{Classify, ErrorKind};
 use crate::mesh::Mesh;
 use crate::parameterize::sphere::{SphereError, SphereOptions, map_to_sphere};
 use std::time::Instant;
@@ -141,9 +141,8 @@ pub enum MeshLayoutError {
     Cancelled(#[from] Cancelled),
 }
 
-impl MeshLayoutError {
-    /// The class of the error.
-    pub fn kind(&self) -> ErrorKind {
+impl Classify for MeshLayoutError {
+    fn kind(&self) -> ErrorKind {
         match self {
             Self::Components { .. } | Self::Open { .. } | Self::Pinched { .. } => ErrorKind::Topology,
             Self::ZeroArea { .. } | Self::NoPairing { .. } => ErrorKind::Degenerate,
@@ -155,7 +154,7 @@ impl MeshLayoutError {
     }
 
     /// The offending node, if one is to blame.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match *self {
             Self::Open { node, .. } | Self::Pinched { node } => Some(node),
             Self::Sphere(error) => error.index(),

@@ -1,5 +1,5 @@
 use super::*;
-use crate::ErrorKind;
+use crate::failure::{Classify, ErrorKind};
 use glam::DVec3;
 
 /// A torus of `m` times `n` quads.

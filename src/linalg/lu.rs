@@ -17,7 +17,7 @@
 use super::dense::{factor_columns, subtract_product, vectorized};
 use super::elimination::{EliminationTree, Supernode};
 use super::ordering::{Graph, fill_reducing_order};
-use crate::error::ErrorKind;
+use crate::failure::{Classify, ErrorKind};
 use rayon::prelude::*;
 use sprs::CsMatView;
 use std::ops::Range;
@@ -61,9 +61,8 @@ pub enum LuError {
     },
 }
 
-impl LuError {
-    /// The class of the error.
-    pub fn kind(&self) -> ErrorKind {
+impl Classify for LuError {
+    fn kind(&self) -> ErrorKind {
         match self {
             Self::NotSquare { .. } | Self::PatternNotSymmetric { .. } | Self::OtherPattern { .. } => {
                 ErrorKind::InvalidArgument
@@ -74,7 +73,7 @@ impl LuError {
     }
 
     /// The offending row.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match self {
             Self::PatternNotSymmetric { row } | Self::Singular { row } => Some(*row),
             _ => None,

@@ -10,7 +10,7 @@
 //! Parameters and fields go with their nodes.
 
 use super::{Field, HalfEdge, Mesh, MeshError};
-use crate::error::ErrorKind;
+use crate::failure::{Classify, ErrorKind};
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
@@ -68,9 +68,8 @@ pub enum CutError {
     },
 }
 
-impl CutError {
-    /// The class of the error.
-    pub fn kind(&self) -> ErrorKind {
+impl Classify for CutError {
+    fn kind(&self) -> ErrorKind {
         match self {
             Self::Mesh(error) => error.kind(),
             Self::NoSuchTriangle { .. } | Self::NoSuchNode { .. } => ErrorKind::Index,
@@ -82,7 +81,7 @@ impl CutError {
     }
 
     /// The offending triangle, or node: the first of a pair.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match *self {
             Self::Mesh(ref error) => error.index(),
             Self::NoSuchTriangle { triangle, .. } => Some(triangle as usize),

@@ -1,6 +1,6 @@
 //! Why arrays are not a mesh.
 
-use crate::error::ErrorKind;
+use crate::failure::{Classify, ErrorKind};
 
 /// Arrays are not a manifold, oriented triangle mesh, or something does not fit the mesh it is for.
 ///
@@ -132,9 +132,8 @@ pub enum MeshError {
     },
 }
 
-impl MeshError {
-    /// The class of the error.
-    pub fn kind(&self) -> ErrorKind {
+impl Classify for MeshError {
+    fn kind(&self) -> ErrorKind {
         match self {
             Self::NoPoints | Self::NoTriangles | Self::WeldDistance { .. } => ErrorKind::InvalidArgument,
             Self::ParameterCount { .. } | Self::FieldCount { .. } => ErrorKind::InvalidArgument,
@@ -148,7 +147,7 @@ impl MeshError {
     }
 
     /// The offending triangle, or the node where no single triangle is to blame.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match *self {
             Self::NotFinite { node } | Self::ParameterNotFinite { node } => Some(node),
             Self::IndexOutOfRange { triangle, .. } | Self::RepeatedNode { triangle, .. } => Some(triangle),
@@ -160,7 +159,9 @@ impl MeshError {
             _ => None,
         }
     }
+}
 
+impl MeshError {
     /// The same fault told in the numbers of the arrays from which nodes and triangles were taken:
     /// `nodes[i]` and `triangles[i]` are the old numbers of node and triangle i.
     pub(super) fn renumbered(mut self, nodes: &[u32], triangles: &[u32]) -> Self {

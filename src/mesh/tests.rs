@@ -1,5 +1,5 @@
 use super::*;
-use crate::error::ErrorKind;
+use crate::failure::{Classify, ErrorKind};
 
 fn points(count: usize) -> Vec<DVec3> {
     (0..count).map(|i| DVec3::new(i as f64, (i * i) as f64, 0.5 * i as f64)).collect()

@@ -1,7 +1,7 @@
 //! What can be wrong with a model.
 
-use crate::ErrorKind;
 use crate::curve::CurveError;
+use crate::failure::{Classify, ErrorKind};
 use crate::geometry::Axis;
 use crate::knots::KnotError;
 use crate::surface::tensor::TensorError;
@@ -166,9 +166,8 @@ pub enum ModelError {
     Convert(#[from] ConvertError),
 }
 
-impl ModelError {
-    /// The class of the error.
-    pub fn kind(&self) -> ErrorKind {
+impl Classify for ModelError {
+    fn kind(&self) -> ErrorKind {
         match self {
             Self::NotFinite { .. } => ErrorKind::NotFinite,
             Self::NoSuch { .. } => ErrorKind::Index,
@@ -186,7 +185,7 @@ impl ModelError {
     }
 
     /// The offending part.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match *self {
             Self::NotFinite { vertex: index }
             | Self::NoSuch { index, .. }

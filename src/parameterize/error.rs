@@ -1,7 +1,7 @@
 //! Why a mesh cannot get its parameters.
 
 use crate::control::Cancelled;
-use crate::error::ErrorKind;
+use crate::failure::{Classify, ErrorKind};
 use crate::linalg::LuError;
 
 /// A mesh cannot be parameterized as asked.
@@ -111,9 +111,8 @@ pub enum ParameterizeError {
     Cancelled(#[from] Cancelled),
 }
 
-impl ParameterizeError {
-    /// The class of the error.
-    pub fn kind(&self) -> ErrorKind {
+impl Classify for ParameterizeError {
+    fn kind(&self) -> ErrorKind {
         match self {
             Self::Closed | Self::Components { .. } | Self::Genus { .. } | Self::Pinched { .. } => {
                 ErrorKind::Topology
@@ -131,7 +130,7 @@ impl ParameterizeError {
     }
 
     /// The offending node, if one is to blame.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match *self {
             Self::Pinched { node }
             | Self::Unused { node }

@@ -1,5 +1,6 @@
 use super::*;
-use crate::error::{Error, ErrorKind};
+use crate::error::Error;
+use crate::failure::{Classify, ErrorKind};
 use glam::DVec3;
 use proptest::prelude::*;
 use std::ops::ControlFlow;

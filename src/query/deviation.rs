@@ -3,6 +3,7 @@
 //! sheets that the mesh does not have.
 
 use crate::control::Pool;
+use crate::failure::{Classify, ErrorKind};
 use crate::mesh::Mesh;
 use crate::query::project::{ProjectError, ProjectOptions, Projector};
 use crate::query::tessellate::{TessellateError, TessellateOptions, tessellate};
@@ -57,18 +58,17 @@ pub enum DeviationError {
     Tessellate(#[from] TessellateError),
 }
 
-impl DeviationError {
-    /// The class of the error.
-    pub fn kind(&self) -> crate::ErrorKind {
+impl Classify for DeviationError {
+    fn kind(&self) -> ErrorKind {
         match self {
-            Self::Dimension { .. } => crate::ErrorKind::InvalidArgument,
+            Self::Dimension { .. } => ErrorKind::InvalidArgument,
             Self::Project(error) => error.kind(),
             Self::Tessellate(error) => error.kind(),
         }
     }
 
     /// The offending node.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match self {
             Self::Project(error) => error.index(),
             _ => None,

@@ -1,6 +1,7 @@
 //! Gradients in space of fields over the parameters of a shape.
 
 use crate::control::Pool;
+use crate::failure::{Classify, ErrorKind};
 use crate::surface::{Surface, surface_gradient};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -34,18 +35,17 @@ pub enum GradientError {
     },
 }
 
-impl GradientError {
-    /// The class of the error.
-    pub fn kind(&self) -> crate::ErrorKind {
+impl Classify for GradientError {
+    fn kind(&self) -> ErrorKind {
         match self {
-            Self::Dimension { .. } => crate::ErrorKind::InvalidArgument,
-            Self::NotFinite { .. } => crate::ErrorKind::NotFinite,
-            Self::Outside { .. } => crate::ErrorKind::Outside,
+            Self::Dimension { .. } => ErrorKind::InvalidArgument,
+            Self::NotFinite { .. } => ErrorKind::NotFinite,
+            Self::Outside { .. } => ErrorKind::Outside,
         }
     }
 
     /// The offending point.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match *self {
             Self::NotFinite { index } | Self::Outside { index, .. } => Some(index),
             Self::Dimension { .. } => None,

@@ -5,6 +5,5 @@ pub mod deviation;
 pub mod gradient;
 pub mod project;
 pub mod rows;
-mod subdivide;
 pub mod tessellate;
 pub mod triangles;

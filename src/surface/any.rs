@@ -5,6 +5,7 @@ use super::d1rc::D1rcSurface;
 use super::pht::PhtSurface;
 use super::tensor::{TensorError, TensorSurface};
 use super::tspline::{TSplineError, TSplineSurface};
+use crate::failure::{Classify, ErrorKind};
 
 /// A surface cannot be converted.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -28,12 +29,11 @@ pub enum ConvertError {
     TSpline(#[from] TSplineError),
 }
 
-impl ConvertError {
-    /// The class of the error.
-    pub fn kind(&self) -> crate::ErrorKind {
+impl Classify for ConvertError {
+    fn kind(&self) -> ErrorKind {
         match self {
-            Self::TooLarge { .. } => crate::ErrorKind::TooLarge,
-            Self::NotTensor => crate::ErrorKind::WrongKind,
+            Self::TooLarge { .. } => ErrorKind::TooLarge,
+            Self::NotTensor => ErrorKind::WrongKind,
             Self::Tensor(error) => error.kind(),
             Self::TSpline(error) => error.kind(),
         }

@@ -3,6 +3,7 @@
 use super::differential::{curvatures, normal};
 use super::{Domain, Surface, derivative_rows};
 use crate::control::Pool;
+use crate::failure::{Classify, ErrorKind};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -94,18 +95,17 @@ pub enum EvalError {
     },
 }
 
-impl EvalError {
-    /// The class of the error.
-    pub fn kind(&self) -> crate::ErrorKind {
+impl Classify for EvalError {
+    fn kind(&self) -> ErrorKind {
         match self {
-            Self::NotFinite { .. } => crate::ErrorKind::NotFinite,
-            Self::Outside { .. } => crate::ErrorKind::Outside,
-            Self::Derivative { .. } | Self::Dimension { .. } => crate::ErrorKind::InvalidArgument,
+            Self::NotFinite { .. } => ErrorKind::NotFinite,
+            Self::Outside { .. } => ErrorKind::Outside,
+            Self::Derivative { .. } | Self::Dimension { .. } => ErrorKind::InvalidArgument,
         }
     }
 
     /// The offending point.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match *self {
             Self::NotFinite { index } | Self::Outside { index, .. } => Some(index),
             _ => None,

@@ -1,6 +1,7 @@
 //! What a surface knows of its data in the parameter plane: a box and boundary loops.
 
 use super::cut::{HalfPlane, cut};
+use crate::failure::{Classify, ErrorKind};
 use crate::geometry::Domain;
 use glam::DVec2;
 use std::sync::OnceLock;
@@ -34,18 +35,17 @@ pub enum TrimError {
     },
 }
 
-impl TrimError {
-    /// The class of the error.
-    pub fn kind(&self) -> crate::ErrorKind {
+impl Classify for TrimError {
+    fn kind(&self) -> ErrorKind {
         match self {
-            Self::TooShort { .. } => crate::ErrorKind::InvalidArgument,
-            Self::NotFinite { .. } => crate::ErrorKind::NotFinite,
-            Self::Outside { .. } => crate::ErrorKind::Outside,
+            Self::TooShort { .. } => ErrorKind::InvalidArgument,
+            Self::NotFinite { .. } => ErrorKind::NotFinite,
+            Self::Outside { .. } => ErrorKind::Outside,
         }
     }
 
     /// The offending loop.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match *self {
             Self::TooShort { index, .. } | Self::NotFinite { index, .. } | Self::Outside { index, .. } => {
                 Some(index)

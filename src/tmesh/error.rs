@@ -1,7 +1,7 @@
 //! What can be wrong with a T-mesh.
 
 use super::cell::{Cell, MAX_GRID, MAX_LEVEL};
-use crate::ErrorKind;
+use crate::failure::{Classify, ErrorKind};
 use crate::geometry::Axis;
 
 /// A T-mesh is not one, or cannot be changed as asked.
@@ -59,9 +59,8 @@ pub enum TMeshError {
     },
 }
 
-impl TMeshError {
-    /// The class of the error.
-    pub fn kind(&self) -> ErrorKind {
+impl Classify for TMeshError {
+    fn kind(&self) -> ErrorKind {
         match self {
             Self::KnotNotFinite { .. } => ErrorKind::NotFinite,
             Self::NotLeaf { .. } | Self::NotMergeable { .. } => ErrorKind::Index,
@@ -72,7 +71,7 @@ impl TMeshError {
     }
 
     /// The offending knot or cell.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match *self {
             Self::KnotNotFinite { index, .. }
             | Self::KnotNotIncreasing { index, .. }

@@ -22,6 +22,7 @@ mod tspline;
 
 use super::error::{ExportError, write_file};
 use crate::curve::Curve;
+use crate::failure::{Classify, ErrorKind};
 use crate::model::Model;
 use crate::surface::AnySurface;
 use bytes::Reader;
@@ -55,18 +56,17 @@ pub enum LoadError {
     },
 }
 
-impl LoadError {
-    /// The class of the error.
-    pub fn kind(&self) -> crate::ErrorKind {
+impl Classify for LoadError {
+    fn kind(&self) -> ErrorKind {
         match self {
-            Self::File { .. } => crate::ErrorKind::File,
-            Self::Format { .. } => crate::ErrorKind::Format,
-            Self::Version { .. } => crate::ErrorKind::Version,
+            Self::File { .. } => ErrorKind::File,
+            Self::Format { .. } => ErrorKind::Format,
+            Self::Version { .. } => ErrorKind::Version,
         }
     }
 
     /// The offending byte.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match *self {
             Self::Format { byte, .. } => Some(byte),
             _ => None,

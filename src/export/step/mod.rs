@@ -12,6 +12,7 @@ mod part21;
 mod write;
 
 use super::error::{ExportError, write_file};
+use crate::failure::{Classify, ErrorKind};
 use crate::model::{CURVE_TOLERANCE, Model};
 use crate::surface::tensor::TensorError;
 use std::path::Path;
@@ -98,12 +99,11 @@ pub enum StepError {
     Tensor(#[from] TensorError),
 }
 
-impl StepError {
-    /// The class of the error.
-    pub fn kind(&self) -> crate::ErrorKind {
+impl Classify for StepError {
+    fn kind(&self) -> ErrorKind {
         match self {
             Self::Export(error) => error.kind(),
-            Self::Tensor(_) => crate::ErrorKind::Degenerate,
+            Self::Tensor(_) => ErrorKind::Degenerate,
         }
     }
 }

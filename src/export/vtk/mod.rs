@@ -9,14 +9,52 @@ pub use bezier::write_patches;
 
 use super::error::{ExportError, write_file};
 use crate::control::Pool;
-use crate::error::Error;
+use crate::failure::{Classify, ErrorKind};
 use crate::mesh::{Mesh, MeshError};
-use crate::query::deviation::{DeviationOptions, deviation};
-use crate::query::tessellate::{TessellateOptions, tessellate};
+use crate::query::deviation::{DeviationError, DeviationOptions, deviation};
+use crate::query::tessellate::{TessellateError, TessellateOptions, tessellate};
 use crate::surface::{ControlNet, Surface};
 use glam::{DVec2, DVec3};
 use grid::Grid;
 use std::path::Path;
+
+/// A surface cannot be written as triangles.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum VtkError {
+    /// It cannot be tessellated.
+    #[error(transparent)]
+    Tessellate(#[from] TessellateError),
+    /// It cannot be measured against the mesh.
+    #[error(transparent)]
+    Deviation(#[from] DeviationError),
+    /// The mesh, moved onto it, is none.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// The file cannot be written.
+    #[error(transparent)]
+    Export(#[from] ExportError),
+}
+
+impl VtkError {
+    fn own(&self) -> &dyn Classify {
+        match self {
+            Self::Tessellate(error) => error,
+            Self::Deviation(error) => error,
+            Self::Mesh(error) => error,
+            Self::Export(error) => error,
+        }
+    }
+}
+
+impl Classify for VtkError {
+    fn kind(&self) -> ErrorKind {
+        self.own().kind()
+    }
+
+    fn index(&self) -> Option<usize> {
+        self.own().index()
+    }
+}
 
 /// Numbers at each node of a mesh.
 #[derive(Debug, Clone, Copy)]
@@ -70,7 +108,7 @@ pub fn write_surface(
     options: &SurfaceOptions,
     path: &Path,
     pool: &Pool,
-) -> Result<(), Error> {
+) -> Result<(), VtkError> {
     let Some(mesh) = options.deviation_from else {
         let tessellation = tessellate(surface, &options.tessellate)?;
         return Ok(write_mesh(&tessellation.mesh, &[], path)?);

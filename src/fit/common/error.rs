@@ -1,6 +1,7 @@
 //! Why data cannot be fitted, the same for every method.
 
 use crate::control::Cancelled;
+use crate::failure::{Classify, ErrorKind};
 use crate::parameterize::ParameterizeError;
 
 /// Least number of data that determine anything worth calling a surface.
@@ -77,10 +78,8 @@ pub enum FitError {
     Cancelled(#[from] Cancelled),
 }
 
-impl FitError {
-    /// The class of the error.
-    pub fn kind(&self) -> crate::ErrorKind {
-        use crate::ErrorKind;
+impl Classify for FitError {
+    fn kind(&self) -> ErrorKind {
         match self {
             Self::Option { .. } | Self::TooFew { .. } | Self::Count { .. } | Self::OtherGrid => {
                 ErrorKind::InvalidArgument
@@ -97,7 +96,7 @@ impl FitError {
     }
 
     /// The offending datum.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match *self {
             Self::ParametersNotFinite { index }
             | Self::ValuesNotFinite { index }

@@ -1,7 +1,7 @@
 //! Why a D1RC fit is not possible.
 
 use crate::control::Cancelled;
-use crate::error::ErrorKind;
+use crate::failure::{Classify, ErrorKind};
 use crate::fit::common::FitError;
 use crate::mesh::DecimateError;
 use crate::parameterize::ParameterizeError;
@@ -27,9 +27,8 @@ pub enum D1rcFitError {
     Cancelled(#[from] Cancelled),
 }
 
-impl D1rcFitError {
-    /// The class of the error.
-    pub fn kind(&self) -> ErrorKind {
+impl Classify for D1rcFitError {
+    fn kind(&self) -> ErrorKind {
         match self {
             Self::Fit(error) => error.kind(),
             Self::Decimate(error) => error.kind(),
@@ -40,7 +39,7 @@ impl D1rcFitError {
     }
 
     /// The offending node, triangle, sharp edge or weight.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match self {
             Self::Fit(error) => error.index(),
             Self::Decimate(error) => error.index(),

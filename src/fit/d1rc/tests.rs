@@ -1,5 +1,5 @@
 use super::*;
-use crate::ErrorKind;
+use crate::failure::{Classify, ErrorKind};
 use crate::fit::common::errors::data_errors;
 use crate::fit::common::report::{Remarks, StopReason, Tolerance, ToleranceScale};
 use crate::mesh::DecimateOptions;

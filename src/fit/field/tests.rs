@@ -1,6 +1,7 @@
 //! Fitted fields: the same as single fits, linear in the values, and good at gaps.
 
 use super::*;
+use crate::failure::Classify;
 use crate::fit::common::uniform::Ends;
 use crate::samples::{self, Random};
 
@@ -125,7 +126,7 @@ fn refusals_name_the_offender() {
     let make = |options: &FieldOptions| FieldFitter::at(&uv, options, &mut Control::new(1));
     let fitter = make(&FieldOptions::default()).unwrap();
     let mut values = waves(&uv, 0.0);
-    assert_eq!(fitter.fit(&values, 0).unwrap_err().kind(), crate::ErrorKind::InvalidArgument);
+    assert_eq!(fitter.fit(&values, 0).unwrap_err().kind(), crate::failure::ErrorKind::InvalidArgument);
     assert!(matches!(fitter.fit(&values[1..], 2), Err(FitError::Count { count: 199, expected: 200, .. })));
     values[77] = f64::INFINITY;
     assert_eq!(fitter.fit(&values, 2).unwrap_err(), FitError::ValuesNotFinite { index: 38 });

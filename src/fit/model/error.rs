@@ -1,7 +1,7 @@
 //! Why a mesh does not become a model.
 
-use crate::ErrorKind;
 use crate::control::Cancelled;
+use crate::failure::{Classify, ErrorKind};
 use crate::fit::common::FitError;
 use crate::surface::g1::SpaceError;
 use crate::tmesh::TMeshError;
@@ -32,9 +32,8 @@ impl From<Cancelled> for ModelFitError {
     }
 }
 
-impl ModelFitError {
-    /// The class of the error.
-    pub fn kind(&self) -> ErrorKind {
+impl Classify for ModelFitError {
+    fn kind(&self) -> ErrorKind {
         match self {
             Self::Fit(error) => error.kind(),
             Self::Space(error) => error.kind(),
@@ -44,7 +43,7 @@ impl ModelFitError {
     }
 
     /// The offending node, quad or edge.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match self {
             Self::Fit(error) => error.index(),
             Self::Space(error) => error.index(),

@@ -2,6 +2,7 @@ use super::least_squares::{System, Targets};
 use super::samples::ByCell;
 use super::*;
 use crate::control::Pool;
+use crate::failure::Classify;
 use crate::samples::Random;
 use crate::samples::layouts::{PlacedQuads, random_sphere, stellated_tetrahedron, torus, trapezohedron};
 use crate::surface::Surface;
@@ -228,7 +229,7 @@ fn a_fit_is_cancelled_and_bad_places_are_named() {
     let mut stop = |_: f64, _: f64| std::ops::ControlFlow::Break(());
     let mut control = Control::new(1).with_progress(&mut stop);
     let fit = fit_over_layout(&mesh, &layout, NodePlaces::Sphere(&directions), &options, &mut control);
-    assert_eq!(fit.unwrap_err().kind(), crate::ErrorKind::Cancelled);
+    assert_eq!(fit.unwrap_err().kind(), crate::failure::ErrorKind::Cancelled);
 
     let mut places = vec![Some(Place { quad: 0, uv: DVec2::splat(0.5) }); mesh.points().len()];
     places[7] = Some(Place { quad: 6, uv: DVec2::splat(0.5) });
@@ -237,5 +238,5 @@ fn a_fit_is_cancelled_and_bad_places_are_named() {
     let options = options.with_start_level(9);
     let fit =
         fit_over_layout(&mesh, &layout, NodePlaces::Sphere(&directions), &options, &mut Control::new(1));
-    assert_eq!(fit.unwrap_err().kind(), crate::ErrorKind::InvalidArgument);
+    assert_eq!(fit.unwrap_err().kind(), crate::failure::ErrorKind::InvalidArgument);
 }

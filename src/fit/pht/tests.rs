@@ -1,5 +1,5 @@
 use super::*;
-use crate::ErrorKind;
+use crate::failure::{Classify, ErrorKind};
 use crate::fit::common::Regularize;
 use crate::fit::common::report::{StopReason, Tolerance, ToleranceScale};
 use crate::samples::{self, Random};

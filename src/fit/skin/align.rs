@@ -3,35 +3,13 @@
 //! Two rows are compared at equal shares of their chord lengths: the root of the mean squared distance. A row may be
 //! turned round, and a closed one may begin at any of its points.
 
-use super::rows::Distinct;
+use super::distinct::{Distinct, Order};
 
 /// Shares of the length at which rows are compared.
 const SAMPLES: usize = 64;
 
 /// First points that are tried when twisted rows are only looked for, not put right.
 const COARSE_SHIFTS: usize = 16;
-
-/// In which order the places of a row are taken.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) struct Order {
-    /// The place that comes first; 0 unless the row is closed or reversed.
-    first: usize,
-    pub is_reversed: bool,
-}
-
-impl Order {
-    /// The place number `k` of the row as it was given comes at this position.
-    pub fn place(&self, k: usize, count: usize) -> usize {
-        if self.is_reversed { (self.first + count - k) % count } else { (k + count - self.first) % count }
-    }
-
-    /// The places in this order, the first once more at the end if asked for.
-    pub fn places(&self, count: usize, repeats_first: bool) -> impl Iterator<Item = usize> + use<> {
-        let Self { first, is_reversed } = *self;
-        (0..count + usize::from(repeats_first))
-            .map(move |k| if is_reversed { (first + 2 * count - k) % count } else { (first + k) % count })
-    }
-}
 
 /// The orders of all rows.
 #[derive(Debug)]

@@ -2,6 +2,7 @@
 
 use crate::control::Cancelled;
 use crate::curve::CurveError;
+use crate::failure::{Classify, ErrorKind};
 use crate::knots::KnotError;
 use crate::linalg::NotPositiveDefinite;
 use crate::surface::tspline::TSplineError;
@@ -100,10 +101,8 @@ pub enum SkinError {
     Cancelled(#[from] Cancelled),
 }
 
-impl SkinError {
-    /// The class of the error.
-    pub fn kind(&self) -> crate::ErrorKind {
-        use crate::ErrorKind;
+impl Classify for SkinError {
+    fn kind(&self) -> ErrorKind {
         match self {
             Self::NotFinite { .. } | Self::VectorNotFinite { .. } => ErrorKind::NotFinite,
             Self::Row { error, .. } | Self::Curve(error) => error.kind(),
@@ -117,7 +116,7 @@ impl SkinError {
     }
 
     /// The offending row, point or vector.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match *self {
             Self::EmptyRow { row }
             | Self::Identical { row }

@@ -16,6 +16,7 @@ mod approximate;
 mod certificate;
 mod common;
 mod control_curve;
+mod distinct;
 mod error;
 mod loft;
 mod options;

@@ -1,4 +1,5 @@
 use super::*;
+use crate::failure::Classify;
 use crate::layout::of_mesh::layout_of_mesh;
 use crate::mesh::Mesh;
 use crate::samples;
@@ -90,7 +91,7 @@ fn refusals_name_the_offender() {
     assert_eq!(cube.to_string(), "the mesh has genus 1, a sphere has 0; use a layout of patches instead");
     let few = refuse(&torus, options.with_patches(5));
     assert_eq!(few, MeshLayoutError::Patches { given: 5, least: 6 });
-    assert_eq!(few.kind(), crate::ErrorKind::InvalidArgument);
+    assert_eq!(few.kind(), crate::failure::ErrorKind::InvalidArgument);
 }
 
 #[test]
@@ -103,6 +104,6 @@ fn a_listener_cancels_every_stage() {
         };
         let mut control = Control::new(1).with_progress(&mut stop);
         let made = layout_of_mesh(&mesh, &MeshLayoutOptions::default(), &mut control);
-        assert_eq!(made.err().map(|error| error.kind()), Some(crate::ErrorKind::Cancelled));
+        assert_eq!(made.err().map(|error| error.kind()), Some(crate::failure::ErrorKind::Cancelled));
     }
 }

@@ -19,7 +19,7 @@ pub(crate) use quadric::Quadric;
 
 use super::{Mesh, Piece};
 use crate::control::{Cancelled, Control};
-use crate::error::ErrorKind;
+use crate::failure::{Classify, ErrorKind};
 use crate::geometry::{Orientation, orientation};
 use collapse::Collapsing;
 use features::Features;
@@ -137,9 +137,8 @@ pub enum DecimateError {
     Cancelled(#[from] Cancelled),
 }
 
-impl DecimateError {
-    /// The class of the error.
-    pub fn kind(&self) -> ErrorKind {
+impl Classify for DecimateError {
+    fn kind(&self) -> ErrorKind {
         match self {
             Self::Option { .. } => ErrorKind::InvalidArgument,
             Self::NoSuchNode { .. } => ErrorKind::Index,
@@ -150,7 +149,7 @@ impl DecimateError {
     }
 
     /// The offending sharp edge, or triangle.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match *self {
             Self::NoSuchNode { index, .. } | Self::NotAnEdge { index, .. } => Some(index),
             Self::Folded { triangle } => Some(triangle),

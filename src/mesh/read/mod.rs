@@ -13,7 +13,7 @@ mod stl;
 mod tests;
 
 use super::{Field, Mesh, MeshError, MeshOptions, MeshRepairs};
-use crate::error::{Error, ErrorKind};
+use crate::failure::{Classify, ErrorKind};
 use glam::{DVec2, DVec3};
 use polygon::Faces;
 use std::path::Path;
@@ -61,25 +61,29 @@ pub enum ReadError {
         /// The largest number of corners.
         limit: usize,
     },
+    /// The file holds no mesh.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
 }
 
-impl ReadError {
-    /// The class of the error.
-    pub fn kind(&self) -> ErrorKind {
+impl Classify for ReadError {
+    fn kind(&self) -> ErrorKind {
         match self {
             Self::File { .. } => ErrorKind::File,
             Self::UnknownFormat { .. } | Self::Text { .. } | Self::Binary { .. } => ErrorKind::Format,
             Self::PolygonTooLarge { .. } => ErrorKind::TooLarge,
+            Self::Mesh(error) => error.kind(),
         }
     }
 
-    /// The offending line, byte or face, counted from 0.
-    pub fn index(&self) -> Option<usize> {
-        match *self {
+    /// The offending line, byte, face, node or triangle, counted from 0.
+    fn index(&self) -> Option<usize> {
+        match self {
             Self::File { .. } | Self::UnknownFormat { .. } => None,
             Self::Text { line, .. } => Some(line - 1),
-            Self::Binary { byte, .. } => Some(byte),
-            Self::PolygonTooLarge { face, .. } => Some(face),
+            Self::Binary { byte, .. } => Some(*byte),
+            Self::PolygonTooLarge { face, .. } => Some(*face),
+            Self::Mesh(error) => error.index(),
         }
     }
 }
@@ -130,7 +134,7 @@ impl Format {
 /// Reads a mesh file. The format is that of the file's name, or if that says nothing of its content.
 ///
 /// Polygons become triangles, so the triangles that errors and repairs speak of are those of the mesh.
-pub fn read(path: &Path, options: &MeshOptions) -> Result<(Mesh, MeshRepairs), Error> {
+pub fn read(path: &Path, options: &MeshOptions) -> Result<(Mesh, MeshRepairs), ReadError> {
     let name = || path.display().to_string();
     let bytes =
         std::fs::read(path).map_err(|error| ReadError::File { path: name(), reason: error.to_string() })?;
@@ -140,7 +144,11 @@ pub fn read(path: &Path, options: &MeshOptions) -> Result<(Mesh, MeshRepairs), E
 }
 
 /// Reads a mesh from the content of a file; [`MeshOptions::index_base`] has no meaning here.
-pub fn read_bytes(bytes: &[u8], format: Format, options: &MeshOptions) -> Result<(Mesh, MeshRepairs), Error> {
+pub fn read_bytes(
+    bytes: &[u8],
+    format: Format,
+    options: &MeshOptions,
+) -> Result<(Mesh, MeshRepairs), ReadError> {
     let soup = match format {
         Format::Off => off::read(bytes)?,
         Format::Obj => obj::read(bytes)?,
@@ -164,7 +172,7 @@ struct Soup {
 }
 
 impl Soup {
-    fn into_mesh(self, weld: Option<f64>, options: &MeshOptions) -> Result<(Mesh, MeshRepairs), Error> {
+    fn into_mesh(self, weld: Option<f64>, options: &MeshOptions) -> Result<(Mesh, MeshRepairs), ReadError> {
         let triangles = self.faces.into_triangles(&self.points)?;
         let (mut mesh, mut repairs) = Mesh::repaired(self.points, triangles, weld, options)?;
         repairs.dropped_parameters = self.dropped_parameters;

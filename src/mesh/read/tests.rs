@@ -7,7 +7,7 @@ fn mesh(text: &str, format: Format) -> (Mesh, MeshRepairs) {
     read_bytes(text.as_bytes(), format, &OPTIONS).unwrap_or_else(|error| panic!("{text}: {error}"))
 }
 
-fn refusal(bytes: impl AsRef<[u8]>, format: Format) -> Error {
+fn refusal(bytes: impl AsRef<[u8]>, format: Format) -> ReadError {
     read_bytes(bytes.as_ref(), format, &OPTIONS).expect_err("not a file of the format")
 }
 

@@ -1,7 +1,7 @@
 //! Why a mesh cannot be mapped on to the sphere.
 
 use crate::control::Cancelled;
-use crate::error::ErrorKind;
+use crate::failure::{Classify, ErrorKind};
 
 /// A mesh has no map on to the sphere.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -59,9 +59,8 @@ pub enum SphereError {
     Cancelled(#[from] Cancelled),
 }
 
-impl SphereError {
-    /// The class of the error.
-    pub fn kind(&self) -> ErrorKind {
+impl Classify for SphereError {
+    fn kind(&self) -> ErrorKind {
         match self {
             Self::Components { .. } | Self::Open { .. } | Self::Pinched { .. } | Self::Genus { .. } => {
                 ErrorKind::Topology
@@ -72,7 +71,7 @@ impl SphereError {
     }
 
     /// The offending node, if one is to blame.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match *self {
             Self::Open { node, .. }
             | Self::Pinched { node }

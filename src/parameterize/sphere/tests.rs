@@ -1,4 +1,5 @@
 use super::*;
+use crate::failure::Classify;
 use crate::samples::{self, Random};
 use std::ops::ControlFlow;
 
@@ -107,7 +108,7 @@ fn refusals_name_the_offender() {
     assert!(matches!(refuse(&open), SphereError::Open { loops: 3, .. }));
     let torus = refuse(&samples::handles(1, 800, 1).unwrap());
     assert_eq!(torus, SphereError::Genus { genus: 1 });
-    assert_eq!((torus.kind(), torus.index()), (crate::ErrorKind::Topology, None));
+    assert_eq!((torus.kind(), torus.index()), (crate::failure::ErrorKind::Topology, None));
     let ball = samples::ball(100, 1).unwrap();
     let count = ball.points().len() as u32;
     let points = ball.points().iter().chain(ball.points()).copied().collect();

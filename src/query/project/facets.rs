@@ -6,7 +6,7 @@
 
 use super::ProjectOptions;
 use crate::mesh::Mesh;
-use crate::query::subdivide::subdivided;
+use crate::query::tessellate::subdivide::subdivided;
 use crate::query::tessellate::{TessellateError, TessellateOptions, tessellate};
 use crate::query::triangles::TriangleTree;
 use crate::surface::Facets;

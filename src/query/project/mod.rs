@@ -25,6 +25,7 @@ use super::tessellate::TessellateError;
 use crate::bezier::BezierPatch;
 use crate::control::Pool;
 use crate::curve::Curve;
+use crate::failure::{Classify, ErrorKind};
 use crate::geometry::{Bounds, Domain};
 use crate::surface::{Kind, Surface, Trims};
 use cells::{curve_cells, surface_cells, trim_pieces};
@@ -94,10 +95,8 @@ pub enum ProjectError {
     },
 }
 
-impl ProjectError {
-    /// The class of the error.
-    pub fn kind(&self) -> crate::ErrorKind {
-        use crate::ErrorKind;
+impl Classify for ProjectError {
+    fn kind(&self) -> ErrorKind {
         match self {
             Self::NoPatches { .. } => ErrorKind::WrongKind,
             Self::Tessellate(error) => error.kind(),
@@ -107,7 +106,7 @@ impl ProjectError {
     }
 
     /// The offending point.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match *self {
             Self::NotFinite { index } | Self::GuessNotFinite { index } => Some(index),
             _ => None,

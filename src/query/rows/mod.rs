@@ -12,6 +12,7 @@ mod seam;
 mod tests;
 
 use crate::control::{Cancelled, Control};
+use crate::failure::{Classify, ErrorKind};
 use crate::linalg::NotPositiveDefinite;
 use crate::mesh::{HalfEdge, Mesh};
 use curve::{level_curve, resample};
@@ -103,10 +104,8 @@ pub enum SampleRowsError {
     Cancelled(#[from] Cancelled),
 }
 
-impl SampleRowsError {
-    /// The class of the error.
-    pub fn kind(&self) -> crate::ErrorKind {
-        use crate::ErrorKind;
+impl Classify for SampleRowsError {
+    fn kind(&self) -> ErrorKind {
         match self {
             Self::Option { .. } | Self::SameSource { .. } => ErrorKind::InvalidArgument,
             Self::NoSuch { .. } => ErrorKind::Index,
@@ -117,7 +116,7 @@ impl SampleRowsError {
     }
 
     /// The offending source, node or row.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match *self {
             Self::NoSuch { index, .. } => Some(index),
             Self::SameSource { node } => Some(node as usize),

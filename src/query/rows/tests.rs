@@ -77,5 +77,5 @@ fn what_gives_no_rows_is_refused_by_name() {
     // between two nodes of an open tube levels end at its loops
     let error = refuse(Source::Node(410), Source::Node(430), 4);
     assert!(matches!(error, SampleRowsError::Curves { row: 0.., .. }), "{error}");
-    assert_eq!(error.kind(), crate::ErrorKind::Topology);
+    assert_eq!(error.kind(), crate::failure::ErrorKind::Topology);
 }

@@ -1,6 +1,6 @@
 //! What can be wrong with a D1RC-spline.
 
-use crate::ErrorKind;
+use crate::failure::{Classify, ErrorKind};
 
 /// A D1RC-spline is not one, or cannot be changed as asked.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -129,9 +129,8 @@ pub enum D1rcError {
     },
 }
 
-impl D1rcError {
-    /// The class of the error.
-    pub fn kind(&self) -> ErrorKind {
+impl Classify for D1rcError {
+    fn kind(&self) -> ErrorKind {
         match self {
             Self::Degree { .. } | Self::Dimension | Self::NoParameters | Self::SharpRule { .. } => {
                 ErrorKind::InvalidArgument
@@ -149,7 +148,7 @@ impl D1rcError {
     }
 
     /// The offending face, vertex, control point, or place in a list.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match *self {
             Self::Folded { face } | Self::NoArea { face } => Some(face),
             Self::NotSimple { vertex } | Self::NoRoom { vertex } => Some(vertex),

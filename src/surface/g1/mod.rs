@@ -36,7 +36,7 @@ pub use edge_function::{EdgeFunction, End, Rule};
 pub use measure::{Jump, enclosed_volume, normal_jump};
 
 use super::pht::{PhtError, PhtSurface};
-use crate::ErrorKind;
+use crate::failure::{Classify, ErrorKind};
 use crate::layout::{Layout, Side};
 use crate::tmesh::{TMesh, Topology, Vertex, VertexKind};
 use edge_curve::EdgeCurve;
@@ -74,14 +74,13 @@ pub enum SpaceError {
     },
 }
 
-impl SpaceError {
-    /// The class of the error.
-    pub fn kind(&self) -> ErrorKind {
+impl Classify for SpaceError {
+    fn kind(&self) -> ErrorKind {
         ErrorKind::InvalidArgument
     }
 
     /// The offending quad or edge.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match *self {
             Self::MeshCount { .. } => None,
             Self::InitialGrid { quad } => Some(quad),

@@ -1,6 +1,6 @@
 //! What can be wrong with a PHT-spline.
 
-use crate::ErrorKind;
+use crate::failure::{Classify, ErrorKind};
 use crate::geometry::Axis;
 use crate::tmesh::TMeshError;
 
@@ -79,9 +79,8 @@ pub enum PhtError {
     },
 }
 
-impl PhtError {
-    /// The class of the error.
-    pub fn kind(&self) -> ErrorKind {
+impl Classify for PhtError {
+    fn kind(&self) -> ErrorKind {
         match self {
             Self::Mesh(error) => error.kind(),
             Self::NotFinite { .. } => ErrorKind::NotFinite,
@@ -93,7 +92,7 @@ impl PhtError {
     }
 
     /// The offending knot, cell, vertex or leaf.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match *self {
             Self::Mesh(ref error) => error.index(),
             Self::NotFinite { index }

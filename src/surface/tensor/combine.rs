@@ -4,6 +4,7 @@
 //! inserted until all nets agree, then control points are added (`ferguson.md` 4, "displaced surface").
 
 use super::{Axis, TensorError, TensorSurface};
+use crate::failure::{Classify, ErrorKind};
 use crate::knots::KnotVector;
 use crate::surface::Surface;
 
@@ -51,18 +52,17 @@ pub enum CombineError {
     },
 }
 
-impl CombineError {
-    /// The class of the error.
-    pub fn kind(&self) -> crate::ErrorKind {
+impl Classify for CombineError {
+    fn kind(&self) -> ErrorKind {
         match self {
-            Self::NotFinite { .. } => crate::ErrorKind::NotFinite,
+            Self::NotFinite { .. } => ErrorKind::NotFinite,
             Self::Tensor { error, .. } => error.kind(),
-            _ => crate::ErrorKind::InvalidArgument,
+            _ => ErrorKind::InvalidArgument,
         }
     }
 
     /// The offending surface or factor.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match *self {
             Self::Nothing => None,
             Self::NotFinite { index }

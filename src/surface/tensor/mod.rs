@@ -16,6 +16,7 @@ use super::{ControlNet, Domain, Kind, Patches, Region, Surface, eval_grid_by_row
 pub use crate::geometry::Axis;
 
 use crate::bezier::{BezierPatch, apply, extraction};
+use crate::failure::{Classify, ErrorKind};
 use crate::knots::KnotVector;
 use bicubic::BicubicTable;
 use glam::{DVec2, DVec3};
@@ -69,19 +70,18 @@ pub enum TensorError {
     },
 }
 
-impl TensorError {
-    /// The class of the error.
-    pub fn kind(&self) -> crate::ErrorKind {
+impl Classify for TensorError {
+    fn kind(&self) -> ErrorKind {
         match self {
             Self::Knots { error, .. } => error.kind(),
-            Self::NotFinite { .. } => crate::ErrorKind::NotFinite,
-            Self::Weight { weight, .. } if !weight.is_finite() => crate::ErrorKind::NotFinite,
-            _ => crate::ErrorKind::InvalidArgument,
+            Self::NotFinite { .. } => ErrorKind::NotFinite,
+            Self::Weight { weight, .. } if !weight.is_finite() => ErrorKind::NotFinite,
+            _ => ErrorKind::InvalidArgument,
         }
     }
 
     /// The offending knot, control point or weight.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match *self {
             Self::Knots { ref error, .. } => error.index(),
             Self::NotFinite { index } | Self::Weight { index, .. } => Some(index),

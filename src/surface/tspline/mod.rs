@@ -19,6 +19,7 @@ pub use refine::Removal;
 
 use super::{ControlNet, Domain, Kind, Patches, Region, Surface};
 use crate::curve::Curve;
+use crate::failure::{Classify, ErrorKind};
 use crate::knots::{KnotError, KnotVector};
 use cells::Cells;
 use fast::FastTable;
@@ -70,19 +71,18 @@ pub enum TSplineError {
     },
 }
 
-impl TSplineError {
-    /// The class of the error.
-    pub fn kind(&self) -> crate::ErrorKind {
+impl Classify for TSplineError {
+    fn kind(&self) -> ErrorKind {
         match self {
-            Self::NoSuchCurve { .. } => crate::ErrorKind::Index,
-            Self::NotFinite { .. } => crate::ErrorKind::NotFinite,
+            Self::NoSuchCurve { .. } => ErrorKind::Index,
+            Self::NotFinite { .. } => ErrorKind::NotFinite,
             Self::Knots(error) => error.kind(),
-            _ => crate::ErrorKind::InvalidArgument,
+            _ => ErrorKind::InvalidArgument,
         }
     }
 
     /// The offending control curve or knot.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match *self {
             Self::Mismatch { index } | Self::NoSuchCurve { index, .. } | Self::NotFinite { index } => {
                 Some(index)

@@ -1,7 +1,7 @@
 //! What can go wrong with a transfer.
 
-use crate::ErrorKind;
 use crate::control::Cancelled;
+use crate::failure::{Classify, ErrorKind};
 use crate::fit::common::FitError;
 use crate::query::project::ProjectError;
 
@@ -44,9 +44,8 @@ pub enum TransferError {
     Cancelled(#[from] Cancelled),
 }
 
-impl TransferError {
-    /// The class of the error.
-    pub fn kind(&self) -> ErrorKind {
+impl Classify for TransferError {
+    fn kind(&self) -> ErrorKind {
         match self {
             Self::Far { .. } => ErrorKind::Outside,
             Self::MaxDistance { .. } => ErrorKind::InvalidArgument,
@@ -58,7 +57,7 @@ impl TransferError {
     }
 
     /// The offending target, node or value.
-    pub fn index(&self) -> Option<usize> {
+    fn index(&self) -> Option<usize> {
         match self {
             Self::Far { index, .. } | Self::NotFinite { index } => Some(*index),
             Self::Fit(error) => error.index(),

@@ -1,6 +1,7 @@
 //! Transfers: what they reproduce, what they keep, and that one direction is the transpose of the other.
 
 use super::*;
+use crate::failure::Classify;
 use crate::fit::field::FieldGrid;
 use crate::samples::{self, Random};
 use crate::surface::Surface;

@@ -5,13 +5,21 @@
 //! in space) starts from the trims and a grid as coarse as the surface's patches; then the middles of all
 //! edges that are too long or too far from the surface become nodes, until none is left.
 
-use crate::mesh::{Mesh, MeshError};
-use crate::query::subdivide::{Fineness, tessellate_facets};
+mod error;
+pub(super) mod subdivide;
+mod tessellation;
+
+pub use error::TessellateError;
+pub use tessellation::Tessellation;
+
+use crate::mesh::Mesh;
 use crate::surface::Surface;
 use glam::{DVec2, DVec3};
 use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation, mitigate_underflow};
 use std::collections::HashMap;
+use subdivide::{Fineness, tessellate_facets};
+use tessellation::{distance_to_segment, least_angle};
 
 /// How fine a tessellation is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,70 +38,6 @@ impl Default for TessellateOptions {
     fn default() -> Self {
         Self { chord_tolerance: 0.0, max_edge_length: 0.0, max_points: 4_000_000, keep_trims: true }
     }
-}
-
-/// A surface cannot be tessellated as asked.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum TessellateError {
-    /// Only surfaces in space have a shape.
-    #[error("a surface of dimension {dim} has no shape, dimension 3 is needed")]
-    Dimension {
-        /// Dimension of the surface.
-        dim: usize,
-    },
-    /// An option is out of its range.
-    #[error("{option} is {value}, it must be finite and not negative")]
-    Option {
-        /// Name of the option.
-        option: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// Too many nodes would be needed.
-    #[error("more than {limit} nodes would be needed")]
-    TooLarge {
-        /// The limit.
-        limit: usize,
-    },
-    /// The trims cross each other or themselves.
-    #[error("the trims cross near ({u}, {v})")]
-    CrossingTrims {
-        /// Where.
-        u: f64,
-        /// Where.
-        v: f64,
-    },
-    /// The trims enclose nothing.
-    #[error("the trims enclose no area")]
-    Empty,
-    /// The triangles are no mesh.
-    #[error(transparent)]
-    Mesh(#[from] MeshError),
-}
-
-impl TessellateError {
-    /// The class of the error.
-    pub fn kind(&self) -> crate::ErrorKind {
-        use crate::ErrorKind;
-        match self {
-            Self::Dimension { .. } | Self::Option { .. } => ErrorKind::InvalidArgument,
-            Self::TooLarge { .. } => ErrorKind::TooLarge,
-            Self::CrossingTrims { .. } => ErrorKind::Topology,
-            Self::Empty => ErrorKind::Degenerate,
-            Self::Mesh(error) => error.kind(),
-        }
-    }
-}
-
-/// A tessellation with its quality.
-#[derive(Debug, Clone)]
-pub struct Tessellation {
-    /// The mesh; its parameters are those of the surface.
-    pub mesh: Mesh,
-    /// Smallest angle of a triangle in space, in radians.
-    pub smallest_angle: f64,
-    /// Largest distance measured between an edge's middle and the surface.
-    pub chord_error: f64,
 }
 
 /// Triangulates the part of a surface inside its trims.
@@ -373,17 +317,6 @@ fn eval(surface: &dyn Surface, uv: DVec2) -> DVec3 {
     let mut point = [0.0; 3];
     surface.eval_rows(&[uv], 0, &mut point);
     DVec3::from_array(point)
-}
-
-pub(super) fn distance_to_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
-    let along = b - a;
-    let length_sq = along.length_squared();
-    let t = if length_sq > 0.0 { ((p - a).dot(along) / length_sq).clamp(0.0, 1.0) } else { 0.0 };
-    p.distance(a + t * along)
-}
-
-pub(super) fn least_angle([a, b, c]: [DVec3; 3]) -> f64 {
-    (b - a).angle_between(c - a).min((c - b).angle_between(a - b)).min((a - c).angle_between(b - c))
 }
 
 #[cfg(test)]

@@ -10,7 +10,8 @@
 //!   a---o---b         n = 2
 //! ```
 
-use super::tessellate::{TessellateError, Tessellation, distance_to_segment, least_angle};
+use super::error::TessellateError;
+use super::tessellation::{Tessellation, distance_to_segment, least_angle};
 use crate::mesh::Mesh;
 use crate::surface::Facets;
 use glam::{DVec2, DVec3};
