@@ -55,6 +55,18 @@ module planish_records
   integer(c_int), parameter, public :: PLANISH_STATUS_OUT_OF_MEMORY = -16
   integer(c_int), parameter, public :: PLANISH_STATUS_INTERNAL = -17 !! A bug in the library
 
+  !> What a long call is doing.
+  integer(c_int32_t), parameter, public :: PLANISH_STAGE_PREPARE = 0 !! Looks at what it was given
+  !> Gives a mesh its parameters, or its places on a sphere
+  integer(c_int32_t), parameter, public :: PLANISH_STAGE_PARAMETERIZE = 1
+  integer(c_int32_t), parameter, public :: PLANISH_STAGE_COARSEN = 2 !! Makes a mesh coarser
+  integer(c_int32_t), parameter, public :: PLANISH_STAGE_LAYOUT = 3 !! Lays quadrilaterals over a mesh
+  integer(c_int32_t), parameter, public :: PLANISH_STAGE_FIT = 4 !! Fits, measures and refines
+  integer(c_int32_t), parameter, public :: PLANISH_STAGE_PROJECT = 5 !! Looks for the nearest places
+  integer(c_int32_t), parameter, public :: PLANISH_STAGE_TESSELLATE = 6 !! Makes triangles of a surface
+  integer(c_int32_t), parameter, public :: PLANISH_STAGE_CONVERT = 7 !! Makes another form of a surface
+  integer(c_int32_t), parameter, public :: PLANISH_STAGE_WRITE = 8 !! Writes a file
+
   !> Which weights an interior node gives its neighbours.
   !> Mean value coordinates: no triangle turns over over a convex border
   integer(c_int32_t), parameter, public :: PLANISH_MAP_METHOD_MEAN_VALUE = 0
@@ -306,7 +318,7 @@ module planish_records
 
   !> How coarse a mesh becomes, and what stays.
   type, bind(c), public :: planish_decimate_options
-    integer(c_size_t) :: struct_size = 8 * word + 24
+    integer(c_size_t) :: struct_size = 10 * word + 24
     integer(c_size_t) :: target_count = 1000 !! Nodes that are to be left, at least 3
     !> Edges whose triangles turn by more than this are sharp, in radians, at most pi; 0 (default) looks for none
     real(c_double) :: sharp_angle = 0
@@ -321,6 +333,10 @@ module planish_records
     integer(c_size_t) :: out_sharp_edge_count = 0
     type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
     type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag
+    type(c_ptr) :: cancel = c_null_ptr
+    !> Shows what the call is doing, before progress hears of it: a planish_stage
+    type(c_ptr) :: out_stage = c_null_ptr
     !> 1 (default) lets no triangle turn over in the parameter plane, if the mesh has parameters; 0 does not look
     integer(c_int32_t) :: keep_map = 1
     integer(c_int32_t) :: reserved = 0
@@ -338,11 +354,15 @@ module planish_records
 
   !> How a mesh gets its parameters.
   type, bind(c), public :: planish_parameterize_options
-    integer(c_size_t) :: struct_size = 4 * word + 64
+    integer(c_size_t) :: struct_size = 6 * word + 64
     !> A positive number for each node: large where more parameter area is wanted
     type(c_ptr) :: node_weights = c_null_ptr
     type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
     type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag
+    type(c_ptr) :: cancel = c_null_ptr
+    !> Shows what the call is doing, before progress hears of it: a planish_stage
+    type(c_ptr) :: out_stage = c_null_ptr
     !> Outward bulge of a square's sides, in sides, 0 to 0.5: keeps triangles between nodes of one side open
     real(c_double) :: bulge = 0.02_c_double
     real(c_double) :: boundary_slide = 0 !! How far border nodes slide with the stretch, 0 to 1
@@ -383,9 +403,13 @@ module planish_records
 
   !> How a mesh is mapped on to the sphere.
   type, bind(c), public :: planish_sphere_options
-    integer(c_size_t) :: struct_size = 3 * word + 8
+    integer(c_size_t) :: struct_size = 5 * word + 8
     type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
     type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag
+    type(c_ptr) :: cancel = c_null_ptr
+    !> Shows what the call is doing, before progress hears of it: a planish_stage
+    type(c_ptr) :: out_stage = c_null_ptr
     integer(c_int32_t) :: sweeps = 10 !! Sweeps over all nodes at the end
     integer(c_int32_t) :: thread_count = 0 !! Threads that share the work; 0 (default) for all cores
   end type
@@ -469,13 +493,19 @@ module planish_records
 
   !> How a surface is converted.
   type, bind(c), public :: planish_convert_options
-    integer(c_size_t) :: struct_size = 2 * word
+    integer(c_size_t) :: struct_size = 6 * word
     integer(c_size_t) :: max_coefficients = 4000000 !! Most control points of the result; with more the call fails
+    type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
+    type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag
+    type(c_ptr) :: cancel = c_null_ptr
+    !> Shows what the call is doing, before progress hears of it: a planish_stage
+    type(c_ptr) :: out_stage = c_null_ptr
   end type
 
   !> Options of tensor fits.
   type, bind(c), public :: planish_tensor_options
-    integer(c_size_t) :: struct_size = 8 * word + 72
+    integer(c_size_t) :: struct_size = 10 * word + 72
     !> The largest error allowed at the data, positive, measured in tolerance_scale
     real(c_double) :: tolerance = 1e-3_c_double
     !> Weight of the bending energy; 0 (default) takes the largest of 1e-3, 1e-4, 1e-5, 1e-6 that meets the tolerance
@@ -488,6 +518,10 @@ module planish_records
     type(c_ptr) :: weights = c_null_ptr !! A positive weight for each datum; NULL (default) for all 1
     type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
     type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag
+    type(c_ptr) :: cancel = c_null_ptr
+    !> Shows what the call is doing, before progress hears of it: a planish_stage
+    type(c_ptr) :: out_stage = c_null_ptr
     !> Receives the (u,v) at which the error of each datum is measured: two numbers for each datum, or NULL (default)
     type(c_ptr) :: out_parameters = c_null_ptr
     !> Receives the error of each datum in model units: one number for each datum, or NULL (default)
@@ -512,7 +546,7 @@ module planish_records
 
   !> How fields are fitted.
   type, bind(c), public :: planish_field_options
-    integer(c_size_t) :: struct_size = 8 * word + 48
+    integer(c_size_t) :: struct_size = 10 * word + 48
     !> What reports compare the errors with, positive, measured in tolerance_scale
     real(c_double) :: tolerance = 1e-3_c_double
     real(c_double) :: smoothing = 1e-6_c_double !! Weight of the bending energy, positive
@@ -530,6 +564,10 @@ module planish_records
     !> Hears of the progress of making the fitter and may cancel; NULL (default) for nobody
     type(c_funptr) :: progress = c_null_funptr
     type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag
+    type(c_ptr) :: cancel = c_null_ptr
+    !> Shows what the call is doing, before progress hears of it: a planish_stage
+    type(c_ptr) :: out_stage = c_null_ptr
     integer(c_int32_t) :: tolerance_scale = PLANISH_TOLERANCE_SCALE_RELATIVE !! A planish_tolerance_scale
     integer(c_int32_t) :: ends = PLANISH_ENDS_NATURAL !! A planish_ends
     integer(c_int32_t) :: energy = PLANISH_ENERGY_BEAM !! A planish_energy
@@ -593,12 +631,18 @@ module planish_records
 
   !> How fine a tessellation is.
   type, bind(c), public :: planish_tessellate_options
-    integer(c_size_t) :: struct_size = 3 * word + 24
+    integer(c_size_t) :: struct_size = 7 * word + 24
     !> Largest distance between the surface and the middles of the edges, in model units, positive; 0 (default) takes
     !> 1e-3 of the surface's diagonal
     real(c_double) :: chord_tolerance = 0
     real(c_double) :: max_edge_length = 0 !! Longest edge in model units, positive; 0 (default) for no limit
     integer(c_size_t) :: max_point_count = 4000000 !! Most nodes; with more the call fails
+    type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
+    type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag
+    type(c_ptr) :: cancel = c_null_ptr
+    !> Shows what the call is doing, before progress hears of it: a planish_stage
+    type(c_ptr) :: out_stage = c_null_ptr
     integer(c_int32_t) :: keep_trims = 1 !! 1 (default) keeps to the part inside the trims, 0 covers the whole domain
     integer(c_int32_t) :: reserved = 0
     type(c_ptr) :: out_report = c_null_ptr !! Receives how good the mesh is, or NULL (default)
@@ -614,10 +658,16 @@ module planish_records
 
   !> How points are projected.
   type, bind(c), public :: planish_project_options
-    integer(c_size_t) :: struct_size = 2 * word + 16
+    integer(c_size_t) :: struct_size = 6 * word + 16
     type(c_ptr) :: guesses = c_null_ptr !! A row u, v near the answer for each point, or NULL (default)
     !> Points farther from the surface than this get NaN, and the call returns PLANISH_STATUS_POINTS_OUTSIDE
     real(c_double) :: max_distance = infinity
+    type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
+    type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag
+    type(c_ptr) :: cancel = c_null_ptr
+    !> Shows what the call is doing, before progress hears of it: a planish_stage
+    type(c_ptr) :: out_stage = c_null_ptr
     !> 1 (default) looks for the nearest place inside the trims, 0 in the whole domain
     integer(c_int32_t) :: keep_trims = 1
     integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 (default) for all cores
@@ -625,12 +675,18 @@ module planish_records
 
   !> How a surface is compared with a mesh.
   type, bind(c), public :: planish_deviation_options
-    integer(c_size_t) :: struct_size = 1 * word + 32
+    integer(c_size_t) :: struct_size = 5 * word + 32
     !> Chord tolerance of the tessellation that is measured back from, in model units; 0 (default) takes 1e-3 of the
     !> surface's diagonal
     real(c_double) :: chord_tolerance = 0
     !> Longest edge of that tessellation in model units; 0 (default) takes 1e-2 of the mesh's diagonal
     real(c_double) :: max_edge_length = 0
+    type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
+    type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag
+    type(c_ptr) :: cancel = c_null_ptr
+    !> Shows what the call is doing, before progress hears of it: a planish_stage
+    type(c_ptr) :: out_stage = c_null_ptr
     integer(c_int32_t) :: keep_trims = 1 !! 1 (default): only the part of the surface inside its trims counts
     !> 1 (default): the mesh's parameters, if it has any, are where searches start
     integer(c_int32_t) :: use_parameters = 1
@@ -655,23 +711,33 @@ module planish_records
 
   !> What rows to take from a mesh.
   type, bind(c), public :: planish_sample_rows_options
-    integer(c_size_t) :: struct_size = 5 * word + 16
+    integer(c_size_t) :: struct_size = 7 * word + 16
     !> About how far apart points are along a row, in model units; 0 (default) takes the mean length of edges
     real(c_double) :: spacing = 0
     integer(c_size_t) :: begin_index = 0 !! The loop or node that the first row is nearest to
     integer(c_size_t) :: end_index = 1 !! The loop or node that the last row is nearest to
     type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
     type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag
+    type(c_ptr) :: cancel = c_null_ptr
+    !> Shows what the call is doing, before progress hears of it: a planish_stage
+    type(c_ptr) :: out_stage = c_null_ptr
     integer(c_int32_t) :: begin = PLANISH_ROW_SOURCE_LOOP !! A planish_row_source: what begin_index counts
     integer(c_int32_t) :: end = PLANISH_ROW_SOURCE_LOOP !! A planish_row_source: what end_index counts
   end type
 
   !> What a VTK file shows.
   type, bind(c), public :: planish_vtk_options
-    integer(c_size_t) :: struct_size = 3 * word + 8
+    integer(c_size_t) :: struct_size = 7 * word + 8
     type(c_ptr) :: deviation_from = c_null_ptr !! A mesh to compare with, or NULL (default)
     !> How the surface is tessellated otherwise; NULL (default) for the defaults
     type(c_ptr) :: tessellate = c_null_ptr
+    type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
+    type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag
+    type(c_ptr) :: cancel = c_null_ptr
+    !> Shows what the call is doing, before progress hears of it: a planish_stage
+    type(c_ptr) :: out_stage = c_null_ptr
     integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 (default) for all cores
     integer(c_int32_t) :: content = PLANISH_VTK_CONTENT_TRIANGLES !! A planish_vtk_content
   end type
@@ -693,7 +759,7 @@ module planish_records
 
   !> What a STEP file says beside the shape.
   type, bind(c), public :: planish_step_options
-    integer(c_size_t) :: struct_size = 7 * word + 24
+    integer(c_size_t) :: struct_size = 11 * word + 24
     type(c_ptr) :: product = c_null_ptr !! Name of the product; NULL (default) for "surface"
     type(c_ptr) :: author = c_null_ptr !! Who made it; NULL (default) for nobody
     type(c_ptr) :: organization = c_null_ptr !! For whom; NULL (default) for nobody
@@ -701,6 +767,12 @@ module planish_records
     !> bytes
     type(c_ptr) :: timestamp = c_null_ptr
     type(c_ptr) :: out_report = c_null_ptr !! Receives what was written, or NULL (default)
+    type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
+    type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag
+    type(c_ptr) :: cancel = c_null_ptr
+    !> Shows what the call is doing, before progress hears of it: a planish_stage
+    type(c_ptr) :: out_stage = c_null_ptr
     !> A planish_step_schema; PLANISH_STEP_SCHEMA_AP214 (default)
     integer(c_int32_t) :: schema = PLANISH_STEP_SCHEMA_AP214
     !> A planish_unit, what one model unit is; PLANISH_UNIT_MILLIMETRE (default)
@@ -752,7 +824,7 @@ module planish_records
 
   !> Options of skins.
   type, bind(c), public :: planish_skin_options
-    integer(c_size_t) :: struct_size = 10 * word + 64
+    integer(c_size_t) :: struct_size = 12 * word + 64
     !> The largest error allowed at the points, positive, measured in tolerance_scale
     real(c_double) :: tolerance = 1e-3_c_double
     !> For each row two vectors of dim numbers, the slopes at its begin and its end, derivatives with respect to chord
@@ -764,6 +836,10 @@ module planish_records
     type(c_ptr) :: end_tangents = c_null_ptr !! The same at the last row
     type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
     type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag
+    type(c_ptr) :: cancel = c_null_ptr
+    !> Shows what the call is doing, before progress hears of it: a planish_stage
+    type(c_ptr) :: out_stage = c_null_ptr
     !> Receives the (u,v) at which the error of each point is measured: two numbers for each point, or NULL (default;
     !> for curves it must be)
     type(c_ptr) :: out_parameters = c_null_ptr
@@ -794,7 +870,7 @@ module planish_records
 
   !> Options of PHT fits.
   type, bind(c), public :: planish_pht_options
-    integer(c_size_t) :: struct_size = 8 * word + 64
+    integer(c_size_t) :: struct_size = 10 * word + 64
     !> The largest error allowed at the data, positive, measured in tolerance_scale
     real(c_double) :: tolerance = 1e-3_c_double
     !> Weight of the bending energy of each cell, mapped to the unit cell; lowered where cells cannot be split any
@@ -806,6 +882,10 @@ module planish_records
     type(c_ptr) :: weights = c_null_ptr !! A positive weight for each datum; NULL (default) for all 1
     type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
     type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag
+    type(c_ptr) :: cancel = c_null_ptr
+    !> Shows what the call is doing, before progress hears of it: a planish_stage
+    type(c_ptr) :: out_stage = c_null_ptr
     !> Receives the (u,v) at which the error of each datum is measured: two numbers for each datum, or NULL (default)
     type(c_ptr) :: out_parameters = c_null_ptr
     !> Receives the error of each datum in model units: one number for each datum, or NULL (default)
@@ -827,18 +907,24 @@ module planish_records
 
   !> How a tensor surface becomes a PHT-spline.
   type, bind(c), public :: planish_pht_convert_options
-    integer(c_size_t) :: struct_size = 2 * word + 16
+    integer(c_size_t) :: struct_size = 6 * word + 16
     !> Largest distance at equal parameters, in model units; 0 (default) takes all knot lines, which is exact up to
     !> degree 3
     real(c_double) :: tolerance = 0
     integer(c_size_t) :: max_cells = 200000 !! Most cells; with more the call fails
+    type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
+    type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag
+    type(c_ptr) :: cancel = c_null_ptr
+    !> Shows what the call is doing, before progress hears of it: a planish_stage
+    type(c_ptr) :: out_stage = c_null_ptr
     integer(c_int32_t) :: max_level = 12 !! Deepest level of a cell, at most 20
     integer(c_int32_t) :: reserved = 0
   end type
 
   !> Options of D1RC-splines and of fits by them.
   type, bind(c), public :: planish_d1rc_options
-    integer(c_size_t) :: struct_size = 14 * word + 64
+    integer(c_size_t) :: struct_size = 16 * word + 64
     !> sharp_edge_count pairs of nodes joined by an edge; NULL (default) for none
     type(c_ptr) :: sharp_edges = c_null_ptr
     integer(c_size_t) :: sharp_edge_count = 0 !! Pairs in sharp_edges
@@ -854,6 +940,10 @@ module planish_records
     !> Hears of the progress of the parameters and may cancel; NULL (default) for nobody
     type(c_funptr) :: progress = c_null_funptr
     type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag
+    type(c_ptr) :: cancel = c_null_ptr
+    !> Shows what the call is doing, before progress hears of it: a planish_stage
+    type(c_ptr) :: out_stage = c_null_ptr
     !> Fits only: the largest error allowed at the nodes, positive, measured in tolerance_scale
     real(c_double) :: tolerance = 1e-3_c_double
     !> Fits only: weight of the energy that determines control points without data, positive

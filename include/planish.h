@@ -139,6 +139,59 @@ typedef enum planish_status {
 } planish_status;
 
 /**
+ * What a long call is doing.
+ */
+enum planish_stage
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /**
+     * Looks at what it was given.
+     */
+    PLANISH_STAGE_PREPARE = 0,
+    /**
+     * Gives a mesh its parameters, or its places on a sphere.
+     */
+    PLANISH_STAGE_PARAMETERIZE = 1,
+    /**
+     * Makes a mesh coarser.
+     */
+    PLANISH_STAGE_COARSEN = 2,
+    /**
+     * Lays quadrilaterals over a mesh.
+     */
+    PLANISH_STAGE_LAYOUT = 3,
+    /**
+     * Fits, measures and refines.
+     */
+    PLANISH_STAGE_FIT = 4,
+    /**
+     * Looks for the nearest places.
+     */
+    PLANISH_STAGE_PROJECT = 5,
+    /**
+     * Makes triangles of a surface.
+     */
+    PLANISH_STAGE_TESSELLATE = 6,
+    /**
+     * Makes another form of a surface.
+     */
+    PLANISH_STAGE_CONVERT = 7,
+    /**
+     * Writes a file.
+     */
+    PLANISH_STAGE_WRITE = 8,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum planish_stage planish_stage;
+#else
+typedef uint32_t planish_stage;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
  * Which weights an interior node gives its neighbours.
  */
 typedef enum planish_map_method {
@@ -815,10 +868,10 @@ typedef struct planish_mesh_options {
 } planish_mesh_options;
 
 /**
- * Hears how far a call is and may end it.
+ * Hears how far a call is and may end it. It is asked at least every 50 ms.
  *
  * fraction: how much is done, 0 to 1; it never falls.
- * error:    while a surface is fitted the largest error so far in model units, while a mesh is parameterized
+ * error:    while a surface is fitted the largest error so far in model units; in calls that only parameterize a mesh
  *           the L2 stretch so far; NaN while unknown.
  * user:     the pointer from the options.
  * Returns 0 to go on; anything else cancels, and the call returns PLANISH_STATUS_CANCELLED when the step in
@@ -878,6 +931,15 @@ typedef struct planish_decimate_options {
      */
     void *user;
     /**
+     * Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+     */
+    const volatile int32_t *cancel;
+    /**
+     * Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+     * Array: [1].
+     */
+    uint32_t *out_stage;
+    /**
      * 1 (default) lets no triangle turn over in the parameter plane, if the mesh has parameters; 0 does not look.
      */
     uint32_t keep_map;
@@ -935,6 +997,15 @@ typedef struct planish_parameterize_options {
      * Handed to progress as it is.
      */
     void *user;
+    /**
+     * Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+     */
+    const volatile int32_t *cancel;
+    /**
+     * Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+     * Array: [1].
+     */
+    uint32_t *out_stage;
     /**
      * Outward bulge of a square's sides, in sides, 0 to 0.5: keeps triangles between nodes of one side open.
      * Default 0.02.
@@ -1055,6 +1126,15 @@ typedef struct planish_sphere_options {
      * Handed to progress as it is.
      */
     void *user;
+    /**
+     * Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+     */
+    const volatile int32_t *cancel;
+    /**
+     * Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+     * Array: [1].
+     */
+    uint32_t *out_stage;
     /**
      * Sweeps over all nodes at the end. Default 10.
      */
@@ -1196,6 +1276,23 @@ typedef struct planish_convert_options {
      * Most control points of the result; with more the call fails. Default 4000000.
      */
     size_t max_coefficients;
+    /**
+     * Hears of the progress and may cancel; NULL (default) for nobody.
+     */
+    planish_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *user;
+    /**
+     * Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+     */
+    const volatile int32_t *cancel;
+    /**
+     * Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+     * Array: [1].
+     */
+    uint32_t *out_stage;
 } planish_convert_options;
 
 /**
@@ -1239,6 +1336,15 @@ typedef struct planish_tensor_options {
      * Handed to progress as it is.
      */
     void *user;
+    /**
+     * Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+     */
+    const volatile int32_t *cancel;
+    /**
+     * Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+     * Array: [1].
+     */
+    uint32_t *out_stage;
     /**
      * Receives the (u,v) at which the error of each datum is measured: two numbers for each datum, or NULL
      * (default). Written on success only.
@@ -1474,6 +1580,15 @@ typedef struct planish_field_options {
      */
     void *user;
     /**
+     * Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+     */
+    const volatile int32_t *cancel;
+    /**
+     * Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+     * Array: [1].
+     */
+    uint32_t *out_stage;
+    /**
      * A planish_tolerance_scale. Default PLANISH_TOLERANCE_SCALE_RELATIVE.
      */
     uint32_t tolerance_scale;
@@ -1681,6 +1796,23 @@ typedef struct planish_tessellate_options {
      */
     size_t max_point_count;
     /**
+     * Hears of the progress and may cancel; NULL (default) for nobody.
+     */
+    planish_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *user;
+    /**
+     * Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+     */
+    const volatile int32_t *cancel;
+    /**
+     * Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+     * Array: [1].
+     */
+    uint32_t *out_stage;
+    /**
      * 1 (default) keeps to the part inside the trims, 0 covers the whole domain.
      */
     uint32_t keep_trims;
@@ -1715,6 +1847,23 @@ typedef struct planish_project_options {
      */
     double max_distance;
     /**
+     * Hears of the progress and may cancel; NULL (default) for nobody.
+     */
+    planish_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *user;
+    /**
+     * Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+     */
+    const volatile int32_t *cancel;
+    /**
+     * Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+     * Array: [1].
+     */
+    uint32_t *out_stage;
+    /**
      * 1 (default) looks for the nearest place inside the trims, 0 in the whole domain.
      */
     uint32_t keep_trims;
@@ -1743,6 +1892,23 @@ typedef struct planish_deviation_options {
      * Smaller holes may be missed.
      */
     double max_edge_length;
+    /**
+     * Hears of the progress and may cancel; NULL (default) for nobody.
+     */
+    planish_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *user;
+    /**
+     * Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+     */
+    const volatile int32_t *cancel;
+    /**
+     * Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+     * Array: [1].
+     */
+    uint32_t *out_stage;
     /**
      * 1 (default): only the part of the surface inside its trims counts.
      */
@@ -1835,6 +2001,15 @@ typedef struct planish_sample_rows_options {
      */
     void *user;
     /**
+     * Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+     */
+    const volatile int32_t *cancel;
+    /**
+     * Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+     * Array: [1].
+     */
+    uint32_t *out_stage;
+    /**
      * A planish_row_source: what begin_index counts. Default PLANISH_ROW_SOURCE_LOOP.
      */
     uint32_t begin;
@@ -1862,6 +2037,23 @@ typedef struct planish_vtk_options {
      * How the surface is tessellated otherwise; NULL (default) for the defaults. Borrowed.
      */
     const struct planish_tessellate_options *tessellate;
+    /**
+     * Hears of the progress and may cancel; NULL (default) for nobody.
+     */
+    planish_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *user;
+    /**
+     * Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+     */
+    const volatile int32_t *cancel;
+    /**
+     * Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+     * Array: [1].
+     */
+    uint32_t *out_stage;
     /**
      * Threads to use, at most 1024; 0 (default) for all cores.
      */
@@ -1941,6 +2133,23 @@ typedef struct planish_step_options {
      * Receives what was written, or NULL (default). Set its struct_size before. Filled on success only.
      */
     struct planish_step_report *out_report;
+    /**
+     * Hears of the progress and may cancel; NULL (default) for nobody.
+     */
+    planish_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *user;
+    /**
+     * Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+     */
+    const volatile int32_t *cancel;
+    /**
+     * Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+     * Array: [1].
+     */
+    uint32_t *out_stage;
     /**
      * A planish_step_schema; PLANISH_STEP_SCHEMA_AP214 (default).
      */
@@ -2098,6 +2307,15 @@ typedef struct planish_skin_options {
      */
     void *user;
     /**
+     * Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+     */
+    const volatile int32_t *cancel;
+    /**
+     * Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+     * Array: [1].
+     */
+    uint32_t *out_stage;
+    /**
      * Receives the (u,v) at which the error of each point is measured: two numbers for each point, or NULL
      * (default; for curves it must be). Written on success only.
      * Array: [data, 2].
@@ -2215,6 +2433,15 @@ typedef struct planish_pht_options {
      */
     void *user;
     /**
+     * Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+     */
+    const volatile int32_t *cancel;
+    /**
+     * Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+     * Array: [1].
+     */
+    uint32_t *out_stage;
+    /**
      * Receives the (u,v) at which the error of each datum is measured: two numbers for each datum, or NULL
      * (default). Written on success only.
      * Array: [data, 2].
@@ -2299,6 +2526,23 @@ typedef struct planish_pht_convert_options {
      */
     size_t max_cells;
     /**
+     * Hears of the progress and may cancel; NULL (default) for nobody.
+     */
+    planish_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *user;
+    /**
+     * Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+     */
+    const volatile int32_t *cancel;
+    /**
+     * Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+     * Array: [1].
+     */
+    uint32_t *out_stage;
+    /**
      * Deepest level of a cell, at most 20. Default 12.
      */
     uint32_t max_level;
@@ -2356,6 +2600,15 @@ typedef struct planish_d1rc_options {
      * Handed to progress as it is.
      */
     void *user;
+    /**
+     * Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+     */
+    const volatile int32_t *cancel;
+    /**
+     * Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+     * Array: [1].
+     */
+    uint32_t *out_stage;
     /**
      * Fits only: the largest error allowed at the nodes, positive, measured in tolerance_scale. Default 1e-3.
      */

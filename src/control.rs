@@ -5,15 +5,15 @@ use rayon::{ThreadBuilder, ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::cell::Cell;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc;
-use std::sync::{Mutex, OnceLock};
+use std::sync::atomic::{AtomicBool, AtomicI32, AtomicU32, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::sync::{Arc, Mutex, OnceLock};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-/// The progress callback asked to stop.
+/// The listener, or whoever set the flag, asked to stop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("cancelled by the progress callback")]
+#[error("cancelled by the caller")]
 pub struct Cancelled;
 
 impl Classify for Cancelled {
@@ -25,6 +25,31 @@ impl Classify for Cancelled {
 /// Hears the done fraction (0 to 1) and the error so far (NaN while unknown); breaks to cancel.
 pub type ProgressFn<'a> = dyn FnMut(f64, f64) -> ControlFlow<()> + 'a;
 
+/// What a long call is doing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(u32)]
+pub enum Stage {
+    /// Looks at what it was given.
+    #[default]
+    Prepare = 0,
+    /// Gives a mesh its parameters, or its places on a sphere.
+    Parameterize = 1,
+    /// Makes a mesh coarser.
+    Coarsen = 2,
+    /// Lays quadrilaterals over a mesh.
+    Layout = 3,
+    /// Fits, measures and refines.
+    Fit = 4,
+    /// Looks for the nearest places.
+    Project = 5,
+    /// Makes triangles of a surface.
+    Tessellate = 6,
+    /// Makes another form of a surface.
+    Convert = 7,
+    /// Writes a file.
+    Write = 8,
+}
+
 /// Threads that share work: exactly as many as asked for, started when first needed.
 ///
 /// Results never depend on their number: work is cut into pieces of fixed size, and pieces are combined in
@@ -33,6 +58,7 @@ pub type ProgressFn<'a> = dyn FnMut(f64, f64) -> ControlFlow<()> + 'a;
 pub struct Pool {
     thread_count: usize,
     threads: OnceLock<Threads>,
+    watch: Watch,
 }
 
 /// Threads that have ended when this is dropped: a program may unload the library after its last call.
@@ -77,7 +103,12 @@ impl Pool {
     pub fn new(thread_count: usize) -> Self {
         let all = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
         let thread_count = if thread_count == 0 { all() } else { thread_count };
-        Self { thread_count, threads: OnceLock::new() }
+        Self { thread_count, threads: OnceLock::new(), watch: Watch::default() }
+    }
+
+    /// An error once the call that this pool works for is to end: asked between pieces of work.
+    pub fn check(&self) -> Result<(), Cancelled> {
+        self.watch.check()
     }
 
     /// Threads that share the work, at least 1.
@@ -106,16 +137,37 @@ pub fn is_pool_thread() -> bool {
     IS_POOL_THREAD.try_with(Cell::get).unwrap_or(false)
 }
 
-/// How a long call runs: a pool of threads, and a listener that is told on the thread that called.
+/// Who hears of the progress.
+enum Listener<'a> {
+    Nobody,
+    /// A function of this thread.
+    Here(&'a mut ProgressFn<'a>),
+    /// The thread that hosts the call.
+    Host(mpsc::Sender<Report>),
+}
+
+/// What a hosted call tells, and where it waits for the answer.
+struct Report {
+    fraction: f64,
+    error: f64,
+    answer: mpsc::Sender<ControlFlow<()>>,
+}
+
+/// How a long call runs: a pool of threads, a listener that is told on the thread that called, and a flag that any
+/// thread may set.
 pub struct Control<'a> {
-    pool: Pool,
-    progress: Option<&'a mut ProgressFn<'a>>,
+    pool: Arc<Pool>,
+    listener: Listener<'a>,
+    cancel: Option<&'a AtomicI32>,
+    shown_stage: Option<&'a AtomicU32>,
     /// The part of the whole that the present call covers.
     part: (f64, f64),
     /// The part of it that the present stage covers.
     stage: (f64, f64),
     /// What the listener was told last.
     last: (f64, f64),
+    /// Whether errors of the present call mean nothing to the listener of the whole.
+    hides_error: bool,
 }
 
 impl Default for Control<'_> {
@@ -132,17 +184,30 @@ impl<'a> Control<'a> {
     pub fn new(thread_count: usize) -> Self {
         let whole = (0.0, 1.0);
         Self {
-            pool: Pool::new(thread_count),
-            progress: None,
+            pool: Arc::new(Pool::new(thread_count)),
+            listener: Listener::Nobody,
+            cancel: None,
+            shown_stage: None,
             part: whole,
             stage: whole,
             last: (0.0, f64::NAN),
+            hides_error: false,
         }
     }
 
     /// The same with a listener.
     pub fn with_progress(self, progress: &'a mut ProgressFn<'a>) -> Self {
-        Self { progress: Some(progress), ..self }
+        Self { listener: Listener::Here(progress), ..self }
+    }
+
+    /// The same with a flag that cancels when it is not 0.
+    pub fn with_cancel(self, cancel: &'a AtomicI32) -> Self {
+        Self { cancel: Some(cancel), ..self }
+    }
+
+    /// The same with a number that shows the [`Stage`].
+    pub fn with_stage(self, stage: &'a AtomicU32) -> Self {
+        Self { shown_stage: Some(stage), ..self }
     }
 
     /// The threads.
@@ -158,6 +223,13 @@ impl<'a> Control<'a> {
     /// Runs `work` on the pool: [`Pool::run`].
     pub fn run<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
         self.pool.run(work)
+    }
+
+    /// From now on the call is at this stage.
+    pub fn enter(&mut self, stage: Stage) {
+        if let Some(shown) = self.shown_stage {
+            shown.store(stage as u32, Ordering::Relaxed);
+        }
     }
 
     /// From now on progress runs from `from` to `to` of the whole call.
@@ -178,6 +250,14 @@ impl<'a> Control<'a> {
         result
     }
 
+    /// Runs a call whose errors are not in the units of this one: the listener hears NaN instead.
+    pub fn without_error<R>(&mut self, call: impl FnOnce(&mut Self) -> R) -> R {
+        let outer = std::mem::replace(&mut self.hides_error, true);
+        let result = call(self);
+        self.hides_error = outer;
+        result
+    }
+
     /// How much of everything is done when `fraction` of the present stage is.
     fn fraction(&self, fraction: f64) -> f64 {
         let at = |(from, to): (f64, f64), fraction: f64| from + fraction * (to - from);
@@ -186,64 +266,112 @@ impl<'a> Control<'a> {
 
     /// Tells the listener; `fraction` is of the present stage. What was done stays done: it hears of no less than before.
     pub fn report(&mut self, fraction: f64, error: f64) -> Result<(), Cancelled> {
+        let error = if self.hides_error { f64::NAN } else { error };
         self.last = (self.fraction(fraction).max(self.last.0), error);
         self.tell()
     }
 
     fn tell(&mut self) -> Result<(), Cancelled> {
         let (fraction, error) = self.last;
-        match self.progress.as_mut().map(|tell| tell(fraction, error)) {
-            Some(ControlFlow::Break(())) => Err(Cancelled),
-            _ => Ok(()),
+        let answer = match &mut self.listener {
+            Listener::Nobody => ControlFlow::Continue(()),
+            Listener::Here(tell) => tell(fraction, error),
+            Listener::Host(host) => {
+                let (answer, answered) = mpsc::channel();
+                // a host that is gone has cancelled
+                let sent = host.send(Report { fraction, error, answer });
+                sent.ok().and_then(|()| answered.recv().ok()).unwrap_or(ControlFlow::Break(()))
+            }
+        };
+        let is_set = self.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed) != 0);
+        if answer.is_break() || is_set {
+            self.pool.watch.cancel();
         }
+        self.pool.check()
     }
 
-    /// Runs `work` on the pool while the calling thread keeps asking the listener, so that it can cancel
-    /// in the middle of long work: `work` looks at the [`Watch`] between its steps.
-    pub fn watch<R: Send>(&mut self, work: impl FnOnce(&Pool, &Watch) -> R + Send) -> Result<R, Cancelled> {
-        let watch = Watch { is_cancelled: AtomicBool::new(false) };
-        if self.progress.is_none() {
-            let pool = &self.pool;
-            return Ok(pool.run(|| work(pool, &watch)));
+    /// Runs a whole call on the pool. This thread asks the listener meanwhile, when the call reports and at least
+    /// every 20 ms, so that it can cancel in the middle of long work: that asks [`Control::report`], [`Pool::check`] or
+    /// [`Watch::check`] between its steps.
+    pub fn host<R: Send>(&mut self, call: impl FnOnce(&mut Control) -> R + Send) -> Result<R, Cancelled> {
+        if matches!(self.listener, Listener::Nobody | Listener::Host(_)) && self.cancel.is_none() {
+            return Ok(call(self));
         }
+        let (sender, reports) = mpsc::channel();
+        let pool = Arc::clone(&self.pool);
+        let (shown_stage, part, stage, last, hides_error) =
+            (self.shown_stage, self.part, self.stage, self.last, self.hides_error);
         let result = Mutex::new(None);
-        let (finished, has_finished) = mpsc::channel();
-        let mut told = Ok(());
-        let pool =
-            Pool { thread_count: self.pool.thread_count, threads: std::mem::take(&mut self.pool.threads) };
         pool.threads().in_place_scope(|scope| {
             scope.spawn(|_| {
-                // dropped at the end of this closure even when `work` panics, which ends the waiting
-                let _finished: mpsc::Sender<()> = finished;
-                let value = work(&pool, &watch);
+                // its sender is dropped at the end of this closure even when `call` panics, which ends the waiting
+                let mut inner = Control {
+                    pool: Arc::clone(&pool),
+                    listener: Listener::Host(sender),
+                    cancel: None,
+                    shown_stage,
+                    part,
+                    stage,
+                    last,
+                    hides_error,
+                };
+                let value = call(&mut inner);
                 if let Ok(mut result) = result.lock() {
-                    *result = Some(value);
+                    *result = Some((value, (inner.part, inner.stage, inner.last)));
                 }
             });
-            while has_finished.recv_timeout(POLL) == Err(mpsc::RecvTimeoutError::Timeout) {
-                if told.is_ok() {
-                    told = self.tell();
-                    watch.is_cancelled.store(told.is_err(), Ordering::Relaxed);
+            loop {
+                let answer = match reports.recv_timeout(POLL) {
+                    Ok(report) => {
+                        self.last = (report.fraction, report.error);
+                        Some(report.answer)
+                    }
+                    Err(RecvTimeoutError::Timeout) => None,
+                    Err(RecvTimeoutError::Disconnected) => break,
+                };
+                // a listener that has cancelled is not asked again
+                let told = if self.pool.check().is_ok() { self.tell() } else { Err(Cancelled) };
+                if let Some(answer) = answer {
+                    // nobody waits for it if the call has panicked
+                    let _ = answer.send(if told.is_ok() {
+                        ControlFlow::Continue(())
+                    } else {
+                        ControlFlow::Break(())
+                    });
                 }
             }
         });
-        self.pool = pool;
-        told?;
         let value = result.into_inner().ok().flatten();
-        Ok(value.expect("the scope passes a panic on, so here the work has ended well"))
+        let (value, state) = value.expect("the scope passes a panic on, so here the call has ended well");
+        (self.part, self.stage, self.last) = state;
+        self.pool.check()?;
+        Ok(value)
+    }
+
+    /// Runs `work` on the pool, cancelled as a hosted call is: `work` looks at the [`Watch`] between its steps.
+    pub fn watch<R: Send>(&mut self, work: impl FnOnce(&Pool, &Watch) -> R + Send) -> Result<R, Cancelled> {
+        self.host(|control| {
+            let pool = control.pool();
+            let value = pool.run(|| work(pool, &pool.watch));
+            pool.check().map(|()| value)
+        })?
     }
 }
 
-/// Seen by work on other threads: whether the listener wants it to end.
-#[derive(Debug)]
+/// Seen by work on other threads: whether the call is to end.
+#[derive(Debug, Default)]
 pub struct Watch {
     is_cancelled: AtomicBool,
 }
 
 impl Watch {
-    /// An error once the listener has cancelled.
+    /// An error once the call is cancelled.
     pub fn check(&self) -> Result<(), Cancelled> {
         if self.is_cancelled.load(Ordering::Relaxed) { Err(Cancelled) } else { Ok(()) }
+    }
+
+    fn cancel(&self) {
+        self.is_cancelled.store(true, Ordering::Relaxed);
     }
 }
 
@@ -287,6 +415,53 @@ mod tests {
         control.within(0.5, 0.75, inner).unwrap();
         control.report(0.5, f64::NAN).unwrap();
         assert_eq!(told, [0.5625, 0.75, 0.875]);
+    }
+
+    #[test]
+    fn a_hosted_call_is_asked_for_while_it_says_nothing() {
+        let mut told = Vec::new();
+        let mut progress = |fraction: f64, _: f64| {
+            told.push(fraction);
+            ControlFlow::Continue(())
+        };
+        let call = |control: &mut Control| {
+            control.report(0.25, f64::NAN)?;
+            std::thread::sleep(4 * POLL);
+            control.report(0.5, f64::NAN)
+        };
+        Control::new(1).with_progress(&mut progress).host(call).unwrap().unwrap();
+        assert_eq!((told[0], told[told.len() - 1]), (0.25, 0.5));
+        assert!(
+            told.len() > 2 && told[1..told.len() - 1].iter().all(|&fraction| fraction == 0.25),
+            "{told:?}"
+        );
+    }
+
+    #[test]
+    fn a_flag_cancels_without_a_listener() {
+        let (flag, stage) = (AtomicI32::new(0), AtomicU32::new(7));
+        let mut control = Control::new(2).with_cancel(&flag).with_stage(&stage);
+        let call = |control: &mut Control| {
+            control.enter(Stage::Fit);
+            while control.pool().check().is_ok() {
+                flag.store(1, Ordering::Relaxed);
+            }
+        };
+        assert_eq!(control.host(call), Err(Cancelled));
+        assert_eq!(stage.load(Ordering::Relaxed), Stage::Fit as u32);
+    }
+
+    #[test]
+    fn errors_in_other_units_are_not_heard() {
+        let mut told = Vec::new();
+        let mut progress = |_: f64, error: f64| {
+            told.push(error);
+            ControlFlow::Continue(())
+        };
+        let mut control = Control::new(1).with_progress(&mut progress);
+        control.without_error(|control| control.report(0.1, 1.5)).unwrap();
+        control.report(0.2, 0.5).unwrap();
+        assert!(told[0].is_nan() && told[1] == 0.5);
     }
 
     #[test]

@@ -35,6 +35,17 @@ ENUMERATIONS = {
         "out_of_memory": -16,
         "internal": -17,
     },
+    "planish_stage": {
+        "prepare": 0,
+        "parameterize": 1,
+        "coarsen": 2,
+        "layout": 3,
+        "fit": 4,
+        "project": 5,
+        "tessellate": 6,
+        "convert": 7,
+        "write": 8,
+    },
     "planish_map_method": {
         "mean_value": 0,
         "harmonic": 1,
@@ -232,12 +243,18 @@ class planish_decimate_options(Structure):
         ("out_sharp_edge_count", c_size_t),
         ("progress", planish_progress),
         ("user", c_void_p),
+        ("cancel", c_void_p),
+        ("out_stage", c_void_p),
         ("keep_map", c_uint32),
         ("reserved", c_uint32),
     ]
+    choices = {
+        "out_stage": "planish_stage",
+    }
     arrays = {
         "sharp_edges": ("sharp_edge_count", "2",),
         "out_sharp_edges": ("out_sharp_edge_count", "2",),
+        "out_stage": ("1",),
     }
 
 
@@ -257,6 +274,8 @@ class planish_parameterize_options(Structure):
         ("node_weights", c_void_p),
         ("progress", planish_progress),
         ("user", c_void_p),
+        ("cancel", c_void_p),
+        ("out_stage", c_void_p),
         ("bulge", c_double),
         ("boundary_slide", c_double),
         ("method", c_uint32),
@@ -270,11 +289,13 @@ class planish_parameterize_options(Structure):
         ("reserved", c_uint32),
     ]
     choices = {
+        "out_stage": "planish_stage",
         "method": "planish_map_method",
         "border": "planish_border",
     }
     arrays = {
         "node_weights": ("nodes",),
+        "out_stage": ("1",),
     }
 
 
@@ -306,9 +327,17 @@ class planish_sphere_options(Structure):
         ("struct_size", c_size_t),
         ("progress", planish_progress),
         ("user", c_void_p),
+        ("cancel", c_void_p),
+        ("out_stage", c_void_p),
         ("sweeps", c_uint32),
         ("thread_count", c_uint32),
     ]
+    choices = {
+        "out_stage": "planish_stage",
+    }
+    arrays = {
+        "out_stage": ("1",),
+    }
 
 
 class planish_sphere_report(Structure):
@@ -400,7 +429,17 @@ class planish_convert_options(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
         ("max_coefficients", c_size_t),
+        ("progress", planish_progress),
+        ("user", c_void_p),
+        ("cancel", c_void_p),
+        ("out_stage", c_void_p),
     ]
+    choices = {
+        "out_stage": "planish_stage",
+    }
+    arrays = {
+        "out_stage": ("1",),
+    }
 
 
 class planish_tensor_options(Structure):
@@ -413,6 +452,8 @@ class planish_tensor_options(Structure):
         ("weights", c_void_p),
         ("progress", planish_progress),
         ("user", c_void_p),
+        ("cancel", c_void_p),
+        ("out_stage", c_void_p),
         ("out_parameters", c_void_p),
         ("out_errors", c_void_p),
         ("max_coefficients", c_size_t),
@@ -430,6 +471,7 @@ class planish_tensor_options(Structure):
         ("reserved", c_uint32),
     ]
     choices = {
+        "out_stage": "planish_stage",
         "tolerance_scale": "planish_tolerance_scale",
         "method": "planish_tensor_method",
         "ends": "planish_ends",
@@ -438,6 +480,7 @@ class planish_tensor_options(Structure):
     }
     arrays = {
         "weights": ("data",),
+        "out_stage": ("1",),
         "out_parameters": ("data", "2",),
         "out_errors": ("data",),
     }
@@ -456,6 +499,8 @@ class planish_field_options(Structure):
         ("sample_dim", c_size_t),
         ("progress", planish_progress),
         ("user", c_void_p),
+        ("cancel", c_void_p),
+        ("out_stage", c_void_p),
         ("tolerance_scale", c_uint32),
         ("ends", c_uint32),
         ("energy", c_uint32),
@@ -464,6 +509,7 @@ class planish_field_options(Structure):
         ("thread_count", c_uint32),
     ]
     choices = {
+        "out_stage": "planish_stage",
         "tolerance_scale": "planish_tolerance_scale",
         "ends": "planish_ends",
         "energy": "planish_energy",
@@ -472,6 +518,7 @@ class planish_field_options(Structure):
         "weights": ("nodes",),
         "mask": ("nodes",),
         "sample_values": ("nodes", "sample_dim",),
+        "out_stage": ("1",),
     }
 
 
@@ -532,10 +579,20 @@ class planish_tessellate_options(Structure):
         ("chord_tolerance", c_double),
         ("max_edge_length", c_double),
         ("max_point_count", c_size_t),
+        ("progress", planish_progress),
+        ("user", c_void_p),
+        ("cancel", c_void_p),
+        ("out_stage", c_void_p),
         ("keep_trims", c_uint32),
         ("reserved", c_uint32),
         ("out_report", c_void_p),
     ]
+    choices = {
+        "out_stage": "planish_stage",
+    }
+    arrays = {
+        "out_stage": ("1",),
+    }
 
 
 class planish_tessellate_report(Structure):
@@ -551,11 +608,19 @@ class planish_project_options(Structure):
         ("struct_size", c_size_t),
         ("guesses", c_void_p),
         ("max_distance", c_double),
+        ("progress", planish_progress),
+        ("user", c_void_p),
+        ("cancel", c_void_p),
+        ("out_stage", c_void_p),
         ("keep_trims", c_uint32),
         ("thread_count", c_uint32),
     ]
+    choices = {
+        "out_stage": "planish_stage",
+    }
     arrays = {
         "guesses": ("points", "2",),
+        "out_stage": ("1",),
     }
 
 
@@ -564,11 +629,21 @@ class planish_deviation_options(Structure):
         ("struct_size", c_size_t),
         ("chord_tolerance", c_double),
         ("max_edge_length", c_double),
+        ("progress", planish_progress),
+        ("user", c_void_p),
+        ("cancel", c_void_p),
+        ("out_stage", c_void_p),
         ("keep_trims", c_uint32),
         ("use_parameters", c_uint32),
         ("measure_back", c_uint32),
         ("thread_count", c_uint32),
     ]
+    choices = {
+        "out_stage": "planish_stage",
+    }
+    arrays = {
+        "out_stage": ("1",),
+    }
 
 
 class planish_deviation_report(Structure):
@@ -593,12 +668,18 @@ class planish_sample_rows_options(Structure):
         ("end_index", c_size_t),
         ("progress", planish_progress),
         ("user", c_void_p),
+        ("cancel", c_void_p),
+        ("out_stage", c_void_p),
         ("begin", c_uint32),
         ("end", c_uint32),
     ]
     choices = {
+        "out_stage": "planish_stage",
         "begin": "planish_row_source",
         "end": "planish_row_source",
+    }
+    arrays = {
+        "out_stage": ("1",),
     }
 
 
@@ -607,11 +688,19 @@ class planish_vtk_options(Structure):
         ("struct_size", c_size_t),
         ("deviation_from", c_void_p),
         ("tessellate", c_void_p),
+        ("progress", planish_progress),
+        ("user", c_void_p),
+        ("cancel", c_void_p),
+        ("out_stage", c_void_p),
         ("thread_count", c_uint32),
         ("content", c_uint32),
     ]
     choices = {
+        "out_stage": "planish_stage",
         "content": "planish_vtk_content",
+    }
+    arrays = {
+        "out_stage": ("1",),
     }
 
 
@@ -636,6 +725,10 @@ class planish_step_options(Structure):
         ("organization", c_char_p),
         ("timestamp", c_char_p),
         ("out_report", c_void_p),
+        ("progress", planish_progress),
+        ("user", c_void_p),
+        ("cancel", c_void_p),
+        ("out_stage", c_void_p),
         ("schema", c_uint32),
         ("unit", c_uint32),
         ("max_coefficients", c_size_t),
@@ -644,9 +737,13 @@ class planish_step_options(Structure):
         ("tolerance", c_double),
     ]
     choices = {
+        "out_stage": "planish_stage",
         "schema": "planish_step_schema",
         "unit": "planish_unit",
         "form": "planish_step_form",
+    }
+    arrays = {
+        "out_stage": ("1",),
     }
 
 
@@ -693,6 +790,8 @@ class planish_skin_options(Structure):
         ("end_tangents", c_void_p),
         ("progress", planish_progress),
         ("user", c_void_p),
+        ("cancel", c_void_p),
+        ("out_stage", c_void_p),
         ("out_parameters", c_void_p),
         ("out_errors", c_void_p),
         ("out_report", c_void_p),
@@ -713,6 +812,7 @@ class planish_skin_options(Structure):
         ("thread_count", c_uint32),
     ]
     choices = {
+        "out_stage": "planish_stage",
         "tolerance_scale": "planish_tolerance_scale",
         "method": "planish_skin_method",
         "ends": "planish_section_ends",
@@ -722,6 +822,7 @@ class planish_skin_options(Structure):
         "end_slopes": ("rows", "2", "dim",),
         "begin_tangents": ("*", "dim",),
         "end_tangents": ("*", "dim",),
+        "out_stage": ("1",),
         "out_parameters": ("data", "2",),
         "out_errors": ("data",),
     }
@@ -736,6 +837,8 @@ class planish_pht_options(Structure):
         ("weights", c_void_p),
         ("progress", planish_progress),
         ("user", c_void_p),
+        ("cancel", c_void_p),
+        ("out_stage", c_void_p),
         ("out_parameters", c_void_p),
         ("out_errors", c_void_p),
         ("max_cells", c_size_t),
@@ -753,12 +856,14 @@ class planish_pht_options(Structure):
         ("reserved", c_uint32),
     ]
     choices = {
+        "out_stage": "planish_stage",
         "tolerance_scale": "planish_tolerance_scale",
         "estimator": "planish_pht_estimator",
         "regularize": "planish_regularize",
     }
     arrays = {
         "weights": ("data",),
+        "out_stage": ("1",),
         "out_parameters": ("data", "2",),
         "out_errors": ("data",),
     }
@@ -769,9 +874,19 @@ class planish_pht_convert_options(Structure):
         ("struct_size", c_size_t),
         ("tolerance", c_double),
         ("max_cells", c_size_t),
+        ("progress", planish_progress),
+        ("user", c_void_p),
+        ("cancel", c_void_p),
+        ("out_stage", c_void_p),
         ("max_level", c_uint32),
         ("reserved", c_uint32),
     ]
+    choices = {
+        "out_stage": "planish_stage",
+    }
+    arrays = {
+        "out_stage": ("1",),
+    }
 
 
 class planish_d1rc_options(Structure):
@@ -786,6 +901,8 @@ class planish_d1rc_options(Structure):
         ("parameterize", c_void_p),
         ("progress", planish_progress),
         ("user", c_void_p),
+        ("cancel", c_void_p),
+        ("out_stage", c_void_p),
         ("tolerance", c_double),
         ("smoothing", c_double),
         ("control_mesh", c_void_p),
@@ -804,6 +921,7 @@ class planish_d1rc_options(Structure):
         ("reserved", c_uint32),
     ]
     choices = {
+        "out_stage": "planish_stage",
         "mode": "planish_d1rc_mode",
         "boundary": "planish_d1rc_boundary",
         "sharp": "planish_d1rc_sharp",
@@ -812,6 +930,7 @@ class planish_d1rc_options(Structure):
     arrays = {
         "sharp_edges": ("sharp_edge_count", "2",),
         "corners": ("corner_count",),
+        "out_stage": ("1",),
         "weights": ("nodes",),
         "out_parameters": ("nodes", "2",),
         "out_errors": ("nodes",),
@@ -822,36 +941,36 @@ class planish_d1rc_options(Structure):
 SIZES = {
     planish_mesh_options: 56,
     planish_mesh_repairs: 40,
-    planish_decimate_options: 88,
+    planish_decimate_options: 104,
     planish_decimate_report: 40,
-    planish_parameterize_options: 96,
+    planish_parameterize_options: 112,
     planish_parameterize_report: 88,
-    planish_sphere_options: 32,
+    planish_sphere_options: 48,
     planish_sphere_report: 56,
     planish_fit_report: 192,
     planish_eval_options: 40,
     planish_patch: 72,
-    planish_convert_options: 16,
-    planish_tensor_options: 136,
-    planish_field_options: 112,
+    planish_convert_options: 48,
+    planish_tensor_options: 152,
+    planish_field_options: 128,
     planish_transfer_options: 32,
     planish_transfer_report: 104,
     planish_balance_report: 152,
-    planish_tessellate_options: 48,
+    planish_tessellate_options: 80,
     planish_tessellate_report: 24,
-    planish_project_options: 32,
-    planish_deviation_options: 40,
+    planish_project_options: 64,
+    planish_deviation_options: 72,
     planish_deviation_report: 72,
-    planish_sample_rows_options: 56,
-    planish_vtk_options: 32,
+    planish_sample_rows_options: 72,
+    planish_vtk_options: 64,
     planish_step_report: 64,
-    planish_step_options: 80,
+    planish_step_options: 112,
     planish_interpolate_options: 24,
     planish_skin_report: 112,
-    planish_skin_options: 144,
-    planish_pht_options: 128,
-    planish_pht_convert_options: 32,
-    planish_d1rc_options: 176,
+    planish_skin_options: 160,
+    planish_pht_options: 144,
+    planish_pht_convert_options: 64,
+    planish_d1rc_options: 192,
 }
 if sizeof(c_void_p) == 8:
     for _record, _size in SIZES.items():

@@ -83,7 +83,7 @@ impl From<ArgumentError> for Failure {
 
 type Argument<T> = Result<T, ArgumentError>;
 
-fn check<T>(at: *const T, name: &'static str) -> Argument<()> {
+pub(super) fn check<T>(at: *const T, name: &'static str) -> Argument<()> {
     if at.is_null() {
         Err(ArgumentError::Null { name })
     } else if !at.is_aligned() {

@@ -83,7 +83,7 @@ pub unsafe extern "C" fn planish_curve_fit(
             fixed_count: given_core.fixed_grid.map(|[count, _]| count),
             weights: given_core.weights,
         };
-        let fit = with_control(given.thread_count, given.progress, given.user, |control| {
+        let fit = with_control(given.thread_count, listener!(given), |control| {
             fit_curve(u, values, dim, &options, control)
         })??;
         Ok(outputs.store(planish_curve::into_raw(fit.curve), &[], &fit.errors, &fit.report))

@@ -9,6 +9,8 @@ use super::mesh::planish_mesh;
 use super::progress::with_control;
 use super::surface::{planish_surface, query_surface};
 use super::{planish_parameterize_options, planish_progress, planish_status, planish_tolerance_scale};
+use crate::Error;
+use crate::control::Stage;
 use crate::fit::d1rc::D1rcFitOptions;
 
 use crate::parameterize::{ParameterizeOptions, parameterize};
@@ -77,6 +79,11 @@ record! {
         pub progress: planish_progress,
         /// Handed to progress as it is.
         pub user: *mut c_void,
+        /// Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+        pub cancel: *const i32,
+        /// Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+        /// Array: [1].
+        pub out_stage: *mut u32,
         /// Fits only: the largest error allowed at the nodes, positive, measured in tolerance_scale. Default 1e-3.
         pub tolerance: f64 = fit.tolerance.value,
         /// Fits only: weight of the energy that determines control points without data, positive. Default 1e-5.
@@ -194,18 +201,16 @@ pub unsafe extern "C" fn planish_d1rc_new(
                 sharp_edges(mesh, given.sharp_angle)?.into_iter().filter(is_new).collect();
             sharp.extend(found);
         }
-        let surface = match mesh.parameters() {
-            Some(_) => D1rcSurface::from_mesh(mesh, &core, &sharp, &corners)?,
-            None => {
-                let map = given.map()?;
-                let uv = with_control(given.thread_count, given.progress, given.user, |control| {
-                    parameterize(mesh, &map, control)
-                })??;
-                let mut mesh = mesh.clone();
-                mesh.set_parameters(uv.uv)?;
-                D1rcSurface::from_mesh(&mesh, &core, &sharp, &corners)?
+        let map = given.map()?;
+        let surface = with_control(given.thread_count, listener!(given), |control| -> Result<_, Error> {
+            let mut mapped = None;
+            if mesh.parameters().is_none() {
+                let uv = control.without_error(|control| parameterize(mesh, &map, control))?.uv;
+                mapped.insert(mesh.clone()).set_parameters(uv)?;
             }
-        };
+            control.enter(Stage::Fit);
+            Ok(D1rcSurface::from_mesh(mapped.as_ref().unwrap_or(mesh), &core, &sharp, &corners)?)
+        })??;
         out_surface.write(planish_surface::into_raw(surface));
         Ok(())
     })

@@ -48,9 +48,8 @@ pub unsafe extern "C" fn planish_d1rc_fit(
         }
         let sharp_edges = edges(given.sharp_edges, given.sharp_edge_count, "sharp_edges")?;
         let core = core(&given, &sharp_edges, count)?;
-        let fit = with_control(given.thread_count, given.progress, given.user, |control| {
-            fit_mesh(mesh, &core, control)
-        })??;
+        let fit =
+            with_control(given.thread_count, listener!(given), |control| fit_mesh(mesh, &core, control))??;
         Ok(outputs.store(planish_surface::into_raw(fit.surface), &fit.parameters, &fit.errors, &fit.report))
     })
 }

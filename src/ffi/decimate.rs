@@ -35,6 +35,11 @@ record! {
         pub progress: planish_progress,
         /// Handed to progress as it is.
         pub user: *mut c_void,
+        /// Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+        pub cancel: *const i32,
+        /// Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+        /// Array: [1].
+        pub out_stage: *mut u32,
         /// 1 (default) lets no triangle turn over in the parameter plane, if the mesh has parameters; 0 does not look.
         pub keep_map: u32 = core.keep_map.into(),
         /// 0.
@@ -117,8 +122,7 @@ pub unsafe extern "C" fn planish_mesh_decimate(
         let sharp_len = array_len::<u32>(options.sharp_edge_count, 2, "sharp_edges")?;
         let core = options.to_core(slice(options.sharp_edges, sharp_len, "sharp_edges")?.as_chunks().0)?;
         // results are the same for any number of threads, and one is enough
-        let coarse =
-            with_control(1, options.progress, options.user, |control| mesh.decimate(&core, control))??;
+        let coarse = with_control(1, listener!(options), |control| mesh.decimate(&core, control))??;
         if !options.out_sharp_edges.is_null() {
             let (room, needed) = (options.out_sharp_edge_count, coarse.sharp_edges.len());
             rows_mut(options.out_sharp_edges, room, needed, 2, "out_sharp_edges")?

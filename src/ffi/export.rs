@@ -4,10 +4,10 @@ use super::arguments::{ArgumentError, choice, deref, options, out, slice, slice_
 use super::guard::guard;
 use super::mesh::planish_mesh;
 use super::planish_status;
-use super::progress::thread_count;
+use super::progress::{planish_progress, with_control};
 use super::query::planish_tessellate_options;
 use super::surface::{planish_surface, query_surface};
-use crate::control::Pool;
+use crate::control::Stage;
 use crate::export::{ExportError, native, vtk};
 use std::ffi::{c_char, c_void};
 use std::path::Path;
@@ -34,6 +34,15 @@ record! {
         pub deviation_from: *const planish_mesh,
         /// How the surface is tessellated otherwise; NULL (default) for the defaults. Borrowed.
         pub tessellate: *const planish_tessellate_options,
+        /// Hears of the progress and may cancel; NULL (default) for nobody.
+        pub progress: planish_progress,
+        /// Handed to progress as it is.
+        pub user: *mut c_void,
+        /// Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+        pub cancel: *const i32,
+        /// Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+        /// Array: [1].
+        pub out_stage: *mut u32,
         /// Threads to use, at most 1024; 0 (default) for all cores.
         pub thread_count: u32,
         /// A planish_vtk_content. Default PLANISH_VTK_CONTENT_TRIANGLES.
@@ -85,8 +94,10 @@ pub unsafe extern "C" fn planish_surface_write_vtk(
         };
         let tessellate = self::options(given.tessellate)?.core()?;
         let core = vtk::SurfaceOptions { tessellate, deviation_from };
-        let pool = Pool::new(thread_count(given.thread_count)?);
-        Ok(vtk::write_surface(surface, &core, path, &pool)?)
+        Ok(with_control(given.thread_count, listener!(given), |control| {
+            control.enter(Stage::Write);
+            vtk::write_surface(surface, &core, path, control.pool())
+        })??)
     })
 }
 

@@ -62,6 +62,11 @@ record! {
         pub progress: planish_progress,
         /// Handed to progress as it is.
         pub user: *mut c_void,
+        /// Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+        pub cancel: *const i32,
+        /// Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+        /// Array: [1].
+        pub out_stage: *mut u32,
         /// A planish_tolerance_scale. Default PLANISH_TOLERANCE_SCALE_RELATIVE.
         pub tolerance_scale: u32 = planish_tolerance_scale::Relative as u32,
         /// A planish_ends. Default PLANISH_ENDS_NATURAL.
@@ -81,10 +86,10 @@ record! {
 ///
 /// # Safety
 /// The pointers of the options are NULL or as the header says.
-pub(super) unsafe fn with_field_options<R>(
+pub(super) unsafe fn with_field_options<R: Send>(
     given: planish_field_options,
     count: usize,
-    work: impl FnOnce(&FieldOptions, &mut Control) -> R,
+    work: impl FnOnce(&FieldOptions, &mut Control) -> R + Send,
 ) -> Result<R, Failure> {
     // SAFETY: the caller's promises.
     unsafe {
@@ -121,7 +126,7 @@ pub(super) unsafe fn with_field_options<R>(
             is_known: is_known.as_deref(),
             parameterize: parameterize.to_core()?,
         };
-        Ok(with_control(given.thread_count, given.progress, given.user, |control| work(&core, control))?)
+        Ok(with_control(given.thread_count, listener!(given), |control| work(&core, control))?)
     }
 }
 

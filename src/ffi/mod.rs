@@ -15,6 +15,8 @@
 
 #[macro_use]
 mod arguments;
+#[macro_use]
+mod progress;
 mod curve;
 mod curve_query;
 mod d1rc;
@@ -29,7 +31,6 @@ mod parameterize;
 mod patch;
 mod pht;
 mod pht_parts;
-mod progress;
 mod query;
 mod report;
 mod rows;

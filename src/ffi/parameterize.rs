@@ -56,6 +56,11 @@ record! {
         pub progress: planish_progress,
         /// Handed to progress as it is.
         pub user: *mut c_void,
+        /// Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+        pub cancel: *const i32,
+        /// Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+        /// Array: [1].
+        pub out_stage: *mut u32,
         /// Outward bulge of a square's sides, in sides, 0 to 0.5: keeps triangles between nodes of one side open.
         /// Default 0.02.
         pub bulge: f64 = core.bulge,
@@ -214,7 +219,7 @@ pub unsafe extern "C" fn planish_mesh_parameterize(
             at => Some(slice(at, mesh.points().len(), "node_weights")?),
         };
         let core = options.to_core()?;
-        let map = with_control(options.thread_count, options.progress, options.user, |control| {
+        let map = with_control(options.thread_count, listener!(options), |control| {
             parameterize_weighted(mesh, &core, weights, control)
         })??;
         mesh.set_parameters(map.uv)?;

@@ -3,10 +3,13 @@
 use super::arguments::{ArgumentError, ReportOut, deref, options, out, rows_mut};
 use super::guard::guard;
 use super::planish_status;
+use super::progress::{planish_progress, with_control};
 use super::surface::{planish_surface, query_surface};
 use crate::bezier::BezierPatch;
+use crate::control::Stage;
 use crate::surface::Patches;
 use glam::DVec2;
+use std::ffi::c_void;
 
 record! {
     /// A Bezier patch: the polynomial or rational piece of a surface over a rectangle of parameters. Set struct_size
@@ -117,6 +120,15 @@ record! {
     pub struct planish_convert_options (planish_convert_options_init) {
         /// Most control points of the result; with more the call fails. Default 4000000.
         pub max_coefficients: usize = 4_000_000,
+        /// Hears of the progress and may cancel; NULL (default) for nobody.
+        pub progress: planish_progress,
+        /// Handed to progress as it is.
+        pub user: *mut c_void,
+        /// Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+        pub cancel: *const i32,
+        /// Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+        /// Array: [1].
+        pub out_stage: *mut u32,
     }
 }
 
@@ -140,7 +152,12 @@ pub unsafe extern "C" fn planish_surface_to_tensor(
     guard(|| unsafe {
         let surface = deref(surface, "surface")?.family()?;
         let out_surface = out(out_surface, "out_surface")?;
-        let tensor = surface.to_tensor(self::options(options)?.max_coefficients)?;
+        let given = self::options(options)?;
+        // results are the same for any number of threads, and one is enough
+        let tensor = with_control(1, listener!(given), |control| {
+            control.enter(Stage::Convert);
+            surface.to_tensor(given.max_coefficients)
+        })??;
         out_surface.write(planish_surface::into_raw(tensor));
         Ok(())
     })

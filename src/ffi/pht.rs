@@ -11,6 +11,7 @@ use super::report::{FitOutputs, planish_fit_report};
 use super::surface::planish_surface;
 use super::{planish_parameterize_options, planish_progress, planish_status};
 use crate::Control;
+use crate::control::Stage;
 use crate::fit::common::{FitError, Regularize};
 use crate::fit::pht::{Estimator, PhtFit, PhtOptions, fit_field, fit_mesh, fit_points};
 use crate::fit::report::{Tolerance, ToleranceScale};
@@ -53,6 +54,11 @@ record! {
         pub progress: planish_progress,
         /// Handed to progress as it is.
         pub user: *mut c_void,
+        /// Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+        pub cancel: *const i32,
+        /// Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+        /// Array: [1].
+        pub out_stage: *mut u32,
         /// Receives the (u,v) at which the error of each datum is measured: two numbers for each datum, or NULL
         /// (default). Written on success only.
         /// Array: [data, 2].
@@ -144,7 +150,7 @@ unsafe fn fit(
     options: *const planish_pht_options,
     out_surface: *mut *mut planish_surface,
     out_report: *mut planish_fit_report,
-    method: impl FnOnce(&PhtOptions, &mut Control) -> Result<PhtFit, FitError>,
+    method: impl FnOnce(&PhtOptions, &mut Control) -> Result<PhtFit, FitError> + Send,
 ) -> Result<planish_status, Failure> {
     // SAFETY: the caller's promises.
     unsafe {
@@ -152,9 +158,7 @@ unsafe fn fit(
         let (parameters, errors) = (given.out_parameters, given.out_errors);
         let outputs = FitOutputs::new((out_surface, "out_surface"), out_report, parameters, errors, count)?;
         let options = given.to_core(count)?;
-        let fit = with_control(given.thread_count, given.progress, given.user, |control| {
-            method(&options, control)
-        })??;
+        let fit = with_control(given.thread_count, listener!(given), |control| method(&options, control))??;
         Ok(outputs.store(planish_surface::into_raw(fit.surface), &fit.parameters, &fit.errors, &fit.report))
     }
 }
@@ -424,6 +428,15 @@ record! {
         pub tolerance: f64 = core.tolerance,
         /// Most cells; with more the call fails. Default 200000.
         pub max_cells: usize = core.max_cells,
+        /// Hears of the progress and may cancel; NULL (default) for nobody.
+        pub progress: planish_progress,
+        /// Handed to progress as it is.
+        pub user: *mut c_void,
+        /// Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+        pub cancel: *const i32,
+        /// Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+        /// Array: [1].
+        pub out_stage: *mut u32,
         /// Deepest level of a cell, at most 20. Default 12.
         pub max_level: u32 = core.max_level,
         /// 0.
@@ -461,7 +474,11 @@ pub unsafe extern "C" fn planish_pht_from_surface(
             max_level: given.max_level,
             max_cells: given.max_cells,
         };
-        let pht = PhtSurface::from_tensor(tensor, &options)?;
+        // results are the same for any number of threads, and one is enough
+        let pht = with_control(1, listener!(given), |control| {
+            control.enter(Stage::Convert);
+            PhtSurface::from_tensor(tensor, &options)
+        })??;
         out_surface.write(planish_surface::into_raw(pht));
         Ok(())
     })

@@ -1,14 +1,54 @@
 //! Who hears of the progress of a long call.
 
-use super::arguments::ArgumentError;
+use super::arguments::{ArgumentError, check};
+use super::guard::Failure;
 use crate::Control;
+use crate::control::Stage;
 use std::ffi::c_void;
 use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicI32, AtomicU32};
 
-/// Hears how far a call is and may end it.
+/// What a long call is doing.
+#[repr(u32)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum planish_stage {
+    /// Looks at what it was given.
+    Prepare = 0,
+    /// Gives a mesh its parameters, or its places on a sphere.
+    Parameterize = 1,
+    /// Makes a mesh coarser.
+    Coarsen = 2,
+    /// Lays quadrilaterals over a mesh.
+    Layout = 3,
+    /// Fits, measures and refines.
+    Fit = 4,
+    /// Looks for the nearest places.
+    Project = 5,
+    /// Makes triangles of a surface.
+    Tessellate = 6,
+    /// Makes another form of a surface.
+    Convert = 7,
+    /// Writes a file.
+    Write = 8,
+}
+
+/// The numbers of the stages are those of the ABI.
+const _: () = {
+    assert!(Stage::Prepare as u32 == planish_stage::Prepare as u32);
+    assert!(Stage::Parameterize as u32 == planish_stage::Parameterize as u32);
+    assert!(Stage::Coarsen as u32 == planish_stage::Coarsen as u32);
+    assert!(Stage::Layout as u32 == planish_stage::Layout as u32);
+    assert!(Stage::Fit as u32 == planish_stage::Fit as u32);
+    assert!(Stage::Project as u32 == planish_stage::Project as u32);
+    assert!(Stage::Tessellate as u32 == planish_stage::Tessellate as u32);
+    assert!(Stage::Convert as u32 == planish_stage::Convert as u32);
+    assert!(Stage::Write as u32 == planish_stage::Write as u32);
+};
+
+/// Hears how far a call is and may end it. It is asked at least every 50 ms.
 ///
 /// fraction: how much is done, 0 to 1; it never falls.
-/// error:    while a surface is fitted the largest error so far in model units, while a mesh is parameterized
+/// error:    while a surface is fitted the largest error so far in model units; in calls that only parameterize a mesh
 ///           the L2 stretch so far; NaN while unknown.
 /// user:     the pointer from the options.
 /// Returns 0 to go on; anything else cancels, and the call returns PLANISH_STATUS_CANCELLED when the step in
@@ -34,24 +74,53 @@ pub(super) fn thread_count(given: u32) -> Result<usize, ArgumentError> {
     }
 }
 
-/// Runs `work` on so many threads, with the caller's listener.
+/// Whom the options of a call name: who hears of it, and what may cancel it.
+pub(super) struct Listener {
+    pub progress: planish_progress,
+    pub user: *mut c_void,
+    pub cancel: *const i32,
+    pub stage: *mut u32,
+}
+
+/// The listener of options with the fields progress, user, cancel and out_stage.
+macro_rules! listener {
+    ($options:expr) => {
+        $crate::ffi::progress::Listener {
+            progress: $options.progress,
+            user: $options.user,
+            cancel: $options.cancel,
+            stage: $options.out_stage,
+        }
+    };
+}
+
+/// Runs `work` on so many threads, while this one asks the caller's listener.
 ///
 /// # Safety
-/// `progress` is NULL or a function that may be called with `user` until `work` has ended.
-pub(super) unsafe fn with_control<R>(
+/// Each pointer of the listener is NULL or stays as the header says until `work` has ended.
+pub(super) unsafe fn with_control<R: Send>(
     threads: u32,
-    progress: planish_progress,
-    user: *mut c_void,
-    work: impl FnOnce(&mut Control) -> R,
-) -> Result<R, ArgumentError> {
-    let threads = thread_count(threads)?;
-    let Some(callback) = progress else { return Ok(work(&mut Control::new(threads))) };
+    listener: Listener,
+    work: impl FnOnce(&mut Control) -> R + Send,
+) -> Result<R, Failure> {
+    let mut control = Control::new(thread_count(threads)?);
+    if !listener.cancel.is_null() {
+        check(listener.cancel, "cancel")?;
+        // SAFETY: the caller's promise; the flag is only read.
+        control = control.with_cancel(unsafe { AtomicI32::from_ptr(listener.cancel.cast_mut()) });
+    }
+    if !listener.stage.is_null() {
+        check(listener.stage, "out_stage")?;
+        // SAFETY: the caller's promise.
+        control = control.with_stage(unsafe { AtomicU32::from_ptr(listener.stage) });
+    }
+    let Some(callback) = listener.progress else { return Ok(control.host(work)?) };
     let mut tell = |fraction: f64, error: f64| {
         // SAFETY: the caller's promise.
-        match unsafe { callback(fraction, error, user) } {
+        match unsafe { callback(fraction, error, listener.user) } {
             0 => ControlFlow::Continue(()),
             _ => ControlFlow::Break(()),
         }
     };
-    Ok(work(&mut Control::new(threads).with_progress(&mut tell)))
+    Ok(control.with_progress(&mut tell).host(work)?)
 }

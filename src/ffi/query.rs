@@ -7,14 +7,15 @@ use super::arguments::{
 use super::guard::guard;
 use super::mesh::planish_mesh;
 use super::planish_status;
-use super::progress::thread_count;
+use super::progress::{planish_progress, with_control};
 use super::report::write_pairs;
 use super::surface::planish_surface;
-use crate::control::Pool;
+use crate::control::Stage;
 use crate::query::deviation::{DeviationOptions, DeviationReport, deviation};
 use crate::query::project::{ProjectOptions, Projector};
 use crate::query::tessellate::{TessellateOptions, Tessellation, tessellate};
 use glam::DVec2;
+use std::ffi::c_void;
 
 record! {
     /// How fine a tessellation is. Fill with planish_tessellate_options_init(), then change what you need.
@@ -26,6 +27,15 @@ record! {
         pub max_edge_length: f64 = core.max_edge_length,
         /// Most nodes; with more the call fails. Default 4000000.
         pub max_point_count: usize = core.max_points,
+        /// Hears of the progress and may cancel; NULL (default) for nobody.
+        pub progress: planish_progress,
+        /// Handed to progress as it is.
+        pub user: *mut c_void,
+        /// Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+        pub cancel: *const i32,
+        /// Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+        /// Array: [1].
+        pub out_stage: *mut u32,
         /// 1 (default) keeps to the part inside the trims, 0 covers the whole domain.
         pub keep_trims: u32 = u32::from(core.keep_trims),
         /// 0.
@@ -85,7 +95,13 @@ pub unsafe extern "C" fn planish_surface_tessellate(
         let out_mesh = out(out_mesh, "out_mesh")?;
         let given = self::options(options)?;
         let report = ReportOut::new(given.out_report)?;
-        let Tessellation { mesh, smallest_angle, chord_error } = tessellate(surface, &given.core()?)?;
+        let core = given.core()?;
+        // results are the same for any number of threads, and one is enough
+        let Tessellation { mesh, smallest_angle, chord_error } =
+            with_control(1, listener!(given), |control| {
+                control.enter(Stage::Tessellate);
+                tessellate(surface, &core)
+            })??;
         report.store(planish_tessellate_report { smallest_angle, chord_error, ..Default::default() });
         out_mesh.write(planish_mesh::into_raw(mesh));
         Ok(())
@@ -102,6 +118,15 @@ record! {
         /// Points farther from the surface than this get NaN, and the call returns
         /// PLANISH_STATUS_POINTS_OUTSIDE. Not negative. Default infinity.
         pub max_distance: f64 = f64::INFINITY,
+        /// Hears of the progress and may cancel; NULL (default) for nobody.
+        pub progress: planish_progress,
+        /// Handed to progress as it is.
+        pub user: *mut c_void,
+        /// Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+        pub cancel: *const i32,
+        /// Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+        /// Array: [1].
+        pub out_stage: *mut u32,
         /// 1 (default) looks for the nearest place inside the trims, 0 in the whole domain.
         pub keep_trims: u32 = 1,
         /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
@@ -147,11 +172,13 @@ pub unsafe extern "C" fn planish_surface_project(
             max_distance: given.max_distance,
             keep_trims: flag(given.keep_trims, "keep_trims")?,
         };
-        let pool = Pool::new(thread_count(given.thread_count)?);
         let out_uv = slice_mut_or_none(out_uv, array_len::<f64>(count, 2, "out_uv")?, "out_uv")?;
         let out_distances = slice_mut_or_none(out_distances, count, "out_distances")?;
         let (mut uv, mut distances) = (vec![DVec2::ZERO; count], vec![0.0; count]);
-        let missed = Projector::new(surface)?.project(points, &core, &mut uv, &mut distances, &pool)?;
+        let missed = with_control(given.thread_count, listener!(given), |control| {
+            control.enter(Stage::Project);
+            Projector::new(surface)?.project(points, &core, &mut uv, &mut distances, control.pool())
+        })??;
         if let Some(out_uv) = out_uv {
             write_pairs(&uv, out_uv);
         }
@@ -172,6 +199,15 @@ record! {
         /// Longest edge of that tessellation in model units; 0 (default) takes 1e-2 of the mesh's diagonal.
         /// Smaller holes may be missed.
         pub max_edge_length: f64 = core.max_edge_length,
+        /// Hears of the progress and may cancel; NULL (default) for nobody.
+        pub progress: planish_progress,
+        /// Handed to progress as it is.
+        pub user: *mut c_void,
+        /// Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+        pub cancel: *const i32,
+        /// Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+        /// Array: [1].
+        pub out_stage: *mut u32,
         /// 1 (default): only the part of the surface inside its trims counts.
         pub keep_trims: u32 = u32::from(core.keep_trims),
         /// 1 (default): the mesh's parameters, if it has any, are where searches start. The distances are the
@@ -263,8 +299,10 @@ pub unsafe extern "C" fn planish_surface_deviation(
             chord_tolerance: given.chord_tolerance,
             max_edge_length: given.max_edge_length,
         };
-        let pool = Pool::new(thread_count(given.thread_count)?);
-        let result = deviation(surface, mesh, &core, &pool)?;
+        let result = with_control(given.thread_count, listener!(given), |control| {
+            control.enter(Stage::Project);
+            deviation(surface, mesh, &core, control.pool())
+        })??;
         if !out_distances.is_null() {
             slice_mut(out_distances, needed, "out_distances")?.copy_from_slice(&result.nodes.each);
         }

@@ -31,6 +31,11 @@ record! {
         pub progress: planish_progress,
         /// Handed to progress as it is.
         pub user: *mut c_void,
+        /// Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+        pub cancel: *const i32,
+        /// Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+        /// Array: [1].
+        pub out_stage: *mut u32,
         /// A planish_row_source: what begin_index counts. Default PLANISH_ROW_SOURCE_LOOP.
         pub begin: u32 = planish_row_source::Loop as u32,
         /// A planish_row_source: what end_index counts. Default PLANISH_ROW_SOURCE_LOOP.
@@ -85,8 +90,7 @@ pub unsafe extern "C" fn planish_mesh_sample_rows(
             spacing: given.spacing,
         };
         // results are the same for any number of threads, and one is enough
-        let rows =
-            with_control(1, given.progress, given.user, |control| sample_rows(mesh, &options, control))??;
+        let rows = with_control(1, listener!(given), |control| sample_rows(mesh, &options, control))??;
         if !out_points.is_null() {
             array_len::<f64>(point_count, 3, "out_points")?;
             let points = rows_mut(out_points, point_count, rows.points.len(), 3, "out_points")?;

@@ -1,6 +1,6 @@
 //! Closed meshes on the unit sphere.
 
-use super::arguments::{ReportOut, deref, init_options, options, rows_mut};
+use super::arguments::{ReportOut, deref, options, rows_mut};
 use super::guard::guard;
 use super::mesh::planish_mesh;
 use super::planish_status;
@@ -8,63 +8,43 @@ use super::progress::{planish_progress, with_control};
 use crate::parameterize::sphere::{SphereOptions, SphereReport, map_to_sphere};
 use std::ffi::c_void;
 
-/// How a mesh is mapped on to the sphere. Fill with planish_sphere_options_init(), then change what you need.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct planish_sphere_options {
-    /// Set by planish_sphere_options_init().
-    pub struct_size: usize,
-    /// Hears of the progress and may cancel; NULL (default) for nobody.
-    pub progress: planish_progress,
-    /// Handed to progress as it is.
-    pub user: *mut c_void,
-    /// Sweeps over all nodes at the end. Default 10.
-    pub sweeps: u32,
-    /// Threads that share the work; 0 (default) for all cores. The result does not depend on it.
-    pub thread_count: u32,
-}
-
-record!(planish_sphere_options, 32, {
-    struct_size: 0, progress: 8, user: 16, sweeps: 24, thread_count: 28,
-});
-
-impl Default for planish_sphere_options {
-    fn default() -> Self {
-        Self {
-            struct_size: size_of::<Self>(),
-            progress: None,
-            user: std::ptr::null_mut(),
-            sweeps: SphereOptions::default().sweeps as u32,
-            thread_count: 0,
-        }
+record! {
+    /// How a mesh is mapped on to the sphere. Fill with planish_sphere_options_init(), then change what you need.
+    pub struct planish_sphere_options (planish_sphere_options_init) {
+        /// Hears of the progress and may cancel; NULL (default) for nobody.
+        pub progress: planish_progress,
+        /// Handed to progress as it is.
+        pub user: *mut c_void,
+        /// Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+        pub cancel: *const i32,
+        /// Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+        /// Array: [1].
+        pub out_stage: *mut u32,
+        /// Sweeps over all nodes at the end. Default 10.
+        pub sweeps: u32 = SphereOptions::default().sweeps as u32,
+        /// Threads that share the work; 0 (default) for all cores. The result does not depend on it.
+        pub thread_count: u32,
     }
 }
 
-/// How good a map to the sphere is. Set struct_size to sizeof(planish_sphere_report) before the call; the report is
-/// filled as far as that goes, on success only.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Default)]
-pub struct planish_sphere_report {
-    /// sizeof(planish_sphere_report) as the caller sees it.
-    pub struct_size: usize,
-    /// Symmetric Dirichlet energy by area, both scaled to those of the sphere: 4 if all lengths are kept.
-    pub energy: f64,
-    /// Triangles whose images are turned over or flat, by the exact sign; 0 but beyond the digits of a double.
-    pub folded_triangles: usize,
-    /// Triangles so thin that they counted as wider.
-    pub clamped_triangles: usize,
-    /// Image area by area in space, each as a share of its whole: 5 percent of the area have less than this.
-    pub low_area_ratio: f64,
-    /// 5 percent of the area have more than this.
-    pub high_area_ratio: f64,
-    /// Wall time in seconds.
-    pub seconds: f64,
+record! {
+    /// How good a map to the sphere is. Set struct_size to sizeof(planish_sphere_report) before the call; the report is
+    /// filled as far as that goes, on success only.
+    pub struct planish_sphere_report {
+        /// Symmetric Dirichlet energy by area, both scaled to those of the sphere: 4 if all lengths are kept.
+        pub energy: f64,
+        /// Triangles whose images are turned over or flat, by the exact sign; 0 but beyond the digits of a double.
+        pub folded_triangles: usize,
+        /// Triangles so thin that they counted as wider.
+        pub clamped_triangles: usize,
+        /// Image area by area in space, each as a share of its whole: 5 percent of the area have less than this.
+        pub low_area_ratio: f64,
+        /// 5 percent of the area have more than this.
+        pub high_area_ratio: f64,
+        /// Wall time in seconds.
+        pub seconds: f64,
+    }
 }
-
-record!(planish_sphere_report, 56, {
-    struct_size: 0, energy: 8, folded_triangles: 16, clamped_triangles: 24, low_area_ratio: 32, high_area_ratio: 40,
-    seconds: 48,
-});
 
 impl From<&SphereReport> for planish_sphere_report {
     fn from(report: &SphereReport) -> Self {
@@ -78,20 +58,6 @@ impl From<&SphereReport> for planish_sphere_report {
             seconds: report.seconds,
         }
     }
-}
-
-/// Fills options with the defaults.
-///
-/// options:     struct_size writable bytes.
-/// struct_size: sizeof(planish_sphere_options).
-/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn planish_sphere_options_init(
-    options: *mut planish_sphere_options,
-    struct_size: usize,
-) -> planish_status {
-    // SAFETY: the caller's promise.
-    guard(|| unsafe { init_options(options, struct_size) })
 }
 
 /// Maps a closed mesh of one component and genus 0 on to the unit sphere, one to one: no triangle is turned over.
@@ -126,7 +92,7 @@ pub unsafe extern "C" fn planish_mesh_map_to_sphere(
         let report = ReportOut::new(out_report)?;
         let rows = rows_mut(out_points, count, mesh.points().len(), 3, "out_points")?;
         let core = SphereOptions { sweeps: options.sweeps as usize };
-        let map = with_control(options.thread_count, options.progress, options.user, |control| {
+        let map = with_control(options.thread_count, listener!(options), |control| {
             map_to_sphere(mesh, &core, control)
         })??;
         for (row, point) in rows.chunks_exact_mut(3).zip(&map.points) {

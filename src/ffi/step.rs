@@ -3,11 +3,14 @@
 use super::arguments::{ArgumentError, ReportOut, choice, deref, options, text};
 use super::guard::guard;
 use super::planish_status;
+use super::progress::{planish_progress, with_control};
 use super::surface::planish_surface;
+use crate::Error;
+use crate::control::Stage;
 use crate::export::step::{Schema, StepOptions, StepReport, Unit, write};
 use crate::fit::conversion::{ConversionOptions, to_model};
 use crate::model::{Form, FormOptions};
-use std::ffi::c_char;
+use std::ffi::{c_char, c_void};
 use std::path::Path;
 
 /// The application protocol of a STEP file.
@@ -96,6 +99,15 @@ record! {
         pub timestamp: *const c_char,
         /// Receives what was written, or NULL (default). Set its struct_size before. Filled on success only.
         pub out_report: *mut planish_step_report,
+        /// Hears of the progress and may cancel; NULL (default) for nobody.
+        pub progress: planish_progress,
+        /// Handed to progress as it is.
+        pub user: *mut c_void,
+        /// Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+        pub cancel: *const i32,
+        /// Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+        /// Array: [1].
+        pub out_stage: *mut u32,
         /// A planish_step_schema; PLANISH_STEP_SCHEMA_AP214 (default).
         pub schema: u32 = planish_step_schema::Ap214 as u32,
         /// A planish_unit, what one model unit is; PLANISH_UNIT_MILLIMETRE (default).
@@ -175,8 +187,14 @@ pub unsafe extern "C" fn planish_surface_write_step(
         let given = self::options(options)?;
         let (core, conversion) = (given.core()?, given.conversion()?);
         let report = ReportOut::new(given.out_report)?;
-        let model = to_model(surface, &conversion)?;
-        report.store(write(&model, &core, Path::new(path))?.into());
+        // results are the same for any number of threads, and one is enough
+        let written = with_control(1, listener!(given), |control| -> Result<_, Error> {
+            control.enter(Stage::Convert);
+            let model = to_model(surface, &conversion)?;
+            control.enter(Stage::Write);
+            Ok(write(&model, &core, Path::new(path))?)
+        })??;
+        report.store(written.into());
         Ok(())
     })
 }

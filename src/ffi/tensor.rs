@@ -103,6 +103,11 @@ record! {
         pub progress: planish_progress,
         /// Handed to progress as it is.
         pub user: *mut c_void,
+        /// Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+        pub cancel: *const i32,
+        /// Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+        /// Array: [1].
+        pub out_stage: *mut u32,
         /// Receives the (u,v) at which the error of each datum is measured: two numbers for each datum, or NULL
         /// (default). Written on success only.
         /// Array: [data, 2].
@@ -195,7 +200,7 @@ unsafe fn fit(
     options: *const planish_tensor_options,
     out_surface: *mut *mut planish_surface,
     out_report: *mut planish_fit_report,
-    method: impl FnOnce(&TensorOptions, &mut Control) -> Result<TensorFit, FitError>,
+    method: impl FnOnce(&TensorOptions, &mut Control) -> Result<TensorFit, FitError> + Send,
 ) -> Result<planish_status, Failure> {
     // SAFETY: the caller's promises.
     unsafe {
@@ -203,9 +208,7 @@ unsafe fn fit(
         let (parameters, errors) = (given.out_parameters, given.out_errors);
         let outputs = FitOutputs::new((out_surface, "out_surface"), out_report, parameters, errors, count)?;
         let options = given.to_core(count)?;
-        let fit = with_control(given.thread_count, given.progress, given.user, |control| {
-            method(&options, control)
-        })??;
+        let fit = with_control(given.thread_count, listener!(given), |control| method(&options, control))??;
         Ok(outputs.store(planish_surface::into_raw(fit.surface), &fit.parameters, &fit.errors, &fit.report))
     }
 }

@@ -131,6 +131,11 @@ record! {
         pub progress: planish_progress,
         /// Handed to progress as it is.
         pub user: *mut c_void,
+        /// Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+        pub cancel: *const i32,
+        /// Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+        /// Array: [1].
+        pub out_stage: *mut u32,
         /// Receives the (u,v) at which the error of each point is measured: two numbers for each point, or NULL
         /// (default; for curves it must be). Written on success only.
         /// Array: [data, 2].
@@ -239,7 +244,7 @@ unsafe fn run(
     sizes: Sizes,
     out_surface: *mut *mut planish_surface,
     out_report: *mut planish_fit_report,
-    method: impl FnOnce(&SkinOptions, &mut Control) -> Result<SkinFit, SkinError>,
+    method: impl FnOnce(&SkinOptions, &mut Control) -> Result<SkinFit, SkinError> + Send,
 ) -> Result<planish_status, Failure> {
     // SAFETY: the caller's promises.
     unsafe {
@@ -247,9 +252,7 @@ unsafe fn run(
         let outputs = FitOutputs::new((out_surface, "out_surface"), out_report, parameters, errors, count)?;
         let skin_report = ReportOut::new(given.out_report)?;
         let options = given.to_core(sizes)?;
-        let fit = with_control(given.thread_count, given.progress, given.user, |control| {
-            method(&options, control)
-        })??;
+        let fit = with_control(given.thread_count, listener!(given), |control| method(&options, control))??;
         skin_report.store((&fit.skin).into());
         Ok(outputs.store(planish_surface::into_raw(fit.surface), &fit.parameters, &fit.errors, &fit.report))
     }

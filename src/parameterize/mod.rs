@@ -35,6 +35,7 @@ pub use regularize::{
 pub use stretch::{StretchMeasure, stretch};
 
 use crate::Control;
+use crate::control::Stage;
 use crate::geometry::{Orientation, orientation};
 use crate::mesh::Mesh;
 use border::BorderLine;
@@ -146,6 +147,7 @@ pub fn parameterize_weighted(
     let patch = Patch::new(mesh, holes(options));
     let lines = border::candidates(mesh, options)?;
     let first_weights = weights::weights(&patch, options.method)?;
+    control.enter(Stage::Parameterize);
     control.report(0.0, f64::NAN)?;
     let mut system = MapSystem::new(&patch, first_weights.clone(), control)?;
     let mut first_maps = Vec::new();
@@ -160,7 +162,7 @@ pub fn parameterize_weighted(
     let count = lines.len() as f64;
     for (i, (line, uv)) in lines.into_iter().zip(first_maps).enumerate() {
         let map = Map::new(&patch, line, first_weights.clone(), uv, node_weights, control);
-        let mut stage = Stage { control: &mut *control, from: i as f64 / count, to: (i + 1) as f64 / count };
+        let mut stage = Part { control: &mut *control, from: i as f64 / count, to: (i + 1) as f64 / count };
         let map = lower_stretch(map, &mut system, options, node_weights, &mut stage)?;
         best = Some(match best {
             Some(best) if best.rank() <= map.rank() => best,
@@ -286,13 +288,13 @@ impl Map {
 }
 
 /// A part of the whole progress.
-struct Stage<'c, 'a> {
+struct Part<'c, 'a> {
     control: &'c mut Control<'a>,
     from: f64,
     to: f64,
 }
 
-impl Stage<'_, '_> {
+impl Part<'_, '_> {
     /// Steps are not known beforehand: each takes a fifth of what is left.
     fn report(&mut self, steps_done: usize, l2: f64) -> Result<(), ParameterizeError> {
         let done = 1.0 - 0.8_f64.powi(steps_done as i32);
@@ -306,7 +308,7 @@ fn lower_stretch(
     system: &mut MapSystem,
     options: &ParameterizeOptions,
     node_weights: Option<&[f64]>,
-    stage: &mut Stage,
+    stage: &mut Part,
 ) -> Result<Map, ParameterizeError> {
     let patch = system.patch();
     let mut eta = 1.0;

@@ -10,6 +10,7 @@ use super::stretch::{TriangleStretch, triangle_stretch};
 use super::system::MapSystem;
 use super::{Method, ParameterizeError, folds, weights};
 use crate::Control;
+use crate::control::Stage;
 use crate::mesh::Mesh;
 use glam::{DVec2, DVec3};
 use std::time::Instant;
@@ -138,6 +139,7 @@ pub fn regularize(
     if options.when == RegularizeWhen::Auto && before <= UNEVEN {
         return Ok(finish(given.to_vec(), false, before));
     }
+    control.enter(Stage::Parameterize);
     control.report(0.0, f64::NAN)?;
     let uv = regularized(mesh, given, options, control)?;
     control.report(1.0, f64::NAN)?;

@@ -37,7 +37,7 @@ pub(in crate::fit) fn node_parameters(
 ) -> Result<NodeParameters, FitError> {
     let mut remarks = Remarks::default();
     let Some(given) = mesh.parameters() else {
-        let map = parameterize(mesh, options, control)?;
+        let map = control.without_error(|control| parameterize(mesh, options, control))?;
         remarks.add_if(true, Remarks::PARAMETERIZED);
         remarks.add_if(has_high_stretch(&map.report), Remarks::SEGMENTATION_ADVISED);
         return Ok(NodeParameters { uv: map.uv, remarks });

@@ -8,7 +8,7 @@
 
 use super::error::FitError;
 use super::report::StopReason;
-use crate::control::{Cancelled, Control};
+use crate::control::{Cancelled, Control, Stage};
 
 /// A method that fits in rounds.
 pub trait Rounds {
@@ -77,6 +77,7 @@ pub fn run<M: Rounds>(method: &mut M, control: &mut Control) -> Result<Outcome<M
     let (mut passes, mut idle, mut course) = (0, 0, Course::towards(method.tolerance()));
     let stop = loop {
         passes += 1;
+        control.enter(Stage::Fit);
         let round = match method.fit(control) {
             Ok(round) => Some(round),
             Err(error) if method.may_go_on(&error) => {

@@ -52,7 +52,8 @@ impl Source {
         if let Some(given) = options.control_mesh {
             let mut coarse = given.clone();
             if given.parameters().is_none() {
-                let map = parameterize(given, &options.parameterize, control);
+                let map =
+                    control.without_error(|control| parameterize(given, &options.parameterize, control));
                 let uv = map.map_err(D1rcFitError::ControlMesh)?.uv;
                 coarse.set_parameters(uv).map_err(|_| FitError::Singular)?;
             }

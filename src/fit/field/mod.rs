@@ -23,7 +23,7 @@ use super::common::uniform::grid::{UniformBasis, UniformGrid};
 use super::common::uniform::normal_equations::{NormalEquations, Samples, TensorBasis};
 use super::common::{FitError, NodeParameters, Regularize, node_parameters, trims};
 use super::tensor::{TensorOptions, fit_field, fit_points};
-use crate::control::{Control, Pool, Watch};
+use crate::control::{Control, Pool, Stage, Watch};
 use crate::geometry::Bounds;
 use crate::knots::KnotVector;
 use crate::linalg::Cholesky;
@@ -103,6 +103,7 @@ impl FieldFitter {
             FreeFunctions::Bilinear => Energy::Plate,
             FreeFunctions::Linear => return Err(FitError::Singular),
         };
+        control.enter(Stage::Fit);
         let choose = |control: &mut Control| choose_grid(&uv, mesh, known_uv.len(), options, control);
         let (counts, smoothing) = control.within(0.3, 0.7, choose)?;
         control.set_stage(0.7, 1.0);

@@ -31,7 +31,7 @@ pub use options::{SectionEnds, SkinMethod, SkinOptions, VRule};
 pub use report::SkinReport;
 pub use rows::Rows;
 
-use crate::control::{Control, Watch};
+use crate::control::{Control, Stage, Watch};
 use crate::curve::Curve;
 use crate::fit::common::errors::data_errors;
 use crate::fit::common::report::{FitReport, Goal, Remarks, StopReason};
@@ -123,6 +123,7 @@ fn skin_data(
 ) -> Result<SkinFit, SkinError> {
     let goal = Goal::new(&options.tolerance, &data.bounds);
     let steps = Steps::new(data, options)?;
+    control.enter(Stage::Fit);
     let mut solved = control.watch(|_, watch| solve(data, &steps, options, goal.tolerance, watch))??;
     let surface = assemble(&mut solved)?;
     let place = |&(row, u): &(usize, f64)| DVec2::new(u, solved.loft.parameters[row]);

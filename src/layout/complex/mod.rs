@@ -17,6 +17,7 @@ mod tests;
 use super::of_mesh::{LayoutKind, MeshLayout, MeshLayoutError, MeshLayoutOptions, MeshLayoutReport};
 use super::{Layout, NodeMap, Place};
 use crate::Control;
+use crate::control::Stage;
 use crate::mesh::Mesh;
 use base::{Base, TrianglePlace};
 use glam::{DVec2, DVec3};
@@ -40,6 +41,7 @@ pub(super) fn make(
 ) -> Result<MeshLayout, MeshLayoutError> {
     // patches = triangles / 2 = vertices - 2 + 2 genus
     let target = (options.patches + 2).saturating_sub(2 * mesh.genus()).max(LEAST_VERTICES);
+    control.enter(Stage::Layout);
     control.set_stage(0.0, 0.3);
     let base = base::decimate(mesh, target, control)?;
     let mut patches = paired(mesh, &base)?;

@@ -18,7 +18,7 @@ mod tests;
 pub(crate) use quadric::Quadric;
 
 use super::{Mesh, Piece};
-use crate::control::{Cancelled, Control};
+use crate::control::{Cancelled, Control, Stage};
 use crate::failure::{Classify, ErrorKind};
 use crate::geometry::{Orientation, orientation};
 use collapse::Collapsing;
@@ -190,6 +190,7 @@ impl Mesh {
     ) -> Result<Decimation, DecimateError> {
         let start = Instant::now();
         options.check()?;
+        control.enter(Stage::Coarsen);
         let uv = options.parameters_of(self);
         let side = side(self.triangles(), uv)?;
         let features = Features::of(self, options)?;

@@ -21,6 +21,7 @@ pub use error::SphereError;
 
 use super::dirichlet::{Shape, Star, Target};
 use crate::Control;
+use crate::control::Stage;
 use crate::geometry::{Orientation, orientation_of_cone};
 use crate::mesh::Mesh;
 use crate::mesh::rings::Rings;
@@ -111,6 +112,7 @@ pub fn map_to_sphere(
 ) -> Result<SphereMap, SphereError> {
     let start = Instant::now();
     check(mesh)?;
+    control.enter(Stage::Parameterize);
     control.set_stage(0.0, 0.3);
     let mut rings = Rings::new(mesh);
     let order = hierarchy::collapse(mesh, &mut rings, control)?;

@@ -23,7 +23,7 @@ mod tests;
 
 use super::tessellate::TessellateError;
 use crate::bezier::BezierPatch;
-use crate::control::Pool;
+use crate::control::{Cancelled, Pool};
 use crate::curve::Curve;
 use crate::failure::{Classify, ErrorKind};
 use crate::geometry::{Bounds, Domain};
@@ -93,6 +93,9 @@ pub enum ProjectError {
         /// The distance given.
         value: f64,
     },
+    /// The caller asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }
 
 impl Classify for ProjectError {
@@ -102,6 +105,7 @@ impl Classify for ProjectError {
             Self::Tessellate(error) => error.kind(),
             Self::Count { .. } | Self::MaxDistance { .. } => ErrorKind::InvalidArgument,
             Self::NotFinite { .. } | Self::GuessNotFinite { .. } => ErrorKind::NotFinite,
+            Self::Cancelled(_) => ErrorKind::Cancelled,
         }
     }
 
@@ -208,6 +212,9 @@ impl Projector {
         let piece = |chunk: usize, uv: &mut [DVec2], distances: &mut [f64]| {
             let mut workspace = Workspace::default();
             let mut missed = 0;
+            if pool.check().is_err() {
+                return missed;
+            }
             // all that is inlined here uses the wide registers that the processor has
             pulp::Arch::new().dispatch(
                 #[inline(always)]
@@ -224,12 +231,14 @@ impl Projector {
         };
         if pool.thread_count() == 1 || count <= CHUNK {
             let chunks = out_uv.chunks_mut(CHUNK).zip(out_distances.chunks_mut(CHUNK));
-            return Ok(chunks.enumerate().map(|(k, (uv, distances))| piece(k, uv, distances)).sum());
+            let missed = chunks.enumerate().map(|(k, (uv, distances))| piece(k, uv, distances)).sum();
+            return Ok(pool.check().map(|()| missed)?);
         }
-        Ok(pool.run(|| {
+        let missed = pool.run(|| {
             let chunks = out_uv.par_chunks_mut(CHUNK).zip(out_distances.par_chunks_mut(CHUNK));
             chunks.enumerate().map(|(k, (uv, distances))| piece(k, uv, distances)).sum()
-        }))
+        });
+        Ok(pool.check().map(|()| missed)?)
     }
 
     fn check(

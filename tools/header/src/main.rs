@@ -6,6 +6,7 @@
 //! | `bindings/planish.api.json` | programs that write or check bindings |
 //! | `bindings/planish_c.f90` | Fortran: names, records and interfaces below `include/planish.f90` |
 //! | `python/planish/_abi.py` | Python: the same for ctypes |
+//! | `cpp_tests/layout.c` | the tests: where a C compiler must put the fields of records |
 //!
 //! Rust's declarations say the most; the rest is read from their documentation, where readers of the header need
 //! it too. What is missing is an error, which names the place.
@@ -35,6 +36,7 @@ mod documentation;
 mod fortran;
 mod header;
 mod json;
+mod layout;
 mod python;
 mod sources;
 
@@ -72,6 +74,7 @@ fn run(verify: bool) -> Result<ExitCode, Box<dyn Error>> {
         ("bindings/planish.api.json", json::text(&api)),
         ("bindings/planish_c.f90", fortran::text(&api)),
         ("python/planish/_abi.py", python::text(&api)),
+        ("cpp_tests/layout.c", layout::text(&api)),
     ];
     let mut same = true;
     for (name, text) in &written {

@@ -22,7 +22,7 @@ pub use error::TransferError;
 
 use super::right_side::{Data, RightSide, Scratch};
 use super::{FieldFitter, FieldOptions};
-use crate::control::{Control, Pool};
+use crate::control::{Control, Pool, Stage};
 use crate::fit::common::FitError;
 use crate::fit::common::checks::check_rows;
 use crate::fit::common::report::{FitReport, ToleranceScale};
@@ -257,6 +257,7 @@ fn project(
     targets: &[DVec3],
     control: &mut Control,
 ) -> Result<(Vec<DVec2>, Vec<f64>), TransferError> {
+    control.enter(Stage::Project);
     let projector = Projector::new(shape)?;
     let mut parameters = vec![DVec2::ZERO; targets.len()];
     let mut distances = vec![0.0; targets.len()];
