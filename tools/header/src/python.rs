@@ -95,6 +95,12 @@ fn record(record: &Record, text: &mut String) {
     };
     text.push_str(&table("choices", choices(false)));
     text.push_str(&table("bits", choices(true)));
+    let element = |field: &Field| {
+        let Base::Number(number) = &field.of.base else { return None };
+        field.array.as_ref().map(|_| self::number(number))
+    };
+    let elements = record.fields.iter().filter_map(|field| Some((field, element(field)?))).collect();
+    text.push_str(&table("elements", elements));
     let extents = |field: &Field| {
         let extents = field.array.as_ref()?.iter().map(|extent| format!("\"{extent}\",")).collect::<Vec<_>>();
         Some(format!("({})", extents.join(" ")))
@@ -120,8 +126,15 @@ fn kind(of: &Type) -> String {
         _ if !of.pointers.is_empty() => "c_void_p".to_owned(),
         Base::Callback(name) => name.clone(),
         Base::Status => "c_int32".to_owned(),
-        Base::Number("double") => "c_double".to_owned(),
-        Base::Number(number) => format!("c_{}", number.trim_end_matches("_t")).replace("c_size", "c_size_t"),
+        Base::Number(number) => self::number(number),
         Base::Void | Base::Char | Base::Record(_) | Base::Handle(_) => "c_void_p".to_owned(),
+    }
+}
+
+/// The name in ctypes of a number.
+fn number(name: &str) -> String {
+    match name {
+        "size_t" => "c_size_t".to_owned(),
+        name => format!("c_{}", name.trim_end_matches("_t")),
     }
 }

@@ -1,0 +1,327 @@
+"""Triangle meshes."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from ._calls import LongCall, ProgressCallback
+from ._library import OUT, Handle, InvalidError, array, call, indices, lib, made, path_of, pointer, read_only, text_of
+from ._records import Report, by_reference, options, report_record
+
+
+class Mesh(Handle):
+    """A triangle mesh with its boundary loops, parameters and fields on the nodes.
+
+    points: (n, 3) coordinates.
+    triangles: (m, 3) numbers of nodes, counted from 0; all turned the same way, or ``orient=True``.
+    uv: (n, 2) parameters of the nodes, or None.
+    fields: names and (n,) values on the nodes.
+    options: those of `planish_mesh_options`, such as ``weld_distance`` and ``orient``.
+
+    Raises a ValueError that names the offender if the triangles do not make a surface.
+    """
+
+    _free = "planish_mesh_free"
+
+    def __init__(
+        self,
+        points: Any,
+        triangles: Any,
+        uv: Any = None,
+        fields: Mapping[str, Any] | None = None,
+        **mesh_options: Any,
+    ):
+        points = array(points, width=3, what="points")
+        triangles = indices(triangles, 3, "triangles")
+        repairs = report_record("mesh_repairs")
+        record = options("mesh_options", mesh_options, out_repairs=repairs)
+        _, handle = made(
+            "planish_mesh_new",
+            *(pointer(points), len(points), pointer(triangles), len(triangles)),
+            *(by_reference(record), OUT),
+        )
+        super().__init__(handle)
+        self.repaired = Report(repairs)
+        if uv is not None:
+            self.uv = uv
+        for name, values in (fields or {}).items():
+            self[name] = values
+
+    @property
+    def n_points(self) -> int:
+        """Number of nodes."""
+        return lib.planish_mesh_point_count(self)
+
+    @property
+    def n_triangles(self) -> int:
+        """Number of triangles."""
+        return lib.planish_mesh_triangle_count(self)
+
+    @property
+    def n_edges(self) -> int:
+        """Number of edges."""
+        return lib.planish_mesh_edge_count(self)
+
+    @property
+    def n_loops(self) -> int:
+        """Number of boundary loops: 0 for a closed mesh."""
+        return lib.planish_mesh_loop_count(self)
+
+    @property
+    def n_components(self) -> int:
+        """Number of pieces that are not joined."""
+        return lib.planish_mesh_component_count(self)
+
+    @property
+    def genus(self) -> int:
+        """Number of handles."""
+        return lib.planish_mesh_genus(self)
+
+    @property
+    def euler_characteristic(self) -> int:
+        """Nodes - edges + triangles."""
+        return lib.planish_mesh_euler_characteristic(self)
+
+    def _copied(self, function: str, count: int, width: int, dtype: Any = np.float64) -> np.ndarray:
+        values = np.empty((count, width), dtype)
+        call(function, self, pointer(values), count)
+        return read_only(values)
+
+    @property
+    def points(self) -> np.ndarray:
+        """(n, 3) coordinates; read only."""
+        return self._copied("planish_mesh_copy_points", self.n_points, 3)
+
+    @points.setter
+    def points(self, points: Any) -> None:
+        points = array(points, width=3, what="points")
+        call("planish_mesh_set_points", self, pointer(points), len(points))
+
+    @property
+    def triangles(self) -> np.ndarray:
+        """(m, 3) numbers of nodes; read only."""
+        return self._copied("planish_mesh_copy_triangles", self.n_triangles, 3, np.uint32)
+
+    @property
+    def uv(self) -> np.ndarray | None:
+        """(n, 2) parameters, or None; read only, but can be replaced."""
+        if not lib.planish_mesh_has_parameters(self):
+            return None
+        return self._copied("planish_mesh_copy_parameters", self.n_points, 2)
+
+    @uv.setter
+    def uv(self, uv: Any) -> None:
+        uv = array(uv, width=2, what="uv")
+        call("planish_mesh_set_parameters", self, pointer(uv), len(uv))
+
+    @property
+    def loops(self) -> list[np.ndarray]:
+        """The nodes of each boundary loop in order, the longest loop first."""
+        loops = []
+        for loop in range(self.n_loops):
+            nodes = np.empty(lib.planish_mesh_loop_point_count(self, loop), np.uint32)
+            call("planish_mesh_copy_loop", self, loop, pointer(nodes), len(nodes))
+            loops.append(read_only(nodes))
+        return loops
+
+    # fields on the nodes, as a mapping
+
+    def keys(self) -> list[str]:
+        """The names of the fields on the nodes."""
+        return [text_of("planish_mesh_field_name", self, field) for field in range(lib.planish_mesh_field_count(self))]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.keys())
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.keys()
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        if name not in self:
+            raise KeyError(f"there is no field {name!r}; there are {self.keys()}")
+        values = np.empty(self.n_points)
+        call("planish_mesh_copy_field", self, name.encode(), pointer(values), len(values))
+        return read_only(values)
+
+    def __setitem__(self, name: str, values: Any) -> None:
+        values = array(values, what=f"field {name!r}")
+        if values.ndim != 1:
+            raise InvalidError(f"field {name!r} needs one number a node, its shape is {values.shape}")
+        call("planish_mesh_set_field", self, name.encode(), pointer(values), len(values))
+
+    def __delitem__(self, name: str) -> None:
+        if name not in self:
+            raise KeyError(f"there is no field {name!r}; there are {self.keys()}")
+        call("planish_mesh_remove_field", self, name.encode())
+
+    # new meshes from this one
+
+    def parameterize(self, *, progress: ProgressCallback | None = None, **parameterize_options: Any) -> Report:
+        """Gives the nodes parameters without folds; returns the report of the map."""
+        long = LongCall(progress)
+        report = report_record("parameterize_report")
+        record = options("parameterize_options", parameterize_options, **long.fields("parameterize_options"))
+        return Report(report, long("planish_mesh_parameterize", self, by_reference(record), by_reference(report)))
+
+    def map_to_sphere(
+        self, *, progress: ProgressCallback | None = None, **sphere_options: Any
+    ) -> tuple[np.ndarray, Report]:
+        """Unit vectors (n, 3) of the nodes of a closed mesh without handles, one to one, and the report of the map."""
+        long = LongCall(progress)
+        places, report = np.empty((self.n_points, 3)), report_record("sphere_report")
+        record = options("sphere_options", sphere_options, **long.fields("sphere_options"))
+        arguments = (self, by_reference(record), pointer(places), len(places), by_reference(report))
+        return places, Report(report, long("planish_mesh_map_to_sphere", *arguments))
+
+    def decimate(self, n_points: int, *, progress: ProgressCallback | None = None, **decimate_options: Any) -> Mesh:
+        """A coarser mesh of `n_points` nodes, all of them nodes of this one; its `report` tells how it went."""
+        long = LongCall(progress)
+        report = report_record("decimate_report")
+        filled = long.fields("decimate_options")
+        record = options("decimate_options", decimate_options, target_count=n_points, **filled)
+        status, handle = made(
+            "planish_mesh_decimate", self, by_reference(record), OUT, by_reference(report), run=long
+        )
+        coarse = Mesh._own(handle)
+        coarse.report = Report(report, status)
+        return coarse
+
+    def remove_triangles(self, triangles: Any) -> Mesh:
+        """A copy without these triangles; nodes that none of the others use go with them."""
+        triangles = indices(triangles, what="triangles")
+        _, handle = made("planish_mesh_remove_triangles", self, pointer(triangles), triangles.size, OUT)
+        return Mesh._own(handle)
+
+    def cut_along(self, nodes: Any) -> Mesh:
+        """A copy cut open along a path of neighbouring nodes."""
+        nodes = indices(nodes, what="nodes")
+        return Mesh._own(made("planish_mesh_cut_along", self, pointer(nodes), nodes.size, OUT)[1])
+
+    def shortest_path(self, start: int, end: int) -> np.ndarray:
+        """The nodes of the shortest path along edges."""
+        nodes, count = np.empty(self.n_points, np.uint32), ctypes.c_size_t()
+        call("planish_mesh_shortest_path", self, start, end, pointer(nodes), len(nodes), ctypes.byref(count))
+        return nodes[: count.value].copy()
+
+    def split_components(self) -> list[Mesh]:
+        """Each piece as a mesh of its own."""
+        handles = (ctypes.c_void_p * self.n_components)()
+        call("planish_mesh_split_components", self, ctypes.addressof(handles), len(handles))
+        return [Mesh._own(ctypes.c_void_p(handle)) for handle in handles]
+
+    def sample_rows(self, row_count: int, **sample_options: Any) -> list[np.ndarray]:
+        """Rows of points around the mesh, as `skin` takes them."""
+        record = options("sample_rows_options", sample_options)
+        counts, needed = np.zeros(row_count, np.uintp), ctypes.c_size_t()
+        arguments = ("planish_mesh_sample_rows", self, by_reference(record), pointer(counts), row_count)
+        call(*arguments, None, 0, ctypes.byref(needed))
+        points = np.empty((needed.value, 3))
+        call(*arguments, pointer(points), len(points), ctypes.byref(needed))
+        return np.split(points, np.cumsum(counts[:-1]).astype(int))
+
+    def fit(self, *arguments: Any, **keywords: Any) -> Any:
+        """The same as ``planish.fit(mesh, ...)``."""
+        from ._fit import fit
+
+        return fit(self, *arguments, **keywords)
+
+    def write(self, path: str | os.PathLike) -> None:
+        """Writes OFF, OBJ, PLY or STL by the ending of the path; fields and parameters where the format can."""
+        call("planish_mesh_write", self, path_of(path), None)
+
+    # copies
+
+    def __copy__(self) -> Mesh:
+        return Mesh._own(made("planish_mesh_clone", self, OUT)[1])
+
+    def __deepcopy__(self, _: Any) -> Mesh:
+        return self.__copy__()
+
+    def __reduce__(self):
+        return Mesh, (self.points, self.triangles, self.uv, {name: self[name] for name in self})
+
+    def __repr__(self) -> str:
+        if not self._handle:
+            return "<planish.Mesh: closed>"
+        return (
+            f"<planish.Mesh: {self.n_points} points, {self.n_triangles} triangles, "
+            f"{self.n_loops} boundary loops, genus {self.genus}>"
+        )
+
+    # neighbours: imported only when asked for
+
+    @classmethod
+    def from_trimesh(cls, mesh: Any, **mesh_options: Any) -> Mesh:
+        """From a `trimesh.Trimesh`."""
+        return cls(mesh.vertices, mesh.faces, **mesh_options)
+
+    def to_trimesh(self) -> Any:
+        """As a `trimesh.Trimesh`; nodes keep their numbers."""
+        import trimesh
+
+        return trimesh.Trimesh(self.points, self.triangles, process=False)
+
+    @classmethod
+    def from_meshio(cls, mesh: Any, **mesh_options: Any) -> Mesh:
+        """From a `meshio.Mesh`: its triangles and quadrilaterals, and the scalar fields on its points."""
+        blocks = mesh.cells_dict
+        faces = [np.asarray(blocks["triangle"])] if "triangle" in blocks else []
+        if "quad" in blocks:
+            quads = np.asarray(blocks["quad"])
+            faces += [quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]
+        if not faces:
+            raise InvalidError(f"the mesh has no triangles or quadrilaterals, only {', '.join(blocks) or 'points'}")
+        points = np.asarray(mesh.points, float)
+        if points.shape[1] == 2:
+            points = np.column_stack([points, np.zeros(len(points))])
+        return cls(points, np.concatenate(faces), fields=_scalars(mesh.point_data), **mesh_options)
+
+    def to_meshio(self) -> Any:
+        """As a `meshio.Mesh` with the fields."""
+        import meshio
+
+        return meshio.Mesh(self.points, {"triangle": self.triangles}, point_data={name: self[name] for name in self})
+
+    @classmethod
+    def from_pyvista(cls, mesh: Any, **mesh_options: Any) -> Mesh:
+        """From a `pyvista.PolyData`, which is triangulated; with the scalar fields on its points."""
+        mesh = mesh.extract_surface() if not hasattr(mesh, "faces") else mesh
+        mesh = mesh.triangulate()
+        faces = mesh.faces.reshape(-1, 4)[:, 1:]
+        return cls(mesh.points, faces, fields=_scalars(mesh.point_data), **mesh_options)
+
+    def to_pyvista(self) -> Any:
+        """As a `pyvista.PolyData` with the fields."""
+        import pyvista
+
+        mesh = pyvista.make_tri_mesh(self.points, self.triangles.astype(np.int64))
+        for name in self:
+            mesh.point_data[name] = self[name]
+        return mesh
+
+
+def _scalars(fields: Mapping[str, Any]) -> dict[str, np.ndarray]:
+    """The fields with one number a node."""
+    return {name: np.asarray(fields[name], float) for name in _names(fields) if np.ndim(fields[name]) == 1}
+
+
+def _names(fields: Any) -> Iterable[str]:
+    return list(fields.keys())
+
+
+def read_mesh(path: str | os.PathLike, **mesh_options: Any) -> Mesh:
+    """Reads OBJ, OFF, PLY or STL. What had to be mended stands in the mesh's `repaired`.
+
+    options: those of `planish_mesh_options`.
+    """
+    repairs = report_record("mesh_repairs")
+    record = options("mesh_options", mesh_options, out_repairs=repairs)
+    _, handle = made("planish_mesh_read", path_of(path), by_reference(record), OUT)
+    mesh = Mesh._own(handle)
+    mesh.repaired = Report(repairs)
+    return mesh
