@@ -215,6 +215,9 @@ class planish_mesh_options(Structure):
         ("orient", c_uint32),
         ("index_base", c_uint32),
     ]
+    elements = {
+        "out_node_map": c_uint32,
+    }
     arrays = {
         "out_node_map": ("nodes",),
     }
@@ -250,6 +253,11 @@ class planish_decimate_options(Structure):
     ]
     choices = {
         "out_stage": "planish_stage",
+    }
+    elements = {
+        "sharp_edges": c_uint32,
+        "out_sharp_edges": c_uint32,
+        "out_stage": c_uint32,
     }
     arrays = {
         "sharp_edges": ("sharp_edge_count", "2",),
@@ -293,6 +301,10 @@ class planish_parameterize_options(Structure):
         "method": "planish_map_method",
         "border": "planish_border",
     }
+    elements = {
+        "node_weights": c_double,
+        "out_stage": c_uint32,
+    }
     arrays = {
         "node_weights": ("nodes",),
         "out_stage": ("1",),
@@ -334,6 +346,9 @@ class planish_sphere_options(Structure):
     ]
     choices = {
         "out_stage": "planish_stage",
+    }
+    elements = {
+        "out_stage": c_uint32,
     }
     arrays = {
         "out_stage": ("1",),
@@ -404,6 +419,9 @@ class planish_eval_options(Structure):
     bits = {
         "out_flags": "planish_flag",
     }
+    elements = {
+        "out_flags": c_uint8,
+    }
     arrays = {
         "out_flags": ("points",),
     }
@@ -436,6 +454,9 @@ class planish_convert_options(Structure):
     ]
     choices = {
         "out_stage": "planish_stage",
+    }
+    elements = {
+        "out_stage": c_uint32,
     }
     arrays = {
         "out_stage": ("1",),
@@ -478,6 +499,12 @@ class planish_tensor_options(Structure):
         "energy": "planish_energy",
         "regularize": "planish_regularize",
     }
+    elements = {
+        "weights": c_double,
+        "out_stage": c_uint32,
+        "out_parameters": c_double,
+        "out_errors": c_double,
+    }
     arrays = {
         "weights": ("data",),
         "out_stage": ("1",),
@@ -513,6 +540,12 @@ class planish_field_options(Structure):
         "tolerance_scale": "planish_tolerance_scale",
         "ends": "planish_ends",
         "energy": "planish_energy",
+    }
+    elements = {
+        "weights": c_double,
+        "mask": c_uint8,
+        "sample_values": c_double,
+        "out_stage": c_uint32,
     }
     arrays = {
         "weights": ("nodes",),
@@ -590,6 +623,9 @@ class planish_tessellate_options(Structure):
     choices = {
         "out_stage": "planish_stage",
     }
+    elements = {
+        "out_stage": c_uint32,
+    }
     arrays = {
         "out_stage": ("1",),
     }
@@ -618,6 +654,10 @@ class planish_project_options(Structure):
     choices = {
         "out_stage": "planish_stage",
     }
+    elements = {
+        "guesses": c_double,
+        "out_stage": c_uint32,
+    }
     arrays = {
         "guesses": ("points", "2",),
         "out_stage": ("1",),
@@ -640,6 +680,9 @@ class planish_deviation_options(Structure):
     ]
     choices = {
         "out_stage": "planish_stage",
+    }
+    elements = {
+        "out_stage": c_uint32,
     }
     arrays = {
         "out_stage": ("1",),
@@ -678,6 +721,9 @@ class planish_sample_rows_options(Structure):
         "begin": "planish_row_source",
         "end": "planish_row_source",
     }
+    elements = {
+        "out_stage": c_uint32,
+    }
     arrays = {
         "out_stage": ("1",),
     }
@@ -698,6 +744,9 @@ class planish_vtk_options(Structure):
     choices = {
         "out_stage": "planish_stage",
         "content": "planish_vtk_content",
+    }
+    elements = {
+        "out_stage": c_uint32,
     }
     arrays = {
         "out_stage": ("1",),
@@ -742,6 +791,9 @@ class planish_step_options(Structure):
         "unit": "planish_unit",
         "form": "planish_step_form",
     }
+    elements = {
+        "out_stage": c_uint32,
+    }
     arrays = {
         "out_stage": ("1",),
     }
@@ -756,6 +808,9 @@ class planish_interpolate_options(Structure):
     ]
     choices = {
         "ends": "planish_section_ends",
+    }
+    elements = {
+        "end_slopes": c_double,
     }
     arrays = {
         "end_slopes": ("2", "dim",),
@@ -818,6 +873,14 @@ class planish_skin_options(Structure):
         "ends": "planish_section_ends",
         "v_rule": "planish_v_rule",
     }
+    elements = {
+        "end_slopes": c_double,
+        "begin_tangents": c_double,
+        "end_tangents": c_double,
+        "out_stage": c_uint32,
+        "out_parameters": c_double,
+        "out_errors": c_double,
+    }
     arrays = {
         "end_slopes": ("rows", "2", "dim",),
         "begin_tangents": ("*", "dim",),
@@ -861,6 +924,12 @@ class planish_pht_options(Structure):
         "estimator": "planish_pht_estimator",
         "regularize": "planish_regularize",
     }
+    elements = {
+        "weights": c_double,
+        "out_stage": c_uint32,
+        "out_parameters": c_double,
+        "out_errors": c_double,
+    }
     arrays = {
         "weights": ("data",),
         "out_stage": ("1",),
@@ -883,6 +952,9 @@ class planish_pht_convert_options(Structure):
     ]
     choices = {
         "out_stage": "planish_stage",
+    }
+    elements = {
+        "out_stage": c_uint32,
     }
     arrays = {
         "out_stage": ("1",),
@@ -926,6 +998,14 @@ class planish_d1rc_options(Structure):
         "boundary": "planish_d1rc_boundary",
         "sharp": "planish_d1rc_sharp",
         "tolerance_scale": "planish_tolerance_scale",
+    }
+    elements = {
+        "sharp_edges": c_uint32,
+        "corners": c_uint32,
+        "out_stage": c_uint32,
+        "weights": c_double,
+        "out_parameters": c_double,
+        "out_errors": c_double,
     }
     arrays = {
         "sharp_edges": ("sharp_edge_count", "2",),
