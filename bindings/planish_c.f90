@@ -16,6 +16,9 @@ module planish_records
   !> The value of stretch_steps that goes on until the stretch no longer falls
   integer(c_int32_t), parameter, public :: PLANISH_UNLIMITED = -1
 
+  !> Stands for "none" where a number of a face or shell is expected
+  integer(c_int32_t), parameter, public :: PLANISH_NONE = -1
+
   !> What a call came to: 0 or positive is success, negative is an error.
   integer(c_int), parameter, public :: PLANISH_STATUS_OK = 0 !! All went well
   !> The surface misses the tolerance; it is the best one found
@@ -219,6 +222,16 @@ module planish_records
   !> A PHT-spline as a shell of faces that share edges, each over a rectangle of cells whose levels differ by at most
   !> level_spread
   integer(c_int32_t), parameter, public :: PLANISH_STEP_FORM_PATCHES = 2
+
+  !> What a face lies on.
+  integer(c_int32_t), parameter, public :: PLANISH_CARRIER_SPLINE = 0 !! A spline surface
+  integer(c_int32_t), parameter, public :: PLANISH_CARRIER_PLANE = 1 !! A plane
+  integer(c_int32_t), parameter, public :: PLANISH_CARRIER_CYLINDER = 2 !! A cylinder
+
+  !> What a shell bounds.
+  integer(c_int32_t), parameter, public :: PLANISH_SHELL_ROLE_OPEN = 0 !! Nothing: it may have edges of one face
+  integer(c_int32_t), parameter, public :: PLANISH_SHELL_ROLE_SOLID = 1 !! A solid, from outside
+  integer(c_int32_t), parameter, public :: PLANISH_SHELL_ROLE_VOID = 2 !! A void inside a solid
 
   !> Which knots the control curves of a skin get.
   !> Each its own, as few as the tolerance allows
@@ -786,6 +799,71 @@ module planish_records
     !> A D1RC-spline is written as a tensor surface fitted within this, in model units, at the nodes of a fine
     !> tessellation; 0 (default) takes 1e-3 of the diagonal
     real(c_double) :: tolerance = 0
+  end type
+
+  !> What an edge is.
+  type, bind(c), public :: planish_edge_info
+    integer(c_size_t) :: struct_size = 1 * word + 40
+    !> Largest angle between the normals of both faces along it, in radians; 0 for an edge of one face
+    real(c_double) :: angle = 0
+    !> Largest distance between its images on the surfaces of both faces; 0 for an edge of one face
+    real(c_double) :: gap = 0
+    integer(c_int32_t) :: face_along = 0 !! The face whose loop runs along it; PLANISH_NONE if there is none
+    integer(c_int32_t) :: face_against = 0 !! The face whose loop runs against it; PLANISH_NONE if there is none
+    integer(c_int32_t) :: vertex_start = 0 !! The vertex where it begins
+    integer(c_int32_t) :: vertex_end = 0 !! The vertex where it ends
+    integer(c_int32_t) :: is_sharp = 0 !! 1 if its faces meet at an angle on purpose, else 0
+    integer(c_int32_t) :: reserved = 0
+  end type
+
+  !> What a face is.
+  type, bind(c), public :: planish_face_info
+    integer(c_size_t) :: struct_size = 3 * word + 96
+    real(c_double) :: origin(3) = 0 !! A point of the plane, or of the cylinder's axis; zeros for a spline
+    !> The normal of the plane, or the direction of the cylinder's axis, of length 1; zeros for a spline
+    real(c_double) :: axis(3) = 0
+    !> The direction of u in the plane, or where the angle u is 0, of length 1; zeros for a spline
+    real(c_double) :: x_axis(3) = 0
+    real(c_double) :: radius = 0 !! Radius of the cylinder; 0 for others
+    integer(c_size_t) :: loop_count = 0 !! Loops, the outer one first
+    integer(c_size_t) :: coedge_count = 0 !! Edges of all loops
+    integer(c_int32_t) :: carrier = 0 !! A planish_carrier, what the face lies on
+    !> What the maker of the model calls it, such as the label of the triangles it was made from
+    integer(c_int32_t) :: label = 0
+    integer(c_int32_t) :: shell = 0 !! The shell that it is in
+    !> 1 if its front is the side to which the normal of its surface points, else 0
+    integer(c_int32_t) :: is_forward = 0
+  end type
+
+  !> What a shell is.
+  type, bind(c), public :: planish_shell_info
+    integer(c_size_t) :: struct_size = 2 * word + 8
+    integer(c_size_t) :: face_count = 0 !! Faces
+    integer(c_int32_t) :: role = 0 !! A planish_shell_role
+    integer(c_int32_t) :: void_in = 0 !! The shell inside which it is a void; PLANISH_NONE if it is none
+  end type
+
+  !> What a model measures.
+  type, bind(c), public :: planish_measure_report
+    integer(c_size_t) :: struct_size = 5 * word + 104
+    real(c_double) :: box_min(3) = 0 !! Least x, y, z, from samples of every span
+    real(c_double) :: box_max(3) = 0 !! Largest x, y, z, from samples of every span
+    real(c_double) :: area = 0 !! Area of all faces
+    real(c_double) :: volume = 0 !! Volume of all solids, voids taken off; 0 for open shells
+    real(c_double) :: max_gap = 0 !! Largest distance between the images of an edge on the surfaces of both its faces
+    !> Largest angle between the normals on both sides of an edge that is not sharp, in radians
+    real(c_double) :: max_normal_jump = 0
+    !> Largest distance between an edge's curve in space and its images on the surfaces, and between its ends and its
+    !> vertices
+    real(c_double) :: curve_deviation = 0
+    real(c_double) :: diagonal = 0 !! Diagonal of the box around the model, from samples
+    integer(c_size_t) :: free_edge_count = 0 !! Edges of one face
+    integer(c_size_t) :: sharp_edge_count = 0 !! Edges that are sharp on purpose
+    integer(c_size_t) :: pole_count = 0 !! Control points of the spline surfaces under all faces
+    integer(c_size_t) :: loop_count = 0 !! Loops of all faces
+    !> Vertices - edges + the sum of 2 - loops over all faces: for each shell 2, less 2 for each handle and 1 for each
+    !> hole in it
+    integer(c_int64_t) :: euler_characteristic = 0
   end type
 
   !> How points are interpolated.
@@ -1989,6 +2067,201 @@ module planish_calls
       type(c_ptr), value :: surface
       character(kind=c_char), intent(in) :: path(*)
       type(planish_step_options), intent(in), optional :: options
+    end function
+
+    integer(c_int) function c_model_from_surface(surface, out_model) bind(c, name="planish_model_from_surface")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      type(c_ptr), intent(inout) :: out_model
+    end function
+
+    integer(c_int) function c_model_clone(model, out_model) bind(c, name="planish_model_clone")
+      import
+      implicit none
+      type(c_ptr), value :: model
+      type(c_ptr), intent(inout) :: out_model
+    end function
+
+    subroutine c_model_free(model) bind(c, name="planish_model_free")
+      import
+      implicit none
+      type(c_ptr), value :: model
+    end subroutine
+
+    pure integer(c_size_t) function c_model_face_count(model) bind(c, name="planish_model_face_count")
+      import
+      implicit none
+      type(c_ptr), value :: model
+    end function
+
+    pure integer(c_size_t) function c_model_edge_count(model) bind(c, name="planish_model_edge_count")
+      import
+      implicit none
+      type(c_ptr), value :: model
+    end function
+
+    pure integer(c_size_t) function c_model_vertex_count(model) bind(c, name="planish_model_vertex_count")
+      import
+      implicit none
+      type(c_ptr), value :: model
+    end function
+
+    pure integer(c_size_t) function c_model_shell_count(model) bind(c, name="planish_model_shell_count")
+      import
+      implicit none
+      type(c_ptr), value :: model
+    end function
+
+    pure integer(c_size_t) function c_model_loop_count(model, face) bind(c, name="planish_model_loop_count")
+      import
+      implicit none
+      type(c_ptr), value :: model
+      integer(c_size_t), value :: face
+    end function
+
+    pure integer(c_size_t) function c_model_coedge_count(model, face) bind(c, name="planish_model_coedge_count")
+      import
+      implicit none
+      type(c_ptr), value :: model
+      integer(c_size_t), value :: face
+    end function
+
+    integer(c_int) function c_model_face_info(model, face, out_info) bind(c, name="planish_model_face_info")
+      import
+      implicit none
+      type(c_ptr), value :: model
+      integer(c_size_t), value :: face
+      type(planish_face_info), intent(inout) :: out_info
+    end function
+
+    integer(c_int) function c_model_copy_face(model, face, out_surface) bind(c, name="planish_model_copy_face")
+      import
+      implicit none
+      type(c_ptr), value :: model
+      integer(c_size_t), value :: face
+      type(c_ptr), intent(inout) :: out_surface
+    end function
+
+    integer(c_int) function c_model_copy_edge( &
+        model, edge, out_curve, out_info) &
+        bind(c, name="planish_model_copy_edge")
+      import
+      implicit none
+      type(c_ptr), value :: model
+      integer(c_size_t), value :: edge
+      type(c_ptr), intent(inout), optional :: out_curve
+      type(planish_edge_info), intent(inout), optional :: out_info
+    end function
+
+    integer(c_int) function c_model_copy_loops( &
+        model, face, out_sizes, loop_count, out_edges, out_forward, coedge_count) &
+        bind(c, name="planish_model_copy_loops")
+      import
+      implicit none
+      type(c_ptr), value :: model
+      integer(c_size_t), value :: face
+      integer(c_size_t), intent(inout), optional :: out_sizes(*)
+      integer(c_size_t), value :: loop_count
+      integer(c_int32_t), intent(inout), optional :: out_edges(*)
+      integer(c_int8_t), intent(inout), optional :: out_forward(*)
+      integer(c_size_t), value :: coedge_count
+    end function
+
+    integer(c_int) function c_model_copy_pcurve( &
+        model, face, coedge, out_curve) &
+        bind(c, name="planish_model_copy_pcurve")
+      import
+      implicit none
+      type(c_ptr), value :: model
+      integer(c_size_t), value :: face
+      integer(c_size_t), value :: coedge
+      type(c_ptr), intent(inout) :: out_curve
+    end function
+
+    integer(c_int) function c_model_copy_vertices( &
+        model, out_points, count) &
+        bind(c, name="planish_model_copy_vertices")
+      import
+      implicit none
+      type(c_ptr), value :: model
+      real(c_double), intent(inout) :: out_points(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_model_copy_shell( &
+        model, shell, out_info, out_faces, count) &
+        bind(c, name="planish_model_copy_shell")
+      import
+      implicit none
+      type(c_ptr), value :: model
+      integer(c_size_t), value :: shell
+      type(planish_shell_info), intent(inout), optional :: out_info
+      integer(c_int32_t), intent(inout), optional :: out_faces(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_model_measure(model, out_report) bind(c, name="planish_model_measure")
+      import
+      implicit none
+      type(c_ptr), value :: model
+      type(planish_measure_report), intent(inout) :: out_report
+    end function
+
+    integer(c_int) function c_model_write_step(model, path, options) bind(c, name="planish_model_write_step")
+      import
+      implicit none
+      type(c_ptr), value :: model
+      character(kind=c_char), intent(in) :: path(*)
+      type(planish_step_options), intent(in), optional :: options
+    end function
+
+    integer(c_int) function c_model_write_step_memory( &
+        model, options, out_bytes, size, out_size) &
+        bind(c, name="planish_model_write_step_memory")
+      import
+      implicit none
+      type(c_ptr), value :: model
+      type(planish_step_options), intent(in), optional :: options
+      integer(c_int8_t), intent(inout), optional :: out_bytes(*)
+      integer(c_size_t), value :: size
+      integer(c_size_t), intent(inout) :: out_size
+    end function
+
+    pure integer(c_size_t) function c_model_save_size(model) bind(c, name="planish_model_save_size")
+      import
+      implicit none
+      type(c_ptr), value :: model
+    end function
+
+    integer(c_int) function c_model_save(model, buffer, size) bind(c, name="planish_model_save")
+      import
+      implicit none
+      type(c_ptr), value :: model
+      integer(c_int8_t), intent(inout) :: buffer(*)
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_model_load(buffer, size, out_model) bind(c, name="planish_model_load")
+      import
+      implicit none
+      integer(c_int8_t), intent(in) :: buffer(*)
+      integer(c_size_t), value :: size
+      type(c_ptr), intent(inout) :: out_model
+    end function
+
+    integer(c_int) function c_model_save_file(model, path) bind(c, name="planish_model_save_file")
+      import
+      implicit none
+      type(c_ptr), value :: model
+      character(kind=c_char), intent(in) :: path(*)
+    end function
+
+    integer(c_int) function c_model_load_file(path, out_model) bind(c, name="planish_model_load_file")
+      import
+      implicit none
+      character(kind=c_char), intent(in) :: path(*)
+      type(c_ptr), intent(inout) :: out_model
     end function
 
     integer(c_int) function c_curve_fit( &

@@ -351,6 +351,52 @@ FOLLOWS(planish_step_options, form, level_spread);
 FOLLOWS(planish_step_options, level_spread, tolerance);
 LAST(planish_step_options, tolerance);
 
+FIRST(planish_edge_info);
+FOLLOWS(planish_edge_info, struct_size, angle);
+FOLLOWS(planish_edge_info, angle, gap);
+FOLLOWS(planish_edge_info, gap, face_along);
+FOLLOWS(planish_edge_info, face_along, face_against);
+FOLLOWS(planish_edge_info, face_against, vertex_start);
+FOLLOWS(planish_edge_info, vertex_start, vertex_end);
+FOLLOWS(planish_edge_info, vertex_end, is_sharp);
+FOLLOWS(planish_edge_info, is_sharp, reserved);
+LAST(planish_edge_info, reserved);
+
+FIRST(planish_face_info);
+FOLLOWS(planish_face_info, struct_size, origin);
+FOLLOWS(planish_face_info, origin, axis);
+FOLLOWS(planish_face_info, axis, x_axis);
+FOLLOWS(planish_face_info, x_axis, radius);
+FOLLOWS(planish_face_info, radius, loop_count);
+FOLLOWS(planish_face_info, loop_count, coedge_count);
+FOLLOWS(planish_face_info, coedge_count, carrier);
+FOLLOWS(planish_face_info, carrier, label);
+FOLLOWS(planish_face_info, label, shell);
+FOLLOWS(planish_face_info, shell, is_forward);
+LAST(planish_face_info, is_forward);
+
+FIRST(planish_shell_info);
+FOLLOWS(planish_shell_info, struct_size, face_count);
+FOLLOWS(planish_shell_info, face_count, role);
+FOLLOWS(planish_shell_info, role, void_in);
+LAST(planish_shell_info, void_in);
+
+FIRST(planish_measure_report);
+FOLLOWS(planish_measure_report, struct_size, box_min);
+FOLLOWS(planish_measure_report, box_min, box_max);
+FOLLOWS(planish_measure_report, box_max, area);
+FOLLOWS(planish_measure_report, area, volume);
+FOLLOWS(planish_measure_report, volume, max_gap);
+FOLLOWS(planish_measure_report, max_gap, max_normal_jump);
+FOLLOWS(planish_measure_report, max_normal_jump, curve_deviation);
+FOLLOWS(planish_measure_report, curve_deviation, diagonal);
+FOLLOWS(planish_measure_report, diagonal, free_edge_count);
+FOLLOWS(planish_measure_report, free_edge_count, sharp_edge_count);
+FOLLOWS(planish_measure_report, sharp_edge_count, pole_count);
+FOLLOWS(planish_measure_report, pole_count, loop_count);
+FOLLOWS(planish_measure_report, loop_count, euler_characteristic);
+LAST(planish_measure_report, euler_characteristic);
+
 FIRST(planish_interpolate_options);
 FOLLOWS(planish_interpolate_options, struct_size, end_slopes);
 FOLLOWS(planish_interpolate_options, end_slopes, ends);

@@ -3,17 +3,26 @@
 #include "handles.hpp"
 #include "shapes.hpp"
 
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepGProp.hxx>
+#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <GProp_GProps.hxx>
+#include <Geom2d_BSplineCurve.hxx>
 #include <Geom2d_Curve.hxx>
+#include <Geom_BSplineCurve.hxx>
+#include <Geom_BSplineSurface.hxx>
 #include <Geom_Curve.hxx>
 #include <Geom_Surface.hxx>
 #include <IntCurvesFace_Intersector.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <STEPControl_Reader.hxx>
+#include <planish.hpp>
 #include <ShapeAnalysis_FreeBounds.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -424,6 +433,131 @@ TEST(OcctStep, PhtSplineAsAShell) {
   check_shell(pht, "pht_trims", PLANISH_STEP_FORM_PATCHES, 3);
   set_trims(pht, {});
   check_shell(pht, "pht_whole", PLANISH_STEP_FORM_PATCHES, 1);
+}
+
+// Knots as OpenCASCADE takes them: each once, and how often.
+struct knot_table {
+  TColStd_Array1OfReal knots;
+  TColStd_Array1OfInteger counts;
+
+  static std::size_t different(const std::vector<double> &all) {
+    std::size_t count = 1;
+    for (std::size_t k = 1; k < all.size(); ++k) count += all[k] != all[k - 1];
+    return count;
+  }
+
+  explicit knot_table(const std::vector<double> &all)
+      : knots(1, static_cast<int>(different(all))), counts(1, static_cast<int>(different(all))) {
+    counts.Init(0);
+    int at = 0;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if (k == 0 || all[k] != all[k - 1]) knots.SetValue(++at, all[k]);
+      counts.SetValue(at, counts.Value(at) + 1);
+    }
+  }
+};
+
+Handle(Geom_BSplineCurve) curve_of(const planish::curve &curve) {
+  const std::vector<double> points = curve.control_points();
+  TColgp_Array1OfPnt poles(1, static_cast<int>(curve.control_point_count()));
+  for (int k = 0; k < poles.Length(); ++k) {
+    poles.SetValue(k + 1, gp_Pnt(points[3 * k], points[3 * k + 1], points[3 * k + 2]));
+  }
+  const knot_table table(curve.knots());
+  return new Geom_BSplineCurve(poles, table.knots, table.counts, static_cast<int>(curve.degree()));
+}
+
+Handle(Geom2d_BSplineCurve) pcurve_of(const planish::curve &curve) {
+  const std::vector<double> points = curve.control_points();
+  TColgp_Array1OfPnt2d poles(1, static_cast<int>(curve.control_point_count()));
+  for (int k = 0; k < poles.Length(); ++k) poles.SetValue(k + 1, gp_Pnt2d(points[2 * k], points[2 * k + 1]));
+  const knot_table table(curve.knots());
+  return new Geom2d_BSplineCurve(poles, table.knots, table.counts, static_cast<int>(curve.degree()));
+}
+
+Handle(Geom_BSplineSurface) surface_of(const planish_surface *surface) {
+  const auto knots = [&](std::uint32_t axis) {
+    std::vector<double> all(planish_tensor_knot_count(surface, axis));
+    CHECK_EQUAL(planish_tensor_copy_knots(surface, axis, all.data(), all.size()), PLANISH_STATUS_OK);
+    return all;
+  };
+  const std::size_t count_u = planish_tensor_control_point_count(surface, PLANISH_AXIS_U);
+  const std::size_t count_v = planish_tensor_control_point_count(surface, PLANISH_AXIS_V);
+  std::vector<double> points(3 * count_u * count_v);
+  CHECK_EQUAL(planish_tensor_copy_control_points(surface, points.data(), count_u * count_v),
+              PLANISH_STATUS_OK);
+  TColgp_Array2OfPnt poles(1, static_cast<int>(count_u), 1, static_cast<int>(count_v));
+  for (std::size_t i = 0; i < count_u; ++i) {
+    for (std::size_t j = 0; j < count_v; ++j) {
+      const double *p = &points[3 * (i * count_v + j)];
+      poles.SetValue(static_cast<int>(i + 1), static_cast<int>(j + 1), gp_Pnt(p[0], p[1], p[2]));
+    }
+  }
+  const knot_table u(knots(PLANISH_AXIS_U)), v(knots(PLANISH_AXIS_V));
+  return new Geom_BSplineSurface(poles, u.knots, v.knots, u.counts, v.counts,
+                                 static_cast<int>(planish_tensor_degree(surface, PLANISH_AXIS_U)),
+                                 static_cast<int>(planish_tensor_degree(surface, PLANISH_AXIS_V)));
+}
+
+// A shell of a model's arrays alone: vertices, edges with their p-curves, wires, faces.
+TopoDS_Shape rebuilt(const planish::model &model) {
+  BRep_Builder builder;
+  std::vector<TopoDS_Vertex> vertices;
+  for (const planish::point3 &p : model.vertices()) {
+    vertices.push_back(BRepBuilderAPI_MakeVertex(gp_Pnt(p[0], p[1], p[2])).Vertex());
+  }
+  std::vector<TopoDS_Edge> edges;
+  for (std::size_t k = 0; k < model.edge_count(); ++k) {
+    const planish_edge_info info = model.edge_info(k);
+    edges.push_back(
+        BRepBuilderAPI_MakeEdge(curve_of(model.edge(k)), vertices[info.vertex_start], vertices[info.vertex_end]).Edge());
+  }
+  TopoDS_Compound all;
+  builder.MakeCompound(all);
+  const double tolerance = model.measure().curve_deviation + 1e-7;
+  for (std::size_t k = 0; k < model.face_count(); ++k) {
+    const Handle(Geom_BSplineSurface) surface = surface_of(model.face(k).get());
+    TopoDS_Face face;
+    builder.MakeFace(face, surface, tolerance);
+    std::size_t place = 0;
+    for (const auto &loop : model.loops(k)) {
+      TopoDS_Wire wire;
+      builder.MakeWire(wire);
+      for (const auto &coedge : loop) {
+        TopoDS_Edge edge = edges[coedge.edge];
+        builder.UpdateEdge(edge, pcurve_of(model.pcurve(k, place++)), face, tolerance);
+        builder.Add(wire, coedge.is_forward ? edge : TopoDS::Edge(edge.Reversed()));
+      }
+      wire.Closed(true);
+      builder.Add(face, wire);
+    }
+    builder.Add(all, face);
+  }
+  return all;
+}
+
+// A kernel needs no file: the model's arrays are enough.
+TEST(OcctModel, IsRebuiltFromArrays) {
+  const Mesh mesh = made(shapes::graph(60, 60, 0.2, 7, true, ridge));
+  planish_surface *tensor = nullptr, *pht = nullptr;
+  CHECK(planish_tensor_fit(mesh.get(), nullptr, &tensor, nullptr) >= 0);
+  CHECK(planish_pht_fit(mesh.get(), nullptr, &pht, nullptr) >= 0);
+  const Surface surfaces[2] = {Surface(tensor), Surface(pht)};
+  for (const Surface &surface : surfaces) {
+    planish_model *out = nullptr;
+    CHECK_EQUAL(planish_model_from_surface(surface.get(), &out), PLANISH_STATUS_OK);
+    const planish::model model(out);
+    const TopoDS_Shape shape = rebuilt(model);
+    CHECK(BRepCheck_Analyzer(shape).IsValid());
+    CHECK_EQUAL(static_cast<std::size_t>(count(shape, TopAbs_FACE)), model.face_count());
+    model.write_step("occt_model.step");
+    const TopoDS_Shape by_file = read("occt_model.step");
+    const double found = area(shape), through = area(by_file), own = model.measure().area;
+    CHECK_NEAR(found / through, 1.0, 1e-9);
+    CHECK_NEAR(found / own, 1.0, 1e-5);
+    std::printf("%zu faces, %zu edges rebuilt: area %.12g, through a file %.12g, own %.12g\n", model.face_count(),
+                model.edge_count(), found, through, own);
+  }
 }
 
 int main() { return check::run(); }

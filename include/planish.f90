@@ -87,6 +87,11 @@ module planish_types
   contains
     final :: finalize_curve
   end type
+  type :: model_owner
+    type(c_ptr) :: handle = c_null_ptr
+  contains
+    final :: finalize_model
+  end type
   type :: field_fitter_owner
     type(c_ptr) :: handle = c_null_ptr
   contains
@@ -217,6 +222,41 @@ module planish_types
     procedure :: load => curve_load
     procedure :: save_file => curve_save_file
     procedure :: load_file => curve_load_file
+  end type
+
+  !> Faces, each a bounded part of a surface, that share edges and vertices. Faces, edges, vertices, loops, shells and
+  !> the places of edges in a face count from 1; where none is meant, 0 stands.
+  type, public :: planish_model_t
+    private
+    class(model_owner), allocatable :: owner
+  contains
+    procedure, private :: assign => model_assign
+    generic :: assignment(=) => assign
+    procedure :: free => model_free
+    procedure :: get => model_get
+    procedure :: take => model_take
+    procedure :: from_surface => model_from_surface
+    procedure :: face_count => model_face_count
+    procedure :: edge_count => model_edge_count
+    procedure :: vertex_count => model_vertex_count
+    procedure :: shell_count => model_shell_count
+    procedure :: loop_count => model_loop_count
+    procedure :: coedge_count => model_coedge_count
+    procedure :: face_info => model_face_info
+    procedure :: copy_face => model_copy_face
+    procedure :: copy_edge => model_copy_edge
+    procedure :: copy_loops => model_copy_loops
+    procedure :: copy_pcurve => model_copy_pcurve
+    procedure :: copy_vertices => model_copy_vertices
+    procedure :: copy_shell => model_copy_shell
+    procedure :: measure => model_measure
+    procedure :: write_step => model_write_step
+    procedure :: write_step_memory => model_write_step_memory
+    procedure :: save_size => model_save_size
+    procedure :: save => model_save
+    procedure :: load => model_load
+    procedure :: save_file => model_save_file
+    procedure :: load_file => model_load_file
   end type
 
   !> Fits fields on the nodes of one mesh, or at the same parameters, again and again. It has no copies, and one
@@ -1934,6 +1974,330 @@ contains
     call borrow(timestamp, at, call_options%timestamp)
     if (present(report)) call_options%out_report = c_loc(report)
     call conclude(c_surface_write_step(self%get(), terminated(path), call_options), stat, errmsg)
+  end subroutine
+
+  ! ---------------------------------------------------------------------------------------------------------
+  ! Model
+  ! ---------------------------------------------------------------------------------------------------------
+
+  impure elemental subroutine model_assign(self, other)
+    class(planish_model_t), intent(inout) :: self
+    class(planish_model_t), intent(in) :: other
+    type(c_ptr) :: handle
+    handle = c_null_ptr
+    if (allocated(other%owner)) call conclude(c_model_clone(other%owner%handle, handle))
+    call self%take(handle)
+  end subroutine
+
+  subroutine finalize_model(self)
+    type(model_owner), intent(inout) :: self
+    call c_model_free(self%handle)
+    self%handle = c_null_ptr
+  end subroutine
+
+  !> Frees the model before the variable ends.
+  subroutine model_free(self)
+    class(planish_model_t), intent(inout) :: self
+    if (allocated(self%owner)) deallocate (self%owner)
+  end subroutine
+
+  !> The handle, for C; it stays this model's.
+  pure type(c_ptr) function model_get(self) result(handle)
+    class(planish_model_t), intent(in) :: self
+    handle = c_null_ptr
+    if (allocated(self%owner)) handle = self%owner%handle
+  end function
+
+  !> Takes over a handle of C, which is freed by this model from now on.
+  subroutine model_take(self, handle)
+    class(planish_model_t), intent(inout) :: self
+    type(c_ptr), intent(in) :: handle
+    call self%free()
+    if (.not. c_associated(handle)) return
+    allocate (self%owner)
+    self%owner%handle = handle
+  end subroutine
+
+  !> Makes a model of the part of a surface inside its trims.
+  subroutine model_from_surface(self, surface, stat, errmsg)
+    class(planish_model_t), intent(inout) :: self
+    class(planish_surface_t), intent(in) :: surface
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    status = c_model_from_surface(surface%get(), handle)
+    if (status >= 0) call self%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Number of faces.
+  integer(c_size_t) function model_face_count(self)
+    class(planish_model_t), intent(in) :: self
+    model_face_count = c_model_face_count(self%get())
+  end function
+
+  !> Number of edges.
+  integer(c_size_t) function model_edge_count(self)
+    class(planish_model_t), intent(in) :: self
+    model_edge_count = c_model_edge_count(self%get())
+  end function
+
+  !> Number of vertices.
+  integer(c_size_t) function model_vertex_count(self)
+    class(planish_model_t), intent(in) :: self
+    model_vertex_count = c_model_vertex_count(self%get())
+  end function
+
+  !> Number of shells.
+  integer(c_size_t) function model_shell_count(self)
+    class(planish_model_t), intent(in) :: self
+    model_shell_count = c_model_shell_count(self%get())
+  end function
+
+  !> Number of loops of a face.
+  integer(c_size_t) function model_loop_count(self, face)
+    class(planish_model_t), intent(in) :: self
+    integer, intent(in) :: face
+    model_loop_count = 0
+    if (face > 0) model_loop_count = c_model_loop_count(self%get(), face - 1_c_size_t)
+  end function
+
+  !> Number of edges of all loops of a face.
+  integer(c_size_t) function model_coedge_count(self, face)
+    class(planish_model_t), intent(in) :: self
+    integer, intent(in) :: face
+    model_coedge_count = 0
+    if (face > 0) model_coedge_count = c_model_coedge_count(self%get(), face - 1_c_size_t)
+  end function
+
+  !> What a face is; its shell counts from 1.
+  subroutine model_face_info(self, face, info, stat, errmsg)
+    class(planish_model_t), intent(in) :: self
+    integer, intent(in) :: face
+    type(planish_face_info), intent(inout) :: info
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int) :: status
+    if (refuse(face < 1, PLANISH_STATUS_INDEX, "faces count from 1", stat, errmsg)) return
+    status = c_model_face_info(self%get(), face - 1_c_size_t, info)
+    if (status >= 0) info%shell = info%shell + 1
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Makes a surface of a face, with the loops of the face as trims.
+  subroutine model_copy_face(self, face, surface, stat, errmsg)
+    class(planish_model_t), intent(in) :: self
+    integer, intent(in) :: face
+    class(planish_surface_t), intent(inout) :: surface
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    if (refuse(face < 1, PLANISH_STATUS_INDEX, "faces count from 1", stat, errmsg)) return
+    status = c_model_copy_face(self%get(), face - 1_c_size_t, handle)
+    if (status >= 0) call surface%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Makes a curve of an edge and says what the edge is; faces and vertices of info count from 1, 0 stands for none.
+  subroutine model_copy_edge(self, edge, curve, info, stat, errmsg)
+    class(planish_model_t), intent(in) :: self
+    integer, intent(in) :: edge
+    class(planish_curve_t), intent(inout) :: curve
+    type(planish_edge_info), intent(inout), optional :: info
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    if (refuse(edge < 1, PLANISH_STATUS_INDEX, "edges count from 1", stat, errmsg)) return
+    status = c_model_copy_edge(self%get(), edge - 1_c_size_t, handle, info)
+    if (status >= 0) then
+      call curve%take(handle)
+      if (present(info)) then
+        info%face_along = info%face_along + 1
+        info%face_against = info%face_against + 1
+        info%vertex_start = info%vertex_start + 1
+        info%vertex_end = info%vertex_end + 1
+      end if
+    end if
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> The loops of a face: how many edges each has, then their edges in order and whether the loop runs along them.
+  subroutine model_copy_loops(self, face, sizes, edges, is_forward, stat, errmsg)
+    class(planish_model_t), intent(in) :: self
+    integer, intent(in) :: face
+    integer, allocatable, intent(inout) :: sizes(:), edges(:)
+    logical, allocatable, intent(inout) :: is_forward(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_size_t), allocatable :: counts(:)
+    integer(c_int32_t), allocatable :: numbers(:)
+    integer(c_int8_t), allocatable :: senses(:)
+    integer(c_int) :: status
+    if (refuse(face < 1, PLANISH_STATUS_INDEX, "faces count from 1", stat, errmsg)) return
+    allocate (counts(self%loop_count(face)))
+    allocate (numbers(self%coedge_count(face)), senses(self%coedge_count(face)))
+    status = c_model_copy_loops(self%get(), face - 1_c_size_t, counts, size(counts, kind=c_size_t), numbers, senses, &
+        size(numbers, kind=c_size_t))
+    if (status >= 0) then
+      sizes = int(counts)
+      edges = numbers + 1
+      is_forward = senses /= 0
+    end if
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Makes a curve of where an edge lies in the parameter plane of a face's surface.
+  subroutine model_copy_pcurve(self, face, coedge, curve, stat, errmsg)
+    class(planish_model_t), intent(in) :: self
+    integer, intent(in) :: face, coedge
+    class(planish_curve_t), intent(inout) :: curve
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    if (refuse(face < 1 .or. coedge < 1, PLANISH_STATUS_INDEX, "faces and their edges count from 1", stat, errmsg)) return
+    status = c_model_copy_pcurve(self%get(), face - 1_c_size_t, coedge - 1_c_size_t, handle)
+    if (status >= 0) call curve%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> The places of the vertices: points(3,n).
+  subroutine model_copy_vertices(self, points, stat, errmsg)
+    class(planish_model_t), intent(in) :: self
+    real(c_double), intent(inout), contiguous :: points(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_extent(size(points, 1, c_size_t), 3_c_size_t, "the first extent of points", stat, errmsg)) return
+    call conclude(c_model_copy_vertices(self%get(), points, size(points, 2, c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> What a shell is, and its faces; info%void_in counts from 1, 0 stands for none.
+  subroutine model_copy_shell(self, shell, info, faces, stat, errmsg)
+    class(planish_model_t), intent(in) :: self
+    integer, intent(in) :: shell
+    type(planish_shell_info), intent(inout) :: info
+    integer, allocatable, intent(inout) :: faces(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t), allocatable :: numbers(:)
+    integer(c_int) :: status
+    if (refuse(shell < 1, PLANISH_STATUS_INDEX, "shells count from 1", stat, errmsg)) return
+    allocate (numbers(self%face_count()))
+    status = c_model_copy_shell(self%get(), shell - 1_c_size_t, info, numbers, size(numbers, kind=c_size_t))
+    if (status >= 0) then
+      info%void_in = info%void_in + 1
+      faces = numbers(:info%face_count) + 1
+    end if
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Box, area, volume, and how well the faces meet.
+  subroutine model_measure(self, report, stat, errmsg)
+    class(planish_model_t), intent(in) :: self
+    type(planish_measure_report), intent(inout) :: report
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call conclude(c_model_measure(self%get(), report), stat, errmsg)
+  end subroutine
+
+  !> Writes a STEP file.
+  subroutine model_write_step(self, path, options, product, author, organization, timestamp, report, stat, errmsg)
+    class(planish_model_t), intent(in) :: self
+    character(*), intent(in) :: path
+    type(planish_step_options), intent(in), optional :: options
+    character(*), intent(in), optional :: product, author, organization, timestamp
+    type(planish_step_report), intent(inout), optional, target :: report
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_step_options) :: call_options
+    character(kind=c_char), allocatable, target :: made(:), by(:), of(:), at(:)
+    if (present(options)) call_options = options
+    call borrow(product, made, call_options%product)
+    call borrow(author, by, call_options%author)
+    call borrow(organization, of, call_options%organization)
+    call borrow(timestamp, at, call_options%timestamp)
+    if (present(report)) call_options%out_report = c_loc(report)
+    call conclude(c_model_write_step(self%get(), terminated(path), call_options), stat, errmsg)
+  end subroutine
+
+  !> The content of that file.
+  subroutine model_write_step_memory(self, bytes, options, stat, errmsg)
+    class(planish_model_t), intent(in) :: self
+    integer(c_int8_t), allocatable, intent(inout) :: bytes(:)
+    type(planish_step_options), intent(in), optional :: options
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_step_options) :: call_options
+    integer(c_int8_t), allocatable :: written(:)
+    integer(c_size_t) :: needed(1)
+    integer(c_int) :: status
+    if (present(options)) call_options = options
+    needed = 0
+    status = c_model_write_step_memory(self%get(), call_options, size=0_c_size_t, out_size=needed)
+    if (status >= 0) then
+      allocate (written(needed(1)))
+      status = c_model_write_step_memory(self%get(), call_options, written, needed(1), needed)
+      if (status >= 0) call move_alloc(written, bytes)
+    end if
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> How many bytes save() makes.
+  integer(c_size_t) function model_save_size(self)
+    class(planish_model_t), intent(in) :: self
+    model_save_size = c_model_save_size(self%get())
+  end function
+
+  !> Everything the model is.
+  subroutine model_save(self, bytes, stat, errmsg)
+    class(planish_model_t), intent(in) :: self
+    integer(c_int8_t), allocatable, intent(inout) :: bytes(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int8_t), allocatable :: saved(:)
+    integer(c_int) :: status
+    allocate (saved(self%save_size()))
+    status = c_model_save(self%get(), saved, size(saved, kind=c_size_t))
+    if (status >= 0) call move_alloc(saved, bytes)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Makes a model from the bytes of save().
+  subroutine model_load(self, bytes, stat, errmsg)
+    class(planish_model_t), intent(inout) :: self
+    integer(c_int8_t), intent(in), contiguous :: bytes(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    status = c_model_load(bytes, size(bytes, kind=c_size_t), handle)
+    if (status >= 0) call self%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Writes the bytes of save() to a file.
+  subroutine model_save_file(self, path, stat, errmsg)
+    class(planish_model_t), intent(in) :: self
+    character(*), intent(in) :: path
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call conclude(c_model_save_file(self%get(), terminated(path)), stat, errmsg)
+  end subroutine
+
+  !> Makes a model from a file of save_file().
+  subroutine model_load_file(self, path, stat, errmsg)
+    class(planish_model_t), intent(inout) :: self
+    character(*), intent(in) :: path
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    status = c_model_load_file(terminated(path), handle)
+    if (status >= 0) call self%take(handle)
+    call conclude(status, stat, errmsg)
   end subroutine
 
   ! ---------------------------------------------------------------------------------------------------------

@@ -35,6 +35,11 @@
 #define PLANISH_UNLIMITED UINT32_MAX
 
 /**
+ * Stands for "none" where a number of a face or shell is expected.
+ */
+#define PLANISH_NONE UINT32_MAX
+
+/**
  * What a call came to: 0 or positive is success, negative is an error. Test with `status < 0`.
  *
  * A positive status is a success with a remark: all outputs are filled. Where several remarks hold the
@@ -592,6 +597,42 @@ typedef enum planish_step_form {
 } planish_step_form;
 
 /**
+ * What a face lies on.
+ */
+typedef enum planish_carrier {
+    /**
+     * A spline surface.
+     */
+    PLANISH_CARRIER_SPLINE = 0,
+    /**
+     * A plane.
+     */
+    PLANISH_CARRIER_PLANE = 1,
+    /**
+     * A cylinder.
+     */
+    PLANISH_CARRIER_CYLINDER = 2,
+} planish_carrier;
+
+/**
+ * What a shell bounds.
+ */
+typedef enum planish_shell_role {
+    /**
+     * Nothing: it may have edges of one face.
+     */
+    PLANISH_SHELL_ROLE_OPEN = 0,
+    /**
+     * A solid, from outside.
+     */
+    PLANISH_SHELL_ROLE_SOLID = 1,
+    /**
+     * A void inside a solid.
+     */
+    PLANISH_SHELL_ROLE_VOID = 2,
+} planish_shell_role;
+
+/**
  * Which knots the control curves of a skin get.
  */
 typedef enum planish_skin_method {
@@ -776,6 +817,15 @@ typedef struct planish_field_fitter planish_field_fitter;
  * Calls that take it const may run at once on any threads; a call that takes it non-const needs it alone.
  */
 typedef struct planish_mesh planish_mesh;
+
+/**
+ * A model: faces, each a bounded part of a surface, that share edges and vertices. Made by
+ * planish_model_from_surface() and others, destroyed by planish_model_free().
+ *
+ * Faces, edges, vertices and shells have numbers from 0 on. Calls that take a model const may run at once on any
+ * threads.
+ */
+typedef struct planish_model planish_model;
 
 /**
  * A surface: a map from a rectangle of parameters (u,v) to R^dim. Made by planish_tensor_fit() and others,
@@ -2178,6 +2228,184 @@ typedef struct planish_step_options {
      */
     double tolerance;
 } planish_step_options;
+
+/**
+ * What a face is. Set struct_size to sizeof(planish_face_info) before the call; filled on success only.
+ */
+typedef struct planish_face_info {
+    /**
+     * sizeof(planish_face_info) as the caller sees it.
+     */
+    size_t struct_size;
+    /**
+     * A point of the plane, or of the cylinder's axis; zeros for a spline.
+     */
+    double origin[3];
+    /**
+     * The normal of the plane, or the direction of the cylinder's axis, of length 1; zeros for a spline.
+     */
+    double axis[3];
+    /**
+     * The direction of u in the plane, or where the angle u is 0, of length 1; zeros for a spline.
+     */
+    double x_axis[3];
+    /**
+     * Radius of the cylinder; 0 for others.
+     */
+    double radius;
+    /**
+     * Loops, the outer one first.
+     */
+    size_t loop_count;
+    /**
+     * Edges of all loops.
+     */
+    size_t coedge_count;
+    /**
+     * A planish_carrier, what the face lies on.
+     */
+    uint32_t carrier;
+    /**
+     * What the maker of the model calls it, such as the label of the triangles it was made from.
+     */
+    uint32_t label;
+    /**
+     * The shell that it is in.
+     */
+    uint32_t shell;
+    /**
+     * 1 if its front is the side to which the normal of its surface points, else 0.
+     */
+    uint32_t is_forward;
+} planish_face_info;
+
+/**
+ * What an edge is. Set struct_size to sizeof(planish_edge_info) before the call; filled on success only.
+ */
+typedef struct planish_edge_info {
+    /**
+     * sizeof(planish_edge_info) as the caller sees it.
+     */
+    size_t struct_size;
+    /**
+     * Largest angle between the normals of both faces along it, in radians; 0 for an edge of one face.
+     */
+    double angle;
+    /**
+     * Largest distance between its images on the surfaces of both faces; 0 for an edge of one face.
+     */
+    double gap;
+    /**
+     * The face whose loop runs along it; PLANISH_NONE if there is none.
+     */
+    uint32_t face_along;
+    /**
+     * The face whose loop runs against it; PLANISH_NONE if there is none.
+     */
+    uint32_t face_against;
+    /**
+     * The vertex where it begins.
+     */
+    uint32_t vertex_start;
+    /**
+     * The vertex where it ends.
+     */
+    uint32_t vertex_end;
+    /**
+     * 1 if its faces meet at an angle on purpose, else 0.
+     */
+    uint32_t is_sharp;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} planish_edge_info;
+
+/**
+ * What a shell is. Set struct_size to sizeof(planish_shell_info) before the call; filled on success only.
+ */
+typedef struct planish_shell_info {
+    /**
+     * sizeof(planish_shell_info) as the caller sees it.
+     */
+    size_t struct_size;
+    /**
+     * Faces.
+     */
+    size_t face_count;
+    /**
+     * A planish_shell_role.
+     */
+    uint32_t role;
+    /**
+     * The shell inside which it is a void; PLANISH_NONE if it is none.
+     */
+    uint32_t void_in;
+} planish_shell_info;
+
+/**
+ * What a model measures. Set struct_size to sizeof(planish_measure_report) before the call.
+ */
+typedef struct planish_measure_report {
+    /**
+     * sizeof(planish_measure_report) as the caller sees it.
+     */
+    size_t struct_size;
+    /**
+     * Least x, y, z, from samples of every span.
+     */
+    double box_min[3];
+    /**
+     * Largest x, y, z, from samples of every span.
+     */
+    double box_max[3];
+    /**
+     * Area of all faces.
+     */
+    double area;
+    /**
+     * Volume of all solids, voids taken off; 0 for open shells.
+     */
+    double volume;
+    /**
+     * Largest distance between the images of an edge on the surfaces of both its faces.
+     */
+    double max_gap;
+    /**
+     * Largest angle between the normals on both sides of an edge that is not sharp, in radians.
+     */
+    double max_normal_jump;
+    /**
+     * Largest distance between an edge's curve in space and its images on the surfaces, and between its ends and
+     * its vertices.
+     */
+    double curve_deviation;
+    /**
+     * Diagonal of the box around the model, from samples.
+     */
+    double diagonal;
+    /**
+     * Edges of one face.
+     */
+    size_t free_edge_count;
+    /**
+     * Edges that are sharp on purpose.
+     */
+    size_t sharp_edge_count;
+    /**
+     * Control points of the spline surfaces under all faces.
+     */
+    size_t pole_count;
+    /**
+     * Loops of all faces.
+     */
+    size_t loop_count;
+    /**
+     * Vertices - edges + the sum of 2 - loops over all faces: for each shell 2, less 2 for each handle and 1 for
+     * each hole in it.
+     */
+    int64_t euler_characteristic;
+} planish_measure_report;
 
 /**
  * How points are interpolated. Fill with planish_interpolate_options_init(), then change what you need.
@@ -4317,6 +4545,318 @@ PLANISH_NODISCARD
 enum planish_status planish_surface_write_step(const struct planish_surface *surface,
                                                const char *path,
                                                const struct planish_step_options *options);
+
+/**
+ * Makes a model of a surface in space: the part inside its trims as an open shell. A tensor surface is one face. A
+ * T-spline is one face for each span of v, a PHT-spline one for each rectangle of cells whose levels differ by at most
+ * one: tensor surfaces that share edges. A D1RC-spline is one face on a tensor surface fitted to it within 1e-3 of the
+ * diagonal. Edges have cubic curves in space, within 1e-7 of the diagonal of their p-curves' images, and p-curves of
+ * degree 1, the trims themselves.
+ *
+ * surface:   not NULL, of dimension 3.
+ * out_model: receives a new model; destroy with planish_model_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension),
+ * PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOPOLOGY (trims that cross or touch, the index is one of them; trims around
+ * several pieces; a knot inside the domain that occurs more often than the degree), PLANISH_STATUS_TOO_LARGE or
+ * PLANISH_STATUS_DEGENERATE (a trim without area, the index; a face without size).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_model_from_surface(const struct planish_surface *surface,
+                                               struct planish_model **out_model);
+
+/**
+ * Makes a copy of a model.
+ *
+ * model:     not NULL.
+ * out_model: receives a new model; destroy with planish_model_free().
+ * Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_model_clone(const struct planish_model *model,
+                                        struct planish_model **out_model);
+
+/**
+ * Destroys a model.
+ *
+ * model: NULL is accepted; otherwise not used again.
+ */
+PLANISH_API void planish_model_free(struct planish_model *model);
+
+/**
+ * Number of faces; 0 for NULL.
+ */
+PLANISH_API size_t planish_model_face_count(const struct planish_model *model);
+
+/**
+ * Number of edges; one between two faces counts once. 0 for NULL.
+ */
+PLANISH_API size_t planish_model_edge_count(const struct planish_model *model);
+
+/**
+ * Number of vertices; 0 for NULL.
+ */
+PLANISH_API size_t planish_model_vertex_count(const struct planish_model *model);
+
+/**
+ * Number of shells; 0 for NULL.
+ */
+PLANISH_API size_t planish_model_shell_count(const struct planish_model *model);
+
+/**
+ * Number of loops of a face; 0 for NULL and for a face that does not exist.
+ */
+PLANISH_API size_t planish_model_loop_count(const struct planish_model *model, size_t face);
+
+/**
+ * Number of edges of all loops of a face; one that two loops or sides of the face share counts twice. 0 for NULL and
+ * for a face that does not exist.
+ */
+PLANISH_API
+size_t planish_model_coedge_count(const struct planish_model *model,
+                                  size_t face);
+
+/**
+ * What a face is.
+ *
+ * model:    not NULL.
+ * face:     below planish_model_face_count().
+ * out_info: receives it; not NULL.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (struct_size) or
+ * PLANISH_STATUS_INDEX (the face).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_model_face_info(const struct planish_model *model,
+                                            size_t face,
+                                            struct planish_face_info *out_info);
+
+/**
+ * Makes a surface of a face: the spline under it, with the loops of the face as trims, the outer one first. A plane
+ * becomes a bilinear surface over the same parameters; a cylinder becomes a rational one, whose parameter u is not the
+ * angle.
+ *
+ * model:       not NULL.
+ * face:        below planish_model_face_count().
+ * out_surface: receives a new surface, which does not need the model; destroy with planish_surface_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INDEX (the face) or
+ * PLANISH_STATUS_DEGENERATE.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_model_copy_face(const struct planish_model *model,
+                                            size_t face,
+                                            struct planish_surface **out_surface);
+
+/**
+ * Makes a curve of an edge, and says what the edge is.
+ *
+ * model:     not NULL.
+ * edge:      below planish_model_edge_count().
+ * out_curve: receives a new curve in space; destroy with planish_curve_free(). NULL for none.
+ * out_info:  receives what the edge is; NULL for nothing.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (struct_size) or
+ * PLANISH_STATUS_INDEX (the edge).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_model_copy_edge(const struct planish_model *model,
+                                            size_t edge,
+                                            struct planish_curve **out_curve,
+                                            struct planish_edge_info *out_info);
+
+/**
+ * Copies the loops of a face: their edges in order, loop after loop, the outer loop first. Each edge begins where the
+ * one before it ends; the face lies on the left of a loop as seen from its front.
+ *
+ * model:        not NULL.
+ * face:         below planish_model_face_count().
+ * out_sizes:    receives the number of edges of each of the planish_model_loop_count() loops; NULL if not wanted.
+ * loop_count:   numbers that out_sizes has room for.
+ * out_edges:    receives planish_model_coedge_count() edges; NULL if not wanted.
+ * out_forward:  for each of them receives 1 if the loop runs along the edge, 0 if it runs against it; NULL if not
+ *               wanted.
+ * coedge_count: numbers that each of out_edges and out_forward has room for.
+ * Arrays: out_sizes[model_loop_count], out_edges[model_coedge_count], out_forward[model_coedge_count].
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INDEX (the face) or
+ * PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_model_copy_loops(const struct planish_model *model,
+                                             size_t face,
+                                             size_t *out_sizes,
+                                             size_t loop_count,
+                                             uint32_t *out_edges,
+                                             uint8_t *out_forward,
+                                             size_t coedge_count);
+
+/**
+ * Makes a curve of where an edge of a face lies in the parameter plane of the face's surface: over the parameters of
+ * the edge's curve in space and in its direction, whatever the direction of the loop.
+ *
+ * model:     not NULL.
+ * face:      below planish_model_face_count().
+ * coedge:    the place of the edge among those of planish_model_copy_loops().
+ * out_curve: receives a new curve of dimension 2; destroy with planish_curve_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INDEX (the face, or the place) or
+ * PLANISH_STATUS_WRONG_KIND (the face lies on a cylinder: its parameters are angle and height of a place in space).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_model_copy_pcurve(const struct planish_model *model,
+                                              size_t face,
+                                              size_t coedge,
+                                              struct planish_curve **out_curve);
+
+/**
+ * Copies the places of the vertices.
+ *
+ * model:      not NULL.
+ * out_points: receives planish_model_vertex_count() rows of x, y, z.
+ * count:      rows that out_points has room for.
+ * Arrays: out_points[model_vertex_count, 3].
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_model_copy_vertices(const struct planish_model *model,
+                                                double *out_points,
+                                                size_t count);
+
+/**
+ * What a shell is, and its faces.
+ *
+ * model:     not NULL.
+ * shell:     below planish_model_shell_count().
+ * out_info:  receives what it is; NULL for nothing.
+ * out_faces: receives its faces; NULL if not wanted.
+ * count:     numbers that out_faces has room for.
+ * Arrays: out_faces[out_info.face_count].
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (struct_size),
+ * PLANISH_STATUS_INDEX (the shell) or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_model_copy_shell(const struct planish_model *model,
+                                             size_t shell,
+                                             struct planish_shell_info *out_info,
+                                             uint32_t *out_faces,
+                                             size_t count);
+
+/**
+ * Measures a model: its box, area and volume, and how well its faces meet. Area and volume are integrals over the
+ * faces inside their loops; that of the volume is exact but for rounding where surfaces are polynomial and at most
+ * bicubic and loops are straight in the parameter plane.
+ *
+ * model:      not NULL.
+ * out_report: not NULL; struct_size must be set.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_model_measure(const struct planish_model *model,
+                                          struct planish_measure_report *out_report);
+
+/**
+ * Writes a model as a STEP file: solids as solids, with voids, and open shells as a shell-based surface model. Edges
+ * are written once, for both faces. The file appears whole or not at all; equal input gives equal bytes.
+ *
+ * model:   not NULL.
+ * path:    UTF-8, ends with a NUL; an existing file is replaced.
+ * options: NULL for the defaults. What is said there of forms and tolerances is for surfaces, and not used.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, a text that is
+ * not UTF-8), PLANISH_STATUS_DEGENERATE (numbers overflow) or PLANISH_STATUS_FILE.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_model_write_step(const struct planish_model *model,
+                                             const char *path,
+                                             const struct planish_step_options *options);
+
+/**
+ * Writes the content of the file of planish_model_write_step() into memory.
+ *
+ * model:     not NULL.
+ * options:   NULL for the defaults.
+ * out_bytes: receives the content, which is text without a NUL; NULL to learn its size.
+ * size:      bytes that out_bytes has room for.
+ * out_size:  receives the size of the content in bytes; not NULL.
+ * Arrays: out_bytes[out_size], out_size[1].
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, a text that is
+ * not UTF-8), PLANISH_STATUS_DEGENERATE (numbers overflow) or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_model_write_step_memory(const struct planish_model *model,
+                                                    const struct planish_step_options *options,
+                                                    void *out_bytes,
+                                                    size_t size,
+                                                    size_t *out_size);
+
+/**
+ * How many bytes planish_model_save() writes; 0 for NULL.
+ */
+PLANISH_API size_t planish_model_save_size(const struct planish_model *model);
+
+/**
+ * Writes everything a model is into a buffer, to the bit. The layout is documented in docs/format.md; it is the same
+ * on all machines.
+ *
+ * model:  not NULL.
+ * buffer: receives planish_model_save_size() bytes.
+ * size:   bytes that the buffer has room for.
+ * Arrays: buffer[size].
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_model_save(const struct planish_model *model,
+                                       void *buffer,
+                                       size_t size);
+
+/**
+ * Makes a model from bytes of planish_model_save(). Damaged bytes are refused, sizes are checked before memory is
+ * asked for.
+ *
+ * buffer:    size bytes.
+ * out_model: receives a new model; destroy with planish_model_free().
+ * Arrays: buffer[size].
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_FORMAT (the index is the byte) or
+ * PLANISH_STATUS_VERSION (a later library made it).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_model_load(const void *buffer,
+                                       size_t size,
+                                       struct planish_model **out_model);
+
+/**
+ * Writes the bytes of planish_model_save() to a file, which appears whole or not at all.
+ *
+ * model: not NULL.
+ * path:  UTF-8, ends with a NUL; an existing file is replaced.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the path is not UTF-8) or
+ * PLANISH_STATUS_FILE.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_model_save_file(const struct planish_model *model,
+                                            const char *path);
+
+/**
+ * Makes a model from a file of planish_model_save_file().
+ *
+ * path:      UTF-8, ends with a NUL.
+ * out_model: receives a new model; destroy with planish_model_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the path is not UTF-8),
+ * PLANISH_STATUS_FILE, PLANISH_STATUS_FORMAT (the index is the byte) or PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_model_load_file(const char *path,
+                                            struct planish_model **out_model);
 
 /**
  * Fits a cubic curve to values at parameters, by the method of planish_tensor_fit() in one parameter.

@@ -255,6 +255,7 @@ struct destroy {
   void operator()(planish_mesh *mesh) const noexcept { planish_mesh_free(mesh); }
   void operator()(planish_surface *surface) const noexcept { planish_surface_free(surface); }
   void operator()(planish_curve *curve) const noexcept { planish_curve_free(curve); }
+  void operator()(planish_model *model) const noexcept { planish_model_free(model); }
   void operator()(planish_field_fitter *fitter) const noexcept { planish_field_fitter_free(fitter); }
   void operator()(planish_transfer *transfer) const noexcept { planish_transfer_free(transfer); }
 };
@@ -986,6 +987,179 @@ class curve {
 
  private:
   std::unique_ptr<planish_curve, detail::destroy> handle_;
+};
+
+/// Faces, each a bounded part of a surface, that share edges and vertices. Faces, edges, vertices and shells have
+/// numbers from 0 on. Copies are deep; one that was moved from is empty.
+class model {
+ public:
+  /// Takes a model of planish.h over.
+  explicit model(planish_model *handle) noexcept : handle_(handle) {}
+
+  /// The part of a surface inside its trims as an open shell.
+  static model from_surface(const surface &surface) {
+    planish_model *made = nullptr;
+    detail::checked(planish_model_from_surface(surface.get(), &made));
+    return model(made);
+  }
+
+  /// A deep copy.
+  model(const model &other) {
+    planish_model *copy = nullptr;
+    detail::checked(planish_model_clone(other.get(), &copy));
+    handle_.reset(copy);
+  }
+  /// A deep copy.
+  model &operator=(const model &other) { return *this = model(other); }
+  /// Takes over.
+  model(model &&other) noexcept = default;
+  /// Takes over.
+  model &operator=(model &&other) noexcept = default;
+  ~model() = default;
+
+  /// The handle, for calls of planish.h; it stays this object's.
+  const planish_model *get() const noexcept { return handle_.get(); }
+  /// Gives the handle up; the caller destroys it.
+  planish_model *release() noexcept { return handle_.release(); }
+
+  /// Number of faces.
+  std::size_t face_count() const noexcept { return planish_model_face_count(get()); }
+  /// Number of edges; one between two faces counts once.
+  std::size_t edge_count() const noexcept { return planish_model_edge_count(get()); }
+  /// Number of vertices.
+  std::size_t vertex_count() const noexcept { return planish_model_vertex_count(get()); }
+  /// Number of shells.
+  std::size_t shell_count() const noexcept { return planish_model_shell_count(get()); }
+
+  /// What a face is.
+  planish_face_info face_info(std::size_t face) const {
+    auto info = detail::sized<planish_face_info>();
+    detail::checked(planish_model_face_info(get(), face, &info));
+    return info;
+  }
+
+  /// A surface of its own for a face, with the loops of the face as trims.
+  planish::surface face(std::size_t face) const {
+    planish_surface *made = nullptr;
+    detail::checked(planish_model_copy_face(get(), face, &made));
+    return planish::surface(made);
+  }
+
+  /// What an edge is.
+  planish_edge_info edge_info(std::size_t edge) const {
+    auto info = detail::sized<planish_edge_info>();
+    detail::checked(planish_model_copy_edge(get(), edge, nullptr, &info));
+    return info;
+  }
+
+  /// The curve of an edge in space.
+  planish::curve edge(std::size_t edge) const {
+    planish_curve *made = nullptr;
+    detail::checked(planish_model_copy_edge(get(), edge, &made, nullptr));
+    return planish::curve(made);
+  }
+
+  /// An edge as a side of a face.
+  struct coedge {
+    /// The edge.
+    std::uint32_t edge;
+    /// Whether the loop runs along it.
+    bool is_forward;
+  };
+
+  /// The loops of a face, the outer one first; each edge begins where the one before it ends.
+  std::vector<std::vector<coedge>> loops(std::size_t face) const {
+    std::vector<std::size_t> sizes(planish_model_loop_count(get(), face));
+    std::vector<std::uint32_t> edges(planish_model_coedge_count(get(), face));
+    std::vector<std::uint8_t> forward(edges.size());
+    detail::checked(planish_model_copy_loops(get(), face, sizes.data(), sizes.size(), edges.data(),
+                                             forward.data(), edges.size()));
+    std::vector<std::vector<coedge>> loops;
+    std::size_t next = 0;
+    for (const std::size_t size : sizes) {
+      loops.emplace_back();
+      for (std::size_t k = 0; k < size; ++k, ++next) loops.back().push_back({edges[next], forward[next] != 0});
+    }
+    return loops;
+  }
+
+  /// Where an edge lies in the parameter plane of a face's surface; `coedge` counts through all loops.
+  planish::curve pcurve(std::size_t face, std::size_t coedge) const {
+    planish_curve *made = nullptr;
+    detail::checked(planish_model_copy_pcurve(get(), face, coedge, &made));
+    return planish::curve(made);
+  }
+
+  /// The places of the vertices.
+  std::vector<point3> vertices() const {
+    std::vector<point3> points(vertex_count());
+    detail::checked(
+        planish_model_copy_vertices(get(), points.empty() ? nullptr : points.front().data(), points.size()));
+    return points;
+  }
+
+  /// What a shell is.
+  planish_shell_info shell_info(std::size_t shell) const {
+    auto info = detail::sized<planish_shell_info>();
+    detail::checked(planish_model_copy_shell(get(), shell, &info, nullptr, 0));
+    return info;
+  }
+
+  /// The faces of a shell.
+  std::vector<std::uint32_t> shell(std::size_t shell) const {
+    std::vector<std::uint32_t> faces(shell_info(shell).face_count);
+    detail::checked(planish_model_copy_shell(get(), shell, nullptr, faces.data(), faces.size()));
+    return faces;
+  }
+
+  /// Box, area, volume, and how well the faces meet.
+  planish_measure_report measure() const {
+    auto report = detail::sized<planish_measure_report>();
+    detail::checked(planish_model_measure(get(), &report));
+    return report;
+  }
+
+  /// Writes a STEP file; `path` is UTF-8.
+  planish_step_report write_step(const std::string &path,
+                                 planish_step_options options = defaults<planish_step_options>()) const {
+    auto report = detail::sized<planish_step_report>();
+    if (!options.out_report) options.out_report = &report;
+    detail::checked(planish_model_write_step(get(), path.c_str(), &options));
+    return options.out_report == &report ? report : *options.out_report;
+  }
+
+  /// The content of that file.
+  std::string step(const planish_step_options &options = defaults<planish_step_options>()) const {
+    std::size_t size = 0;
+    detail::checked(planish_model_write_step_memory(get(), &options, nullptr, 0, &size));
+    std::string content(size, '\0');
+    detail::checked(planish_model_write_step_memory(get(), &options, &content[0], size, &size));
+    return content;
+  }
+
+  /// Everything the model is, as bytes that model::load() takes.
+  std::vector<std::uint8_t> save() const {
+    std::vector<std::uint8_t> bytes(planish_model_save_size(get()));
+    detail::checked(planish_model_save(get(), bytes.data(), bytes.size()));
+    return bytes;
+  }
+  /// The same into a file, which appears whole or not at all; `path` is UTF-8.
+  void save_file(const std::string &path) const { detail::checked(planish_model_save_file(get(), path.c_str())); }
+  /// The model that bytes of save() hold.
+  static model load(const values<std::uint8_t> &bytes) {
+    planish_model *made = nullptr;
+    detail::checked(planish_model_load(bytes.data(), bytes.count(), &made));
+    return model(made);
+  }
+  /// The model that a file of save_file() holds; `path` is UTF-8.
+  static model load_file(const std::string &path) {
+    planish_model *made = nullptr;
+    detail::checked(planish_model_load_file(path.c_str(), &made));
+    return model(made);
+  }
+
+ private:
+  std::unique_ptr<planish_model, detail::destroy> handle_;
 };
 
 /// What came of a skin.

@@ -7,6 +7,7 @@ from ctypes import (CFUNCTYPE, Structure, c_char_p, c_double, c_int32, c_int64, 
 
 VERSION = "0.1.0"
 UNLIMITED = 4294967295
+NONE = 4294967295
 
 #: The words of each enumeration and their values.
 ENUMERATIONS = {
@@ -153,6 +154,16 @@ ENUMERATIONS = {
         "tensor": 0,
         "strips": 1,
         "patches": 2,
+    },
+    "planish_carrier": {
+        "spline": 0,
+        "plane": 1,
+        "cylinder": 2,
+    },
+    "planish_shell_role": {
+        "open": 0,
+        "solid": 1,
+        "void": 2,
     },
     "planish_skin_method": {
         "control_curves": 0,
@@ -799,6 +810,70 @@ class planish_step_options(Structure):
     }
 
 
+class planish_edge_info(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("angle", c_double),
+        ("gap", c_double),
+        ("face_along", c_uint32),
+        ("face_against", c_uint32),
+        ("vertex_start", c_uint32),
+        ("vertex_end", c_uint32),
+        ("is_sharp", c_uint32),
+        ("reserved", c_uint32),
+    ]
+
+
+class planish_face_info(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("origin", c_double * 3),
+        ("axis", c_double * 3),
+        ("x_axis", c_double * 3),
+        ("radius", c_double),
+        ("loop_count", c_size_t),
+        ("coedge_count", c_size_t),
+        ("carrier", c_uint32),
+        ("label", c_uint32),
+        ("shell", c_uint32),
+        ("is_forward", c_uint32),
+    ]
+    choices = {
+        "carrier": "planish_carrier",
+    }
+
+
+class planish_shell_info(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("face_count", c_size_t),
+        ("role", c_uint32),
+        ("void_in", c_uint32),
+    ]
+    choices = {
+        "role": "planish_shell_role",
+    }
+
+
+class planish_measure_report(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("box_min", c_double * 3),
+        ("box_max", c_double * 3),
+        ("area", c_double),
+        ("volume", c_double),
+        ("max_gap", c_double),
+        ("max_normal_jump", c_double),
+        ("curve_deviation", c_double),
+        ("diagonal", c_double),
+        ("free_edge_count", c_size_t),
+        ("sharp_edge_count", c_size_t),
+        ("pole_count", c_size_t),
+        ("loop_count", c_size_t),
+        ("euler_characteristic", c_int64),
+    ]
+
+
 class planish_interpolate_options(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -1045,6 +1120,10 @@ SIZES = {
     planish_vtk_options: 64,
     planish_step_report: 64,
     planish_step_options: 112,
+    planish_edge_info: 48,
+    planish_face_info: 120,
+    planish_shell_info: 24,
+    planish_measure_report: 144,
     planish_interpolate_options: 24,
     planish_skin_report: 112,
     planish_skin_options: 160,
@@ -1171,6 +1250,30 @@ FUNCTIONS = {
     "planish_surface_load_file": (c_int32, c_char_p, c_void_p),
     "planish_step_options_init": (c_int32, c_void_p, c_size_t),
     "planish_surface_write_step": (c_int32, c_void_p, c_char_p, c_void_p),
+    "planish_model_from_surface": (c_int32, c_void_p, c_void_p),
+    "planish_model_clone": (c_int32, c_void_p, c_void_p),
+    "planish_model_free": (None, c_void_p),
+    "planish_model_face_count": (c_size_t, c_void_p),
+    "planish_model_edge_count": (c_size_t, c_void_p),
+    "planish_model_vertex_count": (c_size_t, c_void_p),
+    "planish_model_shell_count": (c_size_t, c_void_p),
+    "planish_model_loop_count": (c_size_t, c_void_p, c_size_t),
+    "planish_model_coedge_count": (c_size_t, c_void_p, c_size_t),
+    "planish_model_face_info": (c_int32, c_void_p, c_size_t, c_void_p),
+    "planish_model_copy_face": (c_int32, c_void_p, c_size_t, c_void_p),
+    "planish_model_copy_edge": (c_int32, c_void_p, c_size_t, c_void_p, c_void_p),
+    "planish_model_copy_loops": (c_int32, c_void_p, c_size_t, c_void_p, c_size_t, c_void_p, c_void_p, c_size_t),
+    "planish_model_copy_pcurve": (c_int32, c_void_p, c_size_t, c_size_t, c_void_p),
+    "planish_model_copy_vertices": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_model_copy_shell": (c_int32, c_void_p, c_size_t, c_void_p, c_void_p, c_size_t),
+    "planish_model_measure": (c_int32, c_void_p, c_void_p),
+    "planish_model_write_step": (c_int32, c_void_p, c_char_p, c_void_p),
+    "planish_model_write_step_memory": (c_int32, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p),
+    "planish_model_save_size": (c_size_t, c_void_p),
+    "planish_model_save": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_model_load": (c_int32, c_void_p, c_size_t, c_void_p),
+    "planish_model_save_file": (c_int32, c_void_p, c_char_p),
+    "planish_model_load_file": (c_int32, c_char_p, c_void_p),
     "planish_curve_fit": (c_int32, c_void_p, c_void_p, c_size_t, c_size_t, c_void_p, c_void_p, c_void_p),
     "planish_curve_new": (c_int32, c_size_t, c_uint32, c_void_p, c_size_t, c_void_p, c_void_p),
     "planish_interpolate_options_init": (c_int32, c_void_p, c_size_t),

@@ -25,6 +25,7 @@ const ORDER: &[&str] = &[
     "rows.rs",
     "export.rs",
     "step.rs",
+    "model.rs",
     "curve.rs",
     "curve_query.rs",
     "tspline.rs",

@@ -1,0 +1,177 @@
+//! Models: every part comes out, fits the others, and goes into files.
+
+use super::*;
+
+struct ModelHandle(*mut planish_model);
+
+impl Drop for ModelHandle {
+    fn drop(&mut self) {
+        // SAFETY: made by the library, freed once.
+        unsafe { planish_model_free(self.0) };
+    }
+}
+
+fn model_of(surface: *const planish_surface) -> ModelHandle {
+    let mut out = null_mut();
+    // SAFETY: a live handle.
+    ok(unsafe { planish_model_from_surface(surface, &mut out) });
+    ModelHandle(out)
+}
+
+/// The saddle with a square hole.
+fn holed() -> ModelHandle {
+    let saddle = SurfaceHandle::saddle();
+    let uv = [0.1, 0.1, 0.9, 0.1, 0.9, 0.9, 0.1, 0.9, 0.4, 0.4, 0.6, 0.4, 0.6, 0.6, 0.4, 0.6];
+    // SAFETY: two trims of four points.
+    ok(unsafe { planish_surface_set_trims(saddle.0, uv.as_ptr(), [4, 4].as_ptr(), 2) });
+    model_of(saddle.0)
+}
+
+#[test]
+fn all_parts_come_out_and_fit() {
+    let model = holed();
+    // SAFETY: live handles, and arrays of these lengths.
+    unsafe {
+        assert_eq!(planish_model_face_count(model.0), 1);
+        assert_eq!(planish_model_edge_count(model.0), 8);
+        assert_eq!(planish_model_vertex_count(model.0), 8);
+        assert_eq!(planish_model_shell_count(model.0), 1);
+        assert_eq!(planish_model_loop_count(model.0, 0), 2);
+        assert_eq!(planish_model_coedge_count(model.0, 0), 8);
+        let mut vertices = [[0.0; 3]; 8];
+        ok(planish_model_copy_vertices(model.0, vertices[0].as_mut_ptr(), 8));
+        let (mut sizes, mut edges, mut forward) = ([0; 2], [0; 8], [9; 8]);
+        ok(planish_model_copy_loops(
+            model.0,
+            0,
+            sizes.as_mut_ptr(),
+            2,
+            edges.as_mut_ptr(),
+            forward.as_mut_ptr(),
+            8,
+        ));
+        assert_eq!(sizes, [4, 4]);
+        let mut ends = Vec::new();
+        for (place, (&edge, &is_forward)) in edges.iter().zip(&forward).enumerate() {
+            let (mut curve, mut info) = (null_mut(), planish_edge_info::default());
+            ok(planish_model_copy_edge(model.0, edge as usize, &mut curve, &mut info));
+            assert_eq!((info.face_along, info.face_against), (0, PLANISH_NONE));
+            let mut domain = [0.0; 2];
+            ok(planish_curve_domain(curve, domain.as_mut_ptr()));
+            let mut points = [[0.0; 3]; 2];
+            ok(planish_curve_eval(curve, domain.as_ptr(), 2, 0, null(), points[0].as_mut_ptr()));
+            assert_eq!(points, [info.vertex_start, info.vertex_end].map(|vertex| vertices[vertex as usize]));
+            let mut pcurve = null_mut();
+            ok(planish_model_copy_pcurve(model.0, 0, place, &mut pcurve));
+            let mut uv = [[0.0; 2]; 2];
+            ok(planish_curve_eval(pcurve, domain.as_ptr(), 2, 0, null(), uv[0].as_mut_ptr()));
+            for (uv, point) in uv.iter().zip(points) {
+                // the saddle is z = x y
+                assert!((uv[0] * uv[1] - point[2]).abs() < 1e-15);
+            }
+            planish_curve_free(curve);
+            planish_curve_free(pcurve);
+            assert_eq!(is_forward, 1);
+            ends.push([info.vertex_start, info.vertex_end]);
+        }
+        for bound in ends.chunks(4) {
+            assert!((0..4).all(|k| bound[k][1] == bound[(k + 1) % 4][0]), "{bound:?}");
+        }
+        let mut info = planish_face_info::default();
+        ok(planish_model_face_info(model.0, 0, &mut info));
+        assert_eq!((info.carrier, info.loop_count, info.coedge_count, info.shell), (0, 2, 8, 0));
+        let (mut shell, mut faces) = (planish_shell_info::default(), [7; 1]);
+        ok(planish_model_copy_shell(model.0, 0, &mut shell, faces.as_mut_ptr(), 1));
+        assert_eq!((shell.face_count, shell.role, shell.void_in, faces), (1, 0, PLANISH_NONE, [0]));
+        let mut surface = null_mut();
+        ok(planish_model_copy_face(model.0, 0, &mut surface));
+        assert_eq!(planish_surface_trim_count(surface), 2);
+        planish_surface_free(surface);
+    }
+}
+
+#[test]
+fn models_are_measured_copied_saved_and_written() {
+    let model = holed();
+    let mut copy = null_mut();
+    let mut report = planish_measure_report::default();
+    // SAFETY: live handles, and arrays of these lengths.
+    unsafe {
+        ok(planish_model_clone(model.0, &mut copy));
+        let copy = ModelHandle(copy);
+        ok(planish_model_measure(copy.0, &mut report));
+        assert_eq!(
+            (report.box_min[..2].to_vec(), report.box_max[..2].to_vec()),
+            (vec![0.1; 2], vec![0.9; 2])
+        );
+        assert_eq!((report.free_edge_count, report.euler_characteristic, report.volume), (8, 0, 0.0));
+        assert!(report.area > 0.6 && report.area < 0.9, "{report:?}");
+
+        let mut bytes = vec![0_u8; planish_model_save_size(model.0)];
+        ok(planish_model_save(model.0, bytes.as_mut_ptr().cast(), bytes.len()));
+        let mut out = null_mut();
+        ok(planish_model_load(bytes.as_ptr().cast(), bytes.len(), &mut out));
+        let loaded = ModelHandle(out);
+        assert_eq!(planish_model_save_size(loaded.0), bytes.len());
+
+        let path = std::env::temp_dir().join(format!("planish_model_{}.planish", std::process::id()));
+        let text = CString::new(path.to_str().unwrap()).unwrap();
+        ok(planish_model_save_file(model.0, text.as_ptr()));
+        ok(planish_model_load_file(text.as_ptr(), &mut out));
+        drop(ModelHandle(out));
+        let mut size = 0;
+        ok(planish_model_write_step_memory(loaded.0, null(), null_mut(), 0, &mut size));
+        let mut content = vec![0_u8; size];
+        let written = content.as_mut_ptr().cast();
+        ok(planish_model_write_step_memory(loaded.0, null(), written, size, &mut size));
+        ok(planish_model_write_step(model.0, text.as_ptr(), null()));
+        assert_eq!(std::fs::read(&path).unwrap(), content);
+        let status = planish_model_write_step_memory(loaded.0, null(), written, size - 1, &mut size);
+        refused(status, planish_status::BufferTooSmall, -1, &["out_bytes"]);
+        std::fs::remove_file(path).unwrap();
+    }
+}
+
+#[test]
+fn refusals_leave_outputs_alone() {
+    let model = holed();
+    let (mut surface, mut curve): (*mut planish_surface, *mut planish_curve) = (canary(), canary());
+    let mut out: *mut planish_model = canary();
+    // SAFETY: live handles, and arrays of these lengths.
+    unsafe {
+        null_refused(planish_model_from_surface(null(), &mut out), "surface");
+        null_refused(planish_model_from_surface(SurfaceHandle::saddle().0, null_mut()), "out_model");
+        let status = planish_model_from_surface(SurfaceHandle::other_family().0, &mut out);
+        refused(status, planish_status::WrongKind, -1, &["family"]);
+        null_refused(planish_model_clone(null(), &mut out), "model");
+        planish_model_free(null_mut());
+        for count in [planish_model_face_count, planish_model_edge_count, planish_model_vertex_count] {
+            assert_eq!(count(null()), 0);
+        }
+        assert_eq!(planish_model_shell_count(null()) + planish_model_save_size(null()), 0);
+        assert_eq!(planish_model_loop_count(model.0, 1) + planish_model_coedge_count(model.0, 1), 0);
+        let status = planish_model_copy_face(model.0, 1, &mut surface);
+        refused(status, planish_status::Index, 1, &["face 1", "there are 1"]);
+        let status = planish_model_copy_edge(model.0, 8, &mut curve, null_mut());
+        refused(status, planish_status::Index, 8, &["edge 8"]);
+        let status = planish_model_copy_pcurve(model.0, 0, 8, &mut curve);
+        refused(status, planish_status::Index, 8, &["coedge 8"]);
+        let status = planish_model_copy_shell(model.0, 1, null_mut(), null_mut(), 0);
+        refused(status, planish_status::Index, 1, &["shell 1"]);
+        null_refused(planish_model_face_info(model.0, 0, null_mut()), "out_info");
+        null_refused(planish_model_measure(model.0, null_mut()), "out_report");
+        let mut edges = [7_u32; 8];
+        let status = planish_model_copy_loops(model.0, 0, null_mut(), 0, edges.as_mut_ptr(), null_mut(), 7);
+        refused(status, planish_status::BufferTooSmall, -1, &["out_edges", "8"]);
+        assert_eq!(edges, [7; 8]);
+        let mut points = [0.5; 21];
+        let status = planish_model_copy_vertices(model.0, points.as_mut_ptr(), 7);
+        refused(status, planish_status::BufferTooSmall, -1, &["out_points"]);
+        assert_eq!(points, [0.5; 21]);
+        let status = planish_model_load(b"PLANISH".as_ptr().cast(), 7, &mut out);
+        refused(status, planish_status::Format, 0, &["mark"]);
+        assert_untouched(&surface);
+        assert_untouched(&curve);
+        assert_untouched(&out);
+    }
+}
