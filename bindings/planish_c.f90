@@ -801,6 +801,26 @@ module planish_records
     real(c_double) :: tolerance = 0
   end type
 
+  !> What a report says beside what it measures.
+  type, bind(c), public :: planish_report_options
+    integer(c_size_t) :: struct_size = 7 * word + 24
+    type(c_ptr) :: title = c_null_ptr !! The headline; NULL (default) for "Deviation"
+    type(c_ptr) :: unit = c_null_ptr !! What one unit of length is called; NULL (default) for "mm"
+    !> The largest distance allowed, where the colours end, measured in tolerance_scale; 0 (default) takes the largest
+    !> distance found
+    real(c_double) :: tolerance = 0
+    type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
+    type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag
+    type(c_ptr) :: cancel = c_null_ptr
+    !> Shows what the call is doing, before progress hears of it: a planish_stage
+    type(c_ptr) :: out_stage = c_null_ptr
+    integer(c_int64_t) :: remarks = 0 !! What the fit had to remark, explained on the page: bits of planish_remark
+    !> A planish_tolerance_scale; PLANISH_TOLERANCE_SCALE_RELATIVE (default): to the diagonal of the mesh's box
+    integer(c_int32_t) :: tolerance_scale = PLANISH_TOLERANCE_SCALE_RELATIVE
+    integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 (default) for all cores
+  end type
+
   !> What an edge is.
   type, bind(c), public :: planish_edge_info
     integer(c_size_t) :: struct_size = 1 * word + 40
@@ -2067,6 +2087,24 @@ module planish_calls
       type(c_ptr), value :: surface
       character(kind=c_char), intent(in) :: path(*)
       type(planish_step_options), intent(in), optional :: options
+    end function
+
+    integer(c_int) function c_report_options_init(options, struct_size) bind(c, name="planish_report_options_init")
+      import
+      implicit none
+      type(planish_report_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_surface_write_report( &
+        surface, mesh, path, options) &
+        bind(c, name="planish_surface_write_report")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      type(c_ptr), value :: mesh
+      character(kind=c_char), intent(in) :: path(*)
+      type(planish_report_options), intent(in), optional :: options
     end function
 
     integer(c_int) function c_model_from_surface(surface, out_model) bind(c, name="planish_model_from_surface")

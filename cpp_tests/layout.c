@@ -351,6 +351,19 @@ FOLLOWS(planish_step_options, form, level_spread);
 FOLLOWS(planish_step_options, level_spread, tolerance);
 LAST(planish_step_options, tolerance);
 
+FIRST(planish_report_options);
+FOLLOWS(planish_report_options, struct_size, title);
+FOLLOWS(planish_report_options, title, unit);
+FOLLOWS(planish_report_options, unit, tolerance);
+FOLLOWS(planish_report_options, tolerance, progress);
+FOLLOWS(planish_report_options, progress, user);
+FOLLOWS(planish_report_options, user, cancel);
+FOLLOWS(planish_report_options, cancel, out_stage);
+FOLLOWS(planish_report_options, out_stage, remarks);
+FOLLOWS(planish_report_options, remarks, tolerance_scale);
+FOLLOWS(planish_report_options, tolerance_scale, thread_count);
+LAST(planish_report_options, thread_count);
+
 FIRST(planish_edge_info);
 FOLLOWS(planish_edge_info, struct_size, angle);
 FOLLOWS(planish_edge_info, angle, gap);

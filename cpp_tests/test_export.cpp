@@ -145,4 +145,42 @@ TEST(Vtk, WritesATessellationOrADeviation) {
   std::remove(path);
 }
 
+TEST(Report, IsOnePageThatNeedsNothing) {
+  const double points[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0.125, 0, 1, 0};
+  const std::uint32_t triangles[6] = {0, 1, 2, 0, 2, 3};
+  planish_mesh *raw = nullptr;
+  CHECK(planish_mesh_new(points, 4, triangles, 2, nullptr, &raw) == PLANISH_STATUS_OK);
+  const Mesh mesh(raw);
+  const double knots[4] = {0, 0, 1, 1}, corners[12] = {0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0};
+  planish_surface *flat = nullptr;
+  CHECK(planish_tensor_new(3, 1, 1, knots, 4, knots, 4, corners, nullptr, &flat) == PLANISH_STATUS_OK);
+  const Surface surface(flat);
+  planish_report_options options;
+  CHECK(planish_report_options_init(&options, sizeof options) == PLANISH_STATUS_OK);
+  options.title = "Roof <b>";
+  options.unit = "m";
+  options.tolerance = 0.25;
+  options.tolerance_scale = PLANISH_TOLERANCE_SCALE_ABSOLUTE;
+  options.remarks = PLANISH_REMARK_ROUGH_BETWEEN_NODES;
+  const char *path = "test_export.html";
+  CHECK(planish_surface_write_report(surface.get(), mesh.get(), path, &options) == PLANISH_STATUS_OK);
+  const std::string text = content(path);
+  for (const char *part : {"Roof &lt;b&gt;", "Tolerance met: 0.1250 m of 0.2500 m", "Between the nodes", "</html>"})
+    CHECK(text.find(part) != std::string::npos);
+  CHECK(text.find("http") == std::string::npos);
+
+  const auto null = PLANISH_STATUS_NULL_POINTER;
+  CHECK_FAILS(planish_surface_write_report(nullptr, mesh.get(), path, nullptr), null, -1, "surface is NULL");
+  CHECK_FAILS(planish_surface_write_report(surface.get(), nullptr, path, nullptr), null, -1, "mesh is NULL");
+  CHECK_FAILS(planish_surface_write_report(surface.get(), mesh.get(), nullptr, nullptr), null, -1, "path is NULL");
+  options.tolerance = -1;
+  CHECK_FAILS(planish_surface_write_report(surface.get(), mesh.get(), path, &options), PLANISH_STATUS_INVALID_ARGUMENT, -1,
+              "tolerance is -1");
+  CHECK_FAILS(planish_surface_write_report(surface.get(), mesh.get(), "no/such/folder/x.html", nullptr),
+              PLANISH_STATUS_FILE, -1, "no/such/folder/x.html");
+  CHECK_FAILS(planish_report_options_init(nullptr, sizeof options), null, -1, "options is NULL");
+  CHECK(content(path) == text);
+  std::remove(path);
+}
+
 int main() { return check::run(); }

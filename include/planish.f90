@@ -45,7 +45,7 @@ module planish_types
   interface planish_options_init
     module procedure mesh_options_init, parameterize_options_init, eval_options_init, tensor_options_init
     module procedure tessellate_options_init, project_options_init, deviation_options_init
-    module procedure vtk_options_init, step_options_init, convert_options_init, skin_options_init
+    module procedure report_options_init, vtk_options_init, step_options_init, convert_options_init, skin_options_init
     module procedure pht_options_init, pht_convert_options_init, field_options_init, sample_rows_options_init
     module procedure transfer_options_init, interpolate_options_init
     module procedure decimate_options_init, sphere_options_init
@@ -179,6 +179,7 @@ module planish_types
     procedure :: deviation => surface_deviation
     procedure :: write_vtk => surface_write_vtk
     procedure :: write_step => surface_write_step
+    procedure :: write_report => surface_write_report
     procedure :: save_size => surface_save_size
     procedure :: save => surface_save
     procedure :: load => surface_load
@@ -565,6 +566,11 @@ contains
   subroutine deviation_options_init(options)
     type(planish_deviation_options), intent(inout) :: options
     call conclude(c_deviation_options_init(options, c_sizeof(options)))
+  end subroutine
+
+  subroutine report_options_init(options)
+    type(planish_report_options), intent(inout) :: options
+    call conclude(c_report_options_init(options, c_sizeof(options)))
   end subroutine
 
   subroutine vtk_options_init(options)
@@ -1896,6 +1902,30 @@ contains
     if (present(deviation_from)) call_options%deviation_from = deviation_from%get()
     if (present(tessellate)) call_options%tessellate = c_loc(tessellate)
     call conclude(c_surface_write_vtk(self%get(), terminated(path), call_options), stat, errmsg)
+  end subroutine
+
+  !> Measures the surface against a mesh and writes the result as one HTML page. The texts of the options are those of C:
+  !> title and unit here are Fortran's.
+  subroutine surface_write_report(self, mesh, path, options, title, unit, stat, errmsg)
+    class(planish_surface_t), intent(in) :: self
+    class(planish_mesh_t), intent(in) :: mesh
+    character(*), intent(in) :: path
+    type(planish_report_options), intent(in), optional :: options
+    character(*), intent(in), optional :: title, unit
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_report_options) :: call_options
+    character(kind=c_char, len=:), allocatable, target :: c_title, c_unit
+    if (present(options)) call_options = options
+    if (present(title)) then
+      c_title = terminated(title)
+      call_options%title = c_loc(c_title)
+    end if
+    if (present(unit)) then
+      c_unit = terminated(unit)
+      call_options%unit = c_loc(c_unit)
+    end if
+    call conclude(c_surface_write_report(self%get(), mesh%get(), terminated(path), call_options), stat, errmsg)
   end subroutine
 
   !> Bytes that save() makes.

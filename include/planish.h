@@ -2230,6 +2230,59 @@ typedef struct planish_step_options {
 } planish_step_options;
 
 /**
+ * What a report says beside what it measures. Fill with planish_report_options_init(), then change what you need.
+ * Texts are UTF-8, end with a NUL and are borrowed.
+ */
+typedef struct planish_report_options {
+    /**
+     * Set by planish_report_options_init().
+     */
+    size_t struct_size;
+    /**
+     * The headline; NULL (default) for "Deviation".
+     */
+    const char *title;
+    /**
+     * What one unit of length is called; NULL (default) for "mm".
+     */
+    const char *unit;
+    /**
+     * The largest distance allowed, where the colours end, measured in tolerance_scale; 0 (default) takes the
+     * largest distance found.
+     */
+    double tolerance;
+    /**
+     * Hears of the progress and may cancel; NULL (default) for nobody.
+     */
+    planish_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *user;
+    /**
+     * Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+     */
+    const volatile int32_t *cancel;
+    /**
+     * Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+     * Array: [1].
+     */
+    uint32_t *out_stage;
+    /**
+     * What the fit had to remark, explained on the page: bits of planish_remark. Default 0.
+     */
+    uint64_t remarks;
+    /**
+     * A planish_tolerance_scale; PLANISH_TOLERANCE_SCALE_RELATIVE (default): to the diagonal of the mesh's box.
+     */
+    uint32_t tolerance_scale;
+    /**
+     * Threads to use, at most 1024; 0 (default) for all cores. The page does not depend on it.
+     */
+    uint32_t thread_count;
+} planish_report_options;
+
+/**
  * What a face is. Set struct_size to sizeof(planish_face_info) before the call; filled on success only.
  */
 typedef struct planish_face_info {
@@ -4545,6 +4598,37 @@ PLANISH_NODISCARD
 enum planish_status planish_surface_write_step(const struct planish_surface *surface,
                                                const char *path,
                                                const struct planish_step_options *options);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_report_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+ */
+PLANISH_API
+enum planish_status planish_report_options_init(struct planish_report_options *options,
+                                                size_t struct_size);
+
+/**
+ * Measures a surface in space against a mesh and writes the result as one HTML page that needs nothing from outside:
+ * the mesh in the colours of its signed distances (positive on the side of the normal), the surface and its control
+ * net, a section plane, a histogram, the ten worst places, and the numbers in words.
+ *
+ * surface: not NULL, of dimension 3.
+ * mesh:    not NULL.
+ * path:    the file, UTF-8; not NULL. Replaced as a whole.
+ * options: NULL for the defaults.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension, or an option),
+ * PLANISH_STATUS_TOO_LARGE (the surface needs too many triangles), PLANISH_STATUS_FILE, PLANISH_STATUS_VERSION or
+ * PLANISH_STATUS_CANCELLED.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_write_report(const struct planish_surface *surface,
+                                                 const struct planish_mesh *mesh,
+                                                 const char *path,
+                                                 const struct planish_report_options *options);
 
 /**
  * Makes a model of a surface in space: the part inside its trims as an open shell. A tensor surface is one face. A

@@ -174,6 +174,9 @@ inline planish_status init(planish_convert_options &options) {
 inline planish_status init(planish_step_options &options) {
   return planish_step_options_init(&options, sizeof options);
 }
+inline planish_status init(planish_report_options &options) {
+  return planish_report_options_init(&options, sizeof options);
+}
 inline planish_status init(planish_vtk_options &options) {
   return planish_vtk_options_init(&options, sizeof options);
 }
@@ -750,6 +753,12 @@ class surface {
   void write_vtk(const std::string &path,
                  const planish_vtk_options &options = defaults<planish_vtk_options>()) const {
     detail::checked(planish_surface_write_vtk(get(), path.c_str(), &options));
+  }
+
+  /// Measures the surface against a mesh and writes the result as one HTML page; `path` is UTF-8.
+  void write_report(const mesh &measured, const std::string &path,
+                    const planish_report_options &options = defaults<planish_report_options>()) const {
+    detail::checked(planish_surface_write_report(get(), measured.get(), path.c_str(), &options));
   }
 
   /// Writes a STEP file of one trimmed face, or of a T-spline in strips; `path` is UTF-8.

@@ -3,6 +3,7 @@
 use crate::control::Cancelled;
 use crate::curve::CurveError;
 use crate::export::ExportError;
+use crate::export::html::ReportError;
 use crate::export::native::LoadError;
 use crate::export::step::StepError;
 use crate::export::vtk::VtkError;
@@ -104,6 +105,8 @@ union! {
     Tessellate(TessellateError),
     /// A file cannot be written.
     Export(ExportError),
+    /// A report cannot be made.
+    Report(ReportError),
     /// A surface cannot be written as triangles.
     Vtk(VtkError),
     /// Parts do not make a model.

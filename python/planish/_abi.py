@@ -810,6 +810,35 @@ class planish_step_options(Structure):
     }
 
 
+class planish_report_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("title", c_char_p),
+        ("unit", c_char_p),
+        ("tolerance", c_double),
+        ("progress", planish_progress),
+        ("user", c_void_p),
+        ("cancel", c_void_p),
+        ("out_stage", c_void_p),
+        ("remarks", c_uint64),
+        ("tolerance_scale", c_uint32),
+        ("thread_count", c_uint32),
+    ]
+    choices = {
+        "out_stage": "planish_stage",
+        "tolerance_scale": "planish_tolerance_scale",
+    }
+    bits = {
+        "remarks": "planish_remark",
+    }
+    elements = {
+        "out_stage": c_uint32,
+    }
+    arrays = {
+        "out_stage": ("1",),
+    }
+
+
 class planish_edge_info(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -1120,6 +1149,7 @@ SIZES = {
     planish_vtk_options: 64,
     planish_step_report: 64,
     planish_step_options: 112,
+    planish_report_options: 80,
     planish_edge_info: 48,
     planish_face_info: 120,
     planish_shell_info: 24,
@@ -1250,6 +1280,8 @@ FUNCTIONS = {
     "planish_surface_load_file": (c_int32, c_char_p, c_void_p),
     "planish_step_options_init": (c_int32, c_void_p, c_size_t),
     "planish_surface_write_step": (c_int32, c_void_p, c_char_p, c_void_p),
+    "planish_report_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_surface_write_report": (c_int32, c_void_p, c_void_p, c_char_p, c_void_p),
     "planish_model_from_surface": (c_int32, c_void_p, c_void_p),
     "planish_model_clone": (c_int32, c_void_p, c_void_p),
     "planish_model_free": (None, c_void_p),

@@ -262,6 +262,25 @@ class Surface(Handle):
         record = options("vtk_options", vtk_options, **filled)
         long("planish_surface_write_vtk", self, path_of(path), by_reference(record))
 
+    def write_report(
+        self,
+        path: str | os.PathLike,
+        mesh: Mesh,
+        *,
+        progress: ProgressCallback | None = None,
+        **report_options: Any,
+    ) -> None:
+        """Writes an HTML page with the mesh in the colours of its distances, numbers and worst places.
+
+        report_options: ``title``, ``unit``, ``tolerance`` (default: that of the fit), ``remarks``.
+        """
+        long = LongCall(progress)
+        if self.report is not None and "tolerance" not in report_options:
+            report_options.update(tolerance=self.report.tolerance, tolerance_scale="absolute")
+            report_options.setdefault("remarks", self.report.remarks)
+        record = options("report_options", report_options, **long.fields("report_options"))
+        long("planish_surface_write_report", self, mesh, path_of(path), by_reference(record))
+
     def save(self, path: str | os.PathLike) -> None:
         """Saves to a file in the library's own format; `load` reads it."""
         call("planish_surface_save_file", self, path_of(path))

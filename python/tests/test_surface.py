@@ -119,6 +119,13 @@ def test_files_come_back(surface, tmp_path):
         planish.loads(surface.tobytes()[:-1])
 
 
+def test_reports_are_one_page(surface, mesh, tmp_path):
+    surface.write_report(tmp_path / "sheet.html", mesh, title="A <sheet>")
+    text = (tmp_path / "sheet.html").read_text()
+    assert "A &lt;sheet&gt;" in text and "Tolerance met" in text and "http" not in text
+    assert len(text) < 1_000_000
+
+
 def test_projection_finds_the_surface(surface, mesh):
     uv, distances = surface.project(mesh.points)
     assert uv.shape == (300, 2) and np.all(distances <= surface.report.errors + 1e-12 * surface.report.diagonal)

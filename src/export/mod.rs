@@ -1,6 +1,7 @@
 //! Files for other programs.
 
 mod error;
+pub mod gltf;
 pub mod html;
 pub mod native;
 pub mod obj;

@@ -5,5 +5,6 @@ pub mod deviation;
 pub mod gradient;
 pub mod project;
 pub mod rows;
+pub mod side;
 pub mod tessellate;
 pub mod triangles;

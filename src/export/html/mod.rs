@@ -4,6 +4,7 @@
 //! Positions travel as 16-bit shares of the view's half size: 1/65,536 of it is far below a pixel. A mesh of 10,000
 //! nodes takes about 300 KB.
 
+mod measured;
 mod summary;
 
 use super::error::{ExportError, write_file};
@@ -12,6 +13,7 @@ use crate::surface::ControlNet;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use glam::DVec3;
+pub use measured::{ReportError, ReportOptions, write_report};
 use std::fmt::Write;
 use std::path::Path;
 pub use summary::Statistics;

@@ -25,6 +25,7 @@ const ORDER: &[&str] = &[
     "rows.rs",
     "export.rs",
     "step.rs",
+    "report_page.rs",
     "model.rs",
     "curve.rs",
     "curve_query.rs",

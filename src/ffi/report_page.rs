@@ -1,0 +1,85 @@
+//! The report as a page.
+
+use super::arguments::{choice, deref, options, text};
+use super::guard::guard;
+use super::mesh::planish_mesh;
+use super::planish_status;
+use super::progress::{planish_progress, with_control};
+use super::surface::planish_surface;
+use crate::export::html::{ReportOptions, write_report};
+use crate::fit::common::report::{Remarks, ToleranceScale};
+use std::ffi::{c_char, c_void};
+use std::path::Path;
+
+record! {
+    /// What a report says beside what it measures. Fill with planish_report_options_init(), then change what you need.
+    /// Texts are UTF-8, end with a NUL and are borrowed.
+    pub struct planish_report_options (planish_report_options_init) {
+        /// The headline; NULL (default) for "Deviation".
+        pub title: *const c_char,
+        /// What one unit of length is called; NULL (default) for "mm".
+        pub unit: *const c_char,
+        /// The largest distance allowed, where the colours end, measured in tolerance_scale; 0 (default) takes the
+        /// largest distance found.
+        pub tolerance: f64,
+        /// Hears of the progress and may cancel; NULL (default) for nobody.
+        pub progress: planish_progress,
+        /// Handed to progress as it is.
+        pub user: *mut c_void,
+        /// Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+        pub cancel: *const i32,
+        /// Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+        /// Array: [1].
+        pub out_stage: *mut u32,
+        /// What the fit had to remark, explained on the page: bits of planish_remark. Default 0.
+        pub remarks: u64,
+        /// A planish_tolerance_scale; PLANISH_TOLERANCE_SCALE_RELATIVE (default): to the diagonal of the mesh's box.
+        pub tolerance_scale: u32,
+        /// Threads to use, at most 1024; 0 (default) for all cores. The page does not depend on it.
+        pub thread_count: u32,
+    }
+}
+
+/// Measures a surface in space against a mesh and writes the result as one HTML page that needs nothing from outside:
+/// the mesh in the colours of its signed distances (positive on the side of the normal), the surface and its control
+/// net, a section plane, a histogram, the ten worst places, and the numbers in words.
+///
+/// surface: not NULL, of dimension 3.
+/// mesh:    not NULL.
+/// path:    the file, UTF-8; not NULL. Replaced as a whole.
+/// options: NULL for the defaults.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension, or an option),
+/// PLANISH_STATUS_TOO_LARGE (the surface needs too many triangles), PLANISH_STATUS_FILE, PLANISH_STATUS_VERSION or
+/// PLANISH_STATUS_CANCELLED.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_surface_write_report(
+    surface: *const planish_surface,
+    mesh: *const planish_mesh,
+    path: *const c_char,
+    options: *const planish_report_options,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let surface = deref(surface, "surface")?.any();
+        let mesh = &deref(mesh, "mesh")?.0;
+        let path = Path::new(text(path, "path")?);
+        let given = self::options(options)?;
+        let defaults = ReportOptions::default();
+        let core = ReportOptions {
+            title: if given.title.is_null() { defaults.title } else { text(given.title, "title")? },
+            unit: if given.unit.is_null() { defaults.unit } else { text(given.unit, "unit")? },
+            tolerance: Some(given.tolerance).filter(|&value| value != 0.0),
+            tolerance_scale: choice(
+                given.tolerance_scale,
+                &[ToleranceScale::Relative, ToleranceScale::Absolute],
+                "tolerance_scale",
+            )?,
+            remarks: Remarks(given.remarks),
+        };
+        with_control(given.thread_count, listener!(given), |control| {
+            write_report(surface, mesh, &core, path, control)
+        })??;
+        Ok(())
+    })
+}
