@@ -2262,14 +2262,14 @@ contains
     character(*), intent(inout), optional :: errmsg
     type(planish_step_options) :: call_options
     integer(c_int8_t), allocatable :: written(:)
-    integer(c_size_t) :: needed(1)
+    integer(c_size_t) :: needed
     integer(c_int) :: status
     if (present(options)) call_options = options
     needed = 0
     status = c_model_write_step_memory(self%get(), call_options, size=0_c_size_t, out_size=needed)
     if (status >= 0) then
-      allocate (written(needed(1)))
-      status = c_model_write_step_memory(self%get(), call_options, written, needed(1), needed)
+      allocate (written(needed))
+      status = c_model_write_step_memory(self%get(), call_options, written, needed, needed)
       if (status >= 0) call move_alloc(written, bytes)
     end if
     call conclude(status, stat, errmsg)
