@@ -13,6 +13,11 @@ module planish_records
   !> IEEE's infinity, which has no literal.
   real(c_double), parameter :: infinity = transfer(int(z'7FF0000000000000', c_int64_t), 1.0_c_double)
 
+  !> The version of planish.h that this follows.
+  integer(c_int32_t), parameter, public :: PLANISH_VERSION_MAJOR = 0
+  integer(c_int32_t), parameter, public :: PLANISH_VERSION_MINOR = 1
+  integer(c_int32_t), parameter, public :: PLANISH_VERSION_PATCH = 0
+
   !> The value of stretch_steps that goes on until the stretch no longer falls
   integer(c_int32_t), parameter, public :: PLANISH_UNLIMITED = -1
 
@@ -591,6 +596,14 @@ module planish_records
     integer(c_int32_t) :: thread_count = 0 !! Threads to keep, at most 1024; 0 (default) for all cores
   end type
 
+  !> How gradients are computed.
+  type, bind(c), public :: planish_gradient_options
+    integer(c_size_t) :: struct_size = 2 * word + 8
+    integer(c_size_t) :: uv_stride = 0 !! Doubles from one point to the next in `uv`; at least 2, or 0 (default) for 2
+    integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 (default) for all cores
+    integer(c_int32_t) :: reserved = 0
+  end type
+
   !> How values are carried.
   type, bind(c), public :: planish_transfer_options
     integer(c_size_t) :: struct_size = 2 * word + 16
@@ -886,6 +899,33 @@ module planish_records
     integer(c_int64_t) :: euler_characteristic = 0
   end type
 
+  !> Options of curve fits.
+  type, bind(c), public :: planish_curve_options
+    integer(c_size_t) :: struct_size = 7 * word + 48
+    !> The largest error allowed at the data, positive, measured in tolerance_scale
+    real(c_double) :: tolerance = 1e-3_c_double
+    !> Weight of the bending energy; 0 (default) takes the largest of 1e-3, 1e-4, 1e-5, 1e-6 that meets the tolerance
+    !> (for PLANISH_TENSOR_METHOD_FERGUSON 1e-3)
+    real(c_double) :: smoothing = 0
+    !> How far the knots reach beyond the data, as a fraction of the data's range, 0 to 10
+    real(c_double) :: buffer = 0.1_c_double
+    type(c_ptr) :: weights = c_null_ptr !! A positive weight for each datum; NULL (default) for all 1
+    type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
+    type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag
+    type(c_ptr) :: cancel = c_null_ptr
+    !> Shows what the call is doing, before progress hears of it: a planish_stage
+    type(c_ptr) :: out_stage = c_null_ptr
+    !> Receives the error of each datum in model units: one number for each datum, or NULL (default)
+    type(c_ptr) :: out_errors = c_null_ptr
+    integer(c_int32_t) :: tolerance_scale = PLANISH_TOLERANCE_SCALE_RELATIVE !! A planish_tolerance_scale
+    integer(c_int32_t) :: method = PLANISH_TENSOR_METHOD_LEAST_SQUARES !! A planish_tensor_method
+    integer(c_int32_t) :: ends = PLANISH_ENDS_NATURAL !! A planish_ends
+    integer(c_int32_t) :: max_grid = 257 !! Most knots, at least 2
+    integer(c_int32_t) :: grid = 0 !! Knots to use without refinement, 2 to 8193; 0 (default) refines
+    integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 (default) for all cores
+  end type
+
   !> How points are interpolated.
   type, bind(c), public :: planish_interpolate_options
     integer(c_size_t) :: struct_size = 2 * word + 8
@@ -1003,6 +1043,17 @@ module planish_records
     integer(c_int32_t) :: reserved = 0
   end type
 
+  !> How a PHT-spline is simplified.
+  type, bind(c), public :: planish_pht_simplify_options
+    integer(c_size_t) :: struct_size = 5 * word
+    type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
+    type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag
+    type(c_ptr) :: cancel = c_null_ptr
+    !> Shows what the call is doing, before progress hears of it: a planish_stage
+    type(c_ptr) :: out_stage = c_null_ptr
+  end type
+
   !> How a tensor surface becomes a PHT-spline.
   type, bind(c), public :: planish_pht_convert_options
     integer(c_size_t) :: struct_size = 6 * word + 16
@@ -1017,6 +1068,20 @@ module planish_records
     !> Shows what the call is doing, before progress hears of it: a planish_stage
     type(c_ptr) :: out_stage = c_null_ptr
     integer(c_int32_t) :: max_level = 12 !! Deepest level of a cell, at most 20
+    integer(c_int32_t) :: reserved = 0
+  end type
+
+  !> How a PHT-spline becomes tensor surfaces.
+  type, bind(c), public :: planish_pht_patches_options
+    integer(c_size_t) :: struct_size = 5 * word + 8
+    type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
+    type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag
+    type(c_ptr) :: cancel = c_null_ptr
+    !> Shows what the call is doing, before progress hears of it: a planish_stage
+    type(c_ptr) :: out_stage = c_null_ptr
+    !> By how much the levels of cells in one surface may differ: many small ones for 0 (default), one for 20
+    integer(c_int32_t) :: level_spread = 0
     integer(c_int32_t) :: reserved = 0
   end type
 
@@ -1085,6 +1150,13 @@ module planish_calls
     type(c_ptr) function c_version() bind(c, name="planish_version")
       import
       implicit none
+    end function
+
+    integer(c_int) function c_check_version(major, minor) bind(c, name="planish_check_version")
+      import
+      implicit none
+      integer(c_int32_t), value :: major
+      integer(c_int32_t), value :: minor
     end function
 
     type(c_ptr) function c_status_name(status) bind(c, name="planish_status_name")
@@ -1828,8 +1900,17 @@ module planish_calls
       type(c_ptr), intent(inout) :: out_surface
     end function
 
+    integer(c_int) function c_gradient_options_init( &
+        options, struct_size) &
+        bind(c, name="planish_gradient_options_init")
+      import
+      implicit none
+      type(planish_gradient_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
     integer(c_int) function c_surface_field_gradient( &
-        shape, field, uv, count, thread_count, out_gradients) &
+        shape, field, uv, count, options, out_gradients) &
         bind(c, name="planish_surface_field_gradient")
       import
       implicit none
@@ -1837,7 +1918,7 @@ module planish_calls
       type(c_ptr), value :: field
       real(c_double), intent(in) :: uv(*)
       integer(c_size_t), value :: count
-      integer(c_int32_t), value :: thread_count
+      type(planish_gradient_options), intent(in), optional :: options
       real(c_double), intent(inout) :: out_gradients(*)
     end function
 
@@ -2021,6 +2102,28 @@ module planish_calls
       real(c_double), intent(inout), optional :: out_points(*)
       integer(c_size_t), value :: point_count
       integer(c_size_t), intent(inout) :: out_point_count
+    end function
+
+    integer(c_int) function c_surface_box(surface, out_box) bind(c, name="planish_surface_box")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(inout) :: out_box(*)
+    end function
+
+    integer(c_int) function c_surface_area(surface, options, out_area) bind(c, name="planish_surface_area")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      type(planish_tessellate_options), intent(in), optional :: options
+      real(c_double), intent(inout) :: out_area
+    end function
+
+    pure integer(c_int32_t) function c_surface_is_closed(surface, axis) bind(c, name="planish_surface_is_closed")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), value :: axis
     end function
 
     integer(c_int) function c_vtk_options_init(options, struct_size) bind(c, name="planish_vtk_options_init")
@@ -2302,6 +2405,13 @@ module planish_calls
       type(c_ptr), intent(inout) :: out_model
     end function
 
+    integer(c_int) function c_curve_options_init(options, struct_size) bind(c, name="planish_curve_options_init")
+      import
+      implicit none
+      type(planish_curve_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
     integer(c_int) function c_curve_fit( &
         u, values, count, dim, options, out_curve, out_report) &
         bind(c, name="planish_curve_fit")
@@ -2311,7 +2421,7 @@ module planish_calls
       real(c_double), intent(in) :: values(*)
       integer(c_size_t), value :: count
       integer(c_size_t), value :: dim
-      type(planish_tensor_options), intent(in), optional :: options
+      type(planish_curve_options), intent(in), optional :: options
       type(c_ptr), intent(inout) :: out_curve
       type(planish_fit_report), intent(inout), optional :: out_report
     end function
@@ -2674,11 +2784,23 @@ module planish_calls
       integer(c_size_t), value :: count
     end function
 
-    integer(c_int) function c_pht_simplify(surface, tolerance, out_deviation) bind(c, name="planish_pht_simplify")
+    integer(c_int) function c_pht_simplify_options_init( &
+        options, struct_size) &
+        bind(c, name="planish_pht_simplify_options_init")
+      import
+      implicit none
+      type(planish_pht_simplify_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_pht_simplify( &
+        surface, tolerance, options, out_deviation) &
+        bind(c, name="planish_pht_simplify")
       import
       implicit none
       type(c_ptr), value :: surface
       real(c_double), value :: tolerance
+      type(planish_pht_simplify_options), intent(in), optional :: options
       real(c_double), intent(inout), optional :: out_deviation
     end function
 
@@ -2710,13 +2832,22 @@ module planish_calls
       type(c_ptr), intent(inout) :: out_surface
     end function
 
+    integer(c_int) function c_pht_patches_options_init( &
+        options, struct_size) &
+        bind(c, name="planish_pht_patches_options_init")
+      import
+      implicit none
+      type(planish_pht_patches_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
     integer(c_int) function c_pht_to_tensor_patches( &
-        surface, sigma, out_surfaces, count, out_count) &
+        surface, options, out_surfaces, count, out_count) &
         bind(c, name="planish_pht_to_tensor_patches")
       import
       implicit none
       type(c_ptr), value :: surface
-      integer(c_int32_t), value :: sigma
+      type(planish_pht_patches_options), intent(in), optional :: options
       type(c_ptr), intent(inout), optional :: out_surfaces(*)
       integer(c_size_t), value :: count
       integer(c_size_t), intent(inout) :: out_count
@@ -3003,4 +3134,210 @@ module planish_calls
       type(planish_fit_report), intent(inout), optional :: out_report
     end function
   end interface
+
+  !> Puts a record back to the defaults that the library has: `call planish_options_init(options)`.
+  interface planish_options_init
+    module procedure init_mesh_options
+    module procedure init_decimate_options
+    module procedure init_parameterize_options
+    module procedure init_sphere_options
+    module procedure init_eval_options
+    module procedure init_convert_options
+    module procedure init_tensor_options
+    module procedure init_field_options
+    module procedure init_gradient_options
+    module procedure init_transfer_options
+    module procedure init_tessellate_options
+    module procedure init_project_options
+    module procedure init_deviation_options
+    module procedure init_sample_rows_options
+    module procedure init_vtk_options
+    module procedure init_step_options
+    module procedure init_report_options
+    module procedure init_curve_options
+    module procedure init_interpolate_options
+    module procedure init_skin_options
+    module procedure init_pht_options
+    module procedure init_pht_simplify_options
+    module procedure init_pht_convert_options
+    module procedure init_pht_patches_options
+    module procedure init_d1rc_options
+  end interface
+  private :: init_mesh_options
+  private :: init_decimate_options
+  private :: init_parameterize_options
+  private :: init_sphere_options
+  private :: init_eval_options
+  private :: init_convert_options
+  private :: init_tensor_options
+  private :: init_field_options
+  private :: init_gradient_options
+  private :: init_transfer_options
+  private :: init_tessellate_options
+  private :: init_project_options
+  private :: init_deviation_options
+  private :: init_sample_rows_options
+  private :: init_vtk_options
+  private :: init_step_options
+  private :: init_report_options
+  private :: init_curve_options
+  private :: init_interpolate_options
+  private :: init_skin_options
+  private :: init_pht_options
+  private :: init_pht_simplify_options
+  private :: init_pht_convert_options
+  private :: init_pht_patches_options
+  private :: init_d1rc_options
+
+contains
+
+  subroutine init_mesh_options(options)
+    type(planish_mesh_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_mesh_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_decimate_options(options)
+    type(planish_decimate_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_decimate_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_parameterize_options(options)
+    type(planish_parameterize_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_parameterize_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_sphere_options(options)
+    type(planish_sphere_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_sphere_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_eval_options(options)
+    type(planish_eval_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_eval_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_convert_options(options)
+    type(planish_convert_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_convert_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_tensor_options(options)
+    type(planish_tensor_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_tensor_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_field_options(options)
+    type(planish_field_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_field_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_gradient_options(options)
+    type(planish_gradient_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_gradient_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_transfer_options(options)
+    type(planish_transfer_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_transfer_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_tessellate_options(options)
+    type(planish_tessellate_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_tessellate_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_project_options(options)
+    type(planish_project_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_project_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_deviation_options(options)
+    type(planish_deviation_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_deviation_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_sample_rows_options(options)
+    type(planish_sample_rows_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_sample_rows_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_vtk_options(options)
+    type(planish_vtk_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_vtk_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_step_options(options)
+    type(planish_step_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_step_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_report_options(options)
+    type(planish_report_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_report_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_curve_options(options)
+    type(planish_curve_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_curve_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_interpolate_options(options)
+    type(planish_interpolate_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_interpolate_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_skin_options(options)
+    type(planish_skin_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_skin_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_pht_options(options)
+    type(planish_pht_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_pht_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_pht_simplify_options(options)
+    type(planish_pht_simplify_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_pht_simplify_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_pht_convert_options(options)
+    type(planish_pht_convert_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_pht_convert_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_pht_patches_options(options)
+    type(planish_pht_patches_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_pht_patches_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_d1rc_options(options)
+    type(planish_d1rc_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_d1rc_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
 end module

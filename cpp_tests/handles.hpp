@@ -35,6 +35,12 @@ inline planish_tensor_options tensor_options() {
   return options;
 }
 
+inline planish_curve_options curve_options() {
+  planish_curve_options options;
+  planish_curve_options_init(&options, sizeof options);
+  return options;
+}
+
 inline planish_skin_options skin_options() {
   planish_skin_options options;
   planish_skin_options_init(&options, sizeof options);

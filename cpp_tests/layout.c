@@ -212,6 +212,12 @@ FOLLOWS(planish_field_options, grid_u, grid_v);
 FOLLOWS(planish_field_options, grid_v, thread_count);
 LAST(planish_field_options, thread_count);
 
+FIRST(planish_gradient_options);
+FOLLOWS(planish_gradient_options, struct_size, uv_stride);
+FOLLOWS(planish_gradient_options, uv_stride, thread_count);
+FOLLOWS(planish_gradient_options, thread_count, reserved);
+LAST(planish_gradient_options, reserved);
+
 FIRST(planish_transfer_options);
 FOLLOWS(planish_transfer_options, struct_size, field);
 FOLLOWS(planish_transfer_options, field, max_distance);
@@ -410,6 +416,24 @@ FOLLOWS(planish_measure_report, pole_count, loop_count);
 FOLLOWS(planish_measure_report, loop_count, euler_characteristic);
 LAST(planish_measure_report, euler_characteristic);
 
+FIRST(planish_curve_options);
+FOLLOWS(planish_curve_options, struct_size, tolerance);
+FOLLOWS(planish_curve_options, tolerance, smoothing);
+FOLLOWS(planish_curve_options, smoothing, buffer);
+FOLLOWS(planish_curve_options, buffer, weights);
+FOLLOWS(planish_curve_options, weights, progress);
+FOLLOWS(planish_curve_options, progress, user);
+FOLLOWS(planish_curve_options, user, cancel);
+FOLLOWS(planish_curve_options, cancel, out_stage);
+FOLLOWS(planish_curve_options, out_stage, out_errors);
+FOLLOWS(planish_curve_options, out_errors, tolerance_scale);
+FOLLOWS(planish_curve_options, tolerance_scale, method);
+FOLLOWS(planish_curve_options, method, ends);
+FOLLOWS(planish_curve_options, ends, max_grid);
+FOLLOWS(planish_curve_options, max_grid, grid);
+FOLLOWS(planish_curve_options, grid, thread_count);
+LAST(planish_curve_options, thread_count);
+
 FIRST(planish_interpolate_options);
 FOLLOWS(planish_interpolate_options, struct_size, end_slopes);
 FOLLOWS(planish_interpolate_options, end_slopes, ends);
@@ -487,6 +511,13 @@ FOLLOWS(planish_pht_options, measure_distance, thread_count);
 FOLLOWS(planish_pht_options, thread_count, reserved);
 LAST(planish_pht_options, reserved);
 
+FIRST(planish_pht_simplify_options);
+FOLLOWS(planish_pht_simplify_options, struct_size, progress);
+FOLLOWS(planish_pht_simplify_options, progress, user);
+FOLLOWS(planish_pht_simplify_options, user, cancel);
+FOLLOWS(planish_pht_simplify_options, cancel, out_stage);
+LAST(planish_pht_simplify_options, out_stage);
+
 FIRST(planish_pht_convert_options);
 FOLLOWS(planish_pht_convert_options, struct_size, tolerance);
 FOLLOWS(planish_pht_convert_options, tolerance, max_cells);
@@ -497,6 +528,15 @@ FOLLOWS(planish_pht_convert_options, cancel, out_stage);
 FOLLOWS(planish_pht_convert_options, out_stage, max_level);
 FOLLOWS(planish_pht_convert_options, max_level, reserved);
 LAST(planish_pht_convert_options, reserved);
+
+FIRST(planish_pht_patches_options);
+FOLLOWS(planish_pht_patches_options, struct_size, progress);
+FOLLOWS(planish_pht_patches_options, progress, user);
+FOLLOWS(planish_pht_patches_options, user, cancel);
+FOLLOWS(planish_pht_patches_options, cancel, out_stage);
+FOLLOWS(planish_pht_patches_options, out_stage, level_spread);
+FOLLOWS(planish_pht_patches_options, level_spread, reserved);
+LAST(planish_pht_patches_options, reserved);
 
 FIRST(planish_d1rc_options);
 FOLLOWS(planish_d1rc_options, struct_size, sharp_edges);

@@ -46,7 +46,7 @@ TEST(Curve, KeepsTheTolerance) {
     values.push_back(std::sin(40 * u.back()));
   }
   for (double tolerance : {1e-2, 1e-4, 1e-6}) {
-    planish_tensor_options options = tensor_options();
+    planish_curve_options options = curve_options();
     options.tolerance = tolerance;
     std::vector<double> errors(u.size());
     options.out_errors = errors.data();
@@ -107,7 +107,7 @@ TEST(Curve, RefusesByName) {
   auto report = fresh<planish_fit_report>();
   const check::untouched before(report);
   const auto fit = [&](const double *u, const double *values, std::size_t count, std::size_t dim,
-                       const planish_tensor_options *options = nullptr) {
+                       const planish_curve_options *options = nullptr) {
     return planish_curve_fit(u, values, count, dim, options, &curve, &report);
   };
   const auto invalid = PLANISH_STATUS_INVALID_ARGUMENT, null = PLANISH_STATUS_NULL_POINTER;
@@ -120,10 +120,9 @@ TEST(Curve, RefusesByName) {
   CHECK_FAILS(fit(nullptr, nullptr, 0, 1), invalid, -1, "0 data are too few");
   CHECK_FAILS(fit(u, values, 3, 0), invalid, -1, "dim is 0");
   CHECK_FAILS(fit(u, values, 3, SIZE_MAX / 2), PLANISH_STATUS_TOO_LARGE, -1, "memory");
-  planish_tensor_options options = tensor_options();
-  double uv[6] = {0};
-  options.out_parameters = uv;
-  CHECK_FAILS(fit(u, values, 3, 1, &options), invalid, -1, "out_parameters must be NULL");
+  planish_curve_options options = curve_options();
+  options.grid = 1;
+  CHECK_FAILS(fit(u, values, 3, 1, &options), invalid, -1, "grid is 1");
   CHECK(curve == sentinel<planish_curve>());
   CHECK(before.holds());
 }

@@ -235,7 +235,7 @@ TEST(Pht, RefusalsChangeNothing) {
   CHECK(planish_pht_merge(s, corner, 1) == PLANISH_STATUS_INDEX);
   CHECK(planish_pht_set_data(s, &vertex, 1, bad) == PLANISH_STATUS_NOT_FINITE);
   CHECK(planish_pht_set_data(s, &far, 1, unit.data()) == PLANISH_STATUS_INDEX);
-  CHECK(planish_pht_simplify(s, nan_, nullptr) == PLANISH_STATUS_INVALID_ARGUMENT);
+  CHECK(planish_pht_simplify(s, nan_, nullptr, nullptr) == PLANISH_STATUS_INVALID_ARGUMENT);
   CHECK(planish_pht_from_surface(s, nullptr, &out) == PLANISH_STATUS_WRONG_KIND);
   const double falling[] = {1, 0};
   CHECK(planish_pht_new(1, 0, falling, 2, falling, 2, nullptr, 0, nullptr, 0, &out) == PLANISH_STATUS_INVALID_ARGUMENT);

@@ -163,6 +163,24 @@ TEST(WrapperMesh, ReadsFiles) {
   CHECK(std::string(error.what()).find(path) != std::string::npos);
 }
 
+TEST(WrapperSurface, SaysHowLargeItIs) {
+  planish::check_version();
+  CHECK(planish_check_version(PLANISH_VERSION_MAJOR + 1, 0) == PLANISH_STATUS_VERSION);
+  // a tube of a square's outline: four planes of 1 by 3
+  const std::vector<double> u = {0, 0, 1, 2, 3, 4, 4}, v = {0, 0, 1, 1};
+  const std::vector<double> points = {0, 0, 0, 0, 0, 3, 1, 0, 0, 1, 0, 3, 1, 1, 0, 1, 1, 3, 0, 1, 0, 0, 1, 3, 0, 0, 0, 0, 0, 3};
+  const planish::surface tube = planish::tensor_new(3, 1, 1, u, v, points);
+  CHECK((tube.box() == std::vector<double>{0, 0, 0, 1, 1, 3}));
+  CHECK_NEAR(tube.area(), 12.0, 1e-12);
+  CHECK(tube.is_closed(PLANISH_AXIS_U) && !tube.is_closed(PLANISH_AXIS_V));
+  CHECK_EQUAL(planish_surface_is_closed(tube.get(), 2), 0u);
+  CHECK_EQUAL(planish_surface_is_closed(nullptr, PLANISH_AXIS_U), 0u);
+  double number = -7;
+  CHECK(planish_surface_box(nullptr, &number) == PLANISH_STATUS_NULL_POINTER && number == -7);
+  CHECK(planish_surface_area(nullptr, nullptr, &number) == PLANISH_STATUS_NULL_POINTER && number == -7);
+  CHECK(planish_surface_area(tube.get(), nullptr, nullptr) == PLANISH_STATUS_NULL_POINTER);
+}
+
 TEST(WrapperError, CarriesStatusTextAndIndex) {
   const std::vector<double> points = {0, 0, 0, 1, 0, 0, 1, NAN, 0};
   const auto error = thrown_by([&] { planish::mesh(points, std::vector<std::uint32_t>{0, 1, 2}); });

@@ -41,17 +41,6 @@ module planish_types
   implicit none
   private
 
-  !> Puts a record back to the defaults that the library has: `call planish_options_init(options)`.
-  interface planish_options_init
-    module procedure mesh_options_init, parameterize_options_init, eval_options_init, tensor_options_init
-    module procedure tessellate_options_init, project_options_init, deviation_options_init
-    module procedure report_options_init, vtk_options_init, step_options_init, convert_options_init, skin_options_init
-    module procedure pht_options_init, pht_convert_options_init, field_options_init, sample_rows_options_init
-    module procedure transfer_options_init, interpolate_options_init
-    module procedure decimate_options_init, sphere_options_init
-    module procedure d1rc_options_init
-  end interface
-
   abstract interface
     !> Hears how much of a call is done, 0 to 1, and the error so far, NaN while unknown; false cancels the call.
     logical function planish_progress(fraction, error)
@@ -166,6 +155,9 @@ module planish_types
     procedure :: normals => surface_normals
     procedure :: curvatures => surface_curvatures
     procedure :: field_gradient => surface_field_gradient
+    procedure :: box => surface_box
+    procedure :: area => surface_area
+    procedure :: is_closed => surface_is_closed
     procedure :: trim_count => surface_trim_count
     procedure :: trim_point_count => surface_trim_point_count
     procedure :: copy_trim => surface_copy_trim
@@ -334,7 +326,7 @@ module planish_types
     module procedure curve_handles, surface_handles
   end interface
 
-  public :: planish_version, planish_status_name, planish_error_message, planish_error_index
+  public :: planish_version, planish_check_version, planish_status_name, planish_error_message, planish_error_index
   public :: planish_options_init, planish_progress
   public :: planish_tensor_fit, planish_tensor_fit_points, planish_tensor_fit_field, planish_tensor_new
   public :: planish_tensor_degree, planish_tensor_knot_count, planish_tensor_control_point_count
@@ -370,6 +362,13 @@ contains
     character(:), allocatable :: text
     text = text_at(c_version())
   end function
+
+  !> Fails unless the library that is loaded serves programs that were compiled with this module.
+  subroutine planish_check_version(stat, errmsg)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call conclude(c_check_version(PLANISH_VERSION_MAJOR, PLANISH_VERSION_MINOR), stat, errmsg)
+  end subroutine
 
   !> The name of a status, such as "PLANISH_STATUS_OK".
   function planish_status_name(status) result(text)
@@ -528,115 +527,6 @@ contains
     call c_f_pointer(user, heard_by)
     relay = merge(0_c_int32_t, 1_c_int32_t, heard_by%hear(fraction, error))
   end function
-
-  ! ---------------------------------------------------------------------------------------------------------
-  ! Records
-  ! ---------------------------------------------------------------------------------------------------------
-
-  subroutine mesh_options_init(options)
-    type(planish_mesh_options), intent(inout) :: options
-    call conclude(c_mesh_options_init(options, c_sizeof(options)))
-  end subroutine
-
-  subroutine parameterize_options_init(options)
-    type(planish_parameterize_options), intent(inout) :: options
-    call conclude(c_parameterize_options_init(options, c_sizeof(options)))
-  end subroutine
-
-  subroutine eval_options_init(options)
-    type(planish_eval_options), intent(inout) :: options
-    call conclude(c_eval_options_init(options, c_sizeof(options)))
-  end subroutine
-
-  subroutine tensor_options_init(options)
-    type(planish_tensor_options), intent(inout) :: options
-    call conclude(c_tensor_options_init(options, c_sizeof(options)))
-  end subroutine
-
-  subroutine tessellate_options_init(options)
-    type(planish_tessellate_options), intent(inout) :: options
-    call conclude(c_tessellate_options_init(options, c_sizeof(options)))
-  end subroutine
-
-  subroutine project_options_init(options)
-    type(planish_project_options), intent(inout) :: options
-    call conclude(c_project_options_init(options, c_sizeof(options)))
-  end subroutine
-
-  subroutine deviation_options_init(options)
-    type(planish_deviation_options), intent(inout) :: options
-    call conclude(c_deviation_options_init(options, c_sizeof(options)))
-  end subroutine
-
-  subroutine report_options_init(options)
-    type(planish_report_options), intent(inout) :: options
-    call conclude(c_report_options_init(options, c_sizeof(options)))
-  end subroutine
-
-  subroutine vtk_options_init(options)
-    type(planish_vtk_options), intent(inout) :: options
-    call conclude(c_vtk_options_init(options, c_sizeof(options)))
-  end subroutine
-
-  subroutine step_options_init(options)
-    type(planish_step_options), intent(inout) :: options
-    call conclude(c_step_options_init(options, c_sizeof(options)))
-  end subroutine
-
-  subroutine convert_options_init(options)
-    type(planish_convert_options), intent(inout) :: options
-    call conclude(c_convert_options_init(options, c_sizeof(options)))
-  end subroutine
-
-  subroutine skin_options_init(options)
-    type(planish_skin_options), intent(inout) :: options
-    call conclude(c_skin_options_init(options, c_sizeof(options)))
-  end subroutine
-
-  subroutine d1rc_options_init(options)
-    type(planish_d1rc_options), intent(inout) :: options
-    call conclude(c_d1rc_options_init(options, c_sizeof(options)))
-  end subroutine
-
-  subroutine pht_options_init(options)
-    type(planish_pht_options), intent(inout) :: options
-    call conclude(c_pht_options_init(options, c_sizeof(options)))
-  end subroutine
-
-  subroutine pht_convert_options_init(options)
-    type(planish_pht_convert_options), intent(inout) :: options
-    call conclude(c_pht_convert_options_init(options, c_sizeof(options)))
-  end subroutine
-
-  subroutine transfer_options_init(options)
-    type(planish_transfer_options), intent(inout) :: options
-    call conclude(c_transfer_options_init(options, c_sizeof(options)))
-  end subroutine
-
-  subroutine interpolate_options_init(options)
-    type(planish_interpolate_options), intent(inout) :: options
-    call conclude(c_interpolate_options_init(options, c_sizeof(options)))
-  end subroutine
-
-  subroutine field_options_init(options)
-    type(planish_field_options), intent(inout) :: options
-    call conclude(c_field_options_init(options, c_sizeof(options)))
-  end subroutine
-
-  subroutine decimate_options_init(options)
-    type(planish_decimate_options), intent(inout) :: options
-    call conclude(c_decimate_options_init(options, c_sizeof(options)))
-  end subroutine
-
-  subroutine sphere_options_init(options)
-    type(planish_sphere_options), intent(inout) :: options
-    call conclude(c_sphere_options_init(options, c_sizeof(options)))
-  end subroutine
-
-  subroutine sample_rows_options_init(options)
-    type(planish_sample_rows_options), intent(inout) :: options
-    call conclude(c_sample_rows_options_init(options, c_sizeof(options)))
-  end subroutine
 
   ! ---------------------------------------------------------------------------------------------------------
   ! Mesh
@@ -1305,6 +1195,36 @@ contains
     call conclude(c_surface_curvatures(self%get(), uv, size(uv, 2, c_size_t), call_options, out), stat, errmsg)
   end subroutine
 
+  !> The box of the surface: box(:,1) has the least, box(:,2) the largest of each component.
+  subroutine surface_box(self, box, stat, errmsg)
+    class(planish_surface_t), intent(in) :: self
+    real(c_double), intent(inout), contiguous :: box(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_extent(size(box, 2, c_size_t), 2_c_size_t, "the second extent of box", stat, errmsg)) return
+    if (self%dim() > 0) then ! of no surface the library says so
+      if (refuse_extent(size(box, 1, c_size_t), self%dim(), "the first extent of box", stat, errmsg)) return
+    end if
+    call conclude(c_surface_box(self%get(), box), stat, errmsg)
+  end subroutine
+
+  !> The area of the part of a surface in space that is inside its trims; options say how finely it is divided.
+  subroutine surface_area(self, area, options, stat, errmsg)
+    class(planish_surface_t), intent(in) :: self
+    real(c_double), intent(inout) :: area
+    type(planish_tessellate_options), intent(in), optional :: options
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call conclude(c_surface_area(self%get(), options, area), stat, errmsg)
+  end subroutine
+
+  !> Whether the two sides of the domain that bound an axis are one curve.
+  logical function surface_is_closed(self, axis)
+    class(planish_surface_t), intent(in) :: self
+    integer(c_int32_t), intent(in) :: axis
+    surface_is_closed = c_surface_is_closed(self%get(), axis) /= 0
+  end function
+
   !> gradients(:,k,i): the gradient in space of component k of a field over the parameters of this shape, at uv(:,i).
   !>
   !> thread_count: threads to use; 0, or none given, for all cores.
@@ -1316,11 +1236,10 @@ contains
     integer, intent(in), optional :: thread_count
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    integer(c_int32_t) :: threads
+    type(planish_gradient_options) :: options
     integer(c_size_t) :: count
     count = size(uv, 2, c_size_t)
-    threads = 0
-    if (present(thread_count)) threads = int(thread_count, c_int32_t)
+    if (present(thread_count)) options%thread_count = int(thread_count, c_int32_t)
     if (refuse_extent(size(uv, 1, c_size_t), 2_c_size_t, "the first extent of uv", stat, errmsg)) return
     if (refuse_extent(size(gradients, 1, c_size_t), 3_c_size_t, "the first extent of gradients", stat, errmsg)) return
     if (field%dim() > 0) then ! of no field the library says so
@@ -1328,7 +1247,7 @@ contains
           stat, errmsg)) return
     end if
     if (refuse_short(size(gradients, 3, c_size_t), count, "gradients", stat, errmsg)) return
-    call conclude(c_surface_field_gradient(self%get(), field%get(), uv, count, threads, gradients), stat, errmsg)
+    call conclude(c_surface_field_gradient(self%get(), field%get(), uv, count, options, gradients), stat, errmsg)
   end subroutine
 
   !> Sets strides and flags of an evaluation, and refuses arrays that do not go together.
@@ -2393,14 +2312,15 @@ contains
   subroutine curve_fit_rows(self, u, values, options, report, weights, errors, progress, stat, errmsg)
     class(planish_curve_t), intent(inout) :: self
     real(c_double), intent(in), contiguous :: u(:), values(:, :)
-    type(planish_tensor_options), intent(in), optional :: options
+    type(planish_curve_options), intent(in), optional :: options
     type(planish_fit_report), intent(inout), optional :: report
     real(c_double), intent(in), optional, target, contiguous :: weights(:)
     real(c_double), intent(inout), optional, target, contiguous :: errors(:)
     procedure(planish_progress), optional :: progress
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    type(planish_tensor_options) :: call_options
+    type(planish_curve_options) :: call_options
+    type(planish_tensor_options) :: data
     type(planish_parameterize_options), target :: map
     type(listener), target :: user
     type(c_ptr) :: handle
@@ -2409,8 +2329,12 @@ contains
     count = size(u, kind=c_size_t)
     if (present(options)) call_options = options
     if (refuse_extent(size(values, 2, c_size_t), count, "the number of values", stat, errmsg)) return
-    if (refuse_data(call_options, map, user, count, weights=weights, errors=errors, progress=progress, &
+    if (refuse_data(data, map, user, count, weights=weights, errors=errors, progress=progress, &
         stat=stat, errmsg=errmsg)) return
+    call_options%weights = data%weights
+    call_options%out_errors = data%out_errors
+    call_options%progress = data%progress
+    call_options%user = data%user
     status = c_curve_fit(u, values, count, size(values, 1, c_size_t), call_options, handle, report)
     if (status >= 0) call self%take(handle)
     call conclude_fit(status, report, stat, errmsg)
@@ -2421,7 +2345,7 @@ contains
     class(planish_curve_t), intent(inout) :: self
     real(c_double), intent(in), contiguous :: u(:)
     real(c_double), intent(in), contiguous, target :: values(:)
-    type(planish_tensor_options), intent(in), optional :: options
+    type(planish_curve_options), intent(in), optional :: options
     type(planish_fit_report), intent(inout), optional :: report
     real(c_double), intent(in), optional, target, contiguous :: weights(:)
     real(c_double), intent(inout), optional, target, contiguous :: errors(:)
@@ -3190,7 +3114,7 @@ contains
     real(c_double), intent(inout), optional :: deviation
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    call conclude(c_pht_simplify(surface%get(), tolerance, deviation), stat, errmsg)
+    call conclude(c_pht_simplify(surface%get(), tolerance, out_deviation=deviation), stat, errmsg)
   end subroutine
 
   !> Splits all cells that meet the inside of a region, least u, largest u, least v, largest v, until they have at
@@ -3220,10 +3144,10 @@ contains
     call conclude(status, stat, errmsg)
   end subroutine
 
-  !> Makes tensor surfaces that together are a PHT-spline, each over cells whose levels differ by at most sigma.
-  subroutine planish_pht_to_tensor_patches(surface, sigma, patches, stat, errmsg)
+  !> Makes tensor surfaces that together are a PHT-spline, each over cells whose levels differ by at most level_spread.
+  subroutine planish_pht_to_tensor_patches(surface, level_spread, patches, stat, errmsg)
     class(planish_surface_t), intent(in) :: surface
-    integer, intent(in) :: sigma
+    integer, intent(in) :: level_spread
     type(planish_surface_t), allocatable, intent(inout) :: patches(:)
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
@@ -3231,10 +3155,12 @@ contains
     integer(c_size_t) :: count
     integer(c_int) :: status
     integer :: i
-    status = c_pht_to_tensor_patches(surface%get(), int(sigma, c_int32_t), count=0_c_size_t, out_count=count)
+    type(planish_pht_patches_options) :: options
+    options%level_spread = int(level_spread, c_int32_t)
+    status = c_pht_to_tensor_patches(surface%get(), options, count=0_c_size_t, out_count=count)
     if (status >= 0) then
       allocate (handles(count))
-      status = c_pht_to_tensor_patches(surface%get(), int(sigma, c_int32_t), handles, count, count)
+      status = c_pht_to_tensor_patches(surface%get(), options, handles, count, count)
     end if
     if (status >= 0) then
       if (allocated(patches)) deallocate (patches)

@@ -1665,6 +1665,28 @@ typedef struct planish_field_options {
 } planish_field_options;
 
 /**
+ * How gradients are computed. Fill with planish_gradient_options_init(), then change what you need.
+ */
+typedef struct planish_gradient_options {
+    /**
+     * Set by planish_gradient_options_init().
+     */
+    size_t struct_size;
+    /**
+     * Doubles from one point to the next in `uv`; at least 2, or 0 (default) for 2.
+     */
+    size_t uv_stride;
+    /**
+     * Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+     */
+    uint32_t thread_count;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} planish_gradient_options;
+
+/**
  * How values are carried. Fill with planish_transfer_options_init(), then change what you need.
  */
 typedef struct planish_transfer_options {
@@ -2461,6 +2483,81 @@ typedef struct planish_measure_report {
 } planish_measure_report;
 
 /**
+ * Options of curve fits. Fill with planish_curve_options_init(), then change what you need.
+ */
+typedef struct planish_curve_options {
+    /**
+     * Set by planish_curve_options_init().
+     */
+    size_t struct_size;
+    /**
+     * The largest error allowed at the data, positive, measured in tolerance_scale. Default 1e-3.
+     */
+    double tolerance;
+    /**
+     * Weight of the bending energy; 0 (default) takes the largest of 1e-3, 1e-4, 1e-5, 1e-6 that meets the
+     * tolerance (for PLANISH_TENSOR_METHOD_FERGUSON 1e-3).
+     */
+    double smoothing;
+    /**
+     * How far the knots reach beyond the data, as a fraction of the data's range, 0 to 10. Default 0.1.
+     */
+    double buffer;
+    /**
+     * A positive weight for each datum; NULL (default) for all 1.
+     * Array: [data].
+     */
+    const double *weights;
+    /**
+     * Hears of the progress and may cancel; NULL (default) for nobody.
+     */
+    planish_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *user;
+    /**
+     * Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+     */
+    const volatile int32_t *cancel;
+    /**
+     * Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+     * Array: [1].
+     */
+    uint32_t *out_stage;
+    /**
+     * Receives the error of each datum in model units: one number for each datum, or NULL (default). Written
+     * on success only.
+     * Array: [data].
+     */
+    double *out_errors;
+    /**
+     * A planish_tolerance_scale. Default PLANISH_TOLERANCE_SCALE_RELATIVE.
+     */
+    uint32_t tolerance_scale;
+    /**
+     * A planish_tensor_method. Default PLANISH_TENSOR_METHOD_LEAST_SQUARES.
+     */
+    uint32_t method;
+    /**
+     * A planish_ends. Default PLANISH_ENDS_NATURAL.
+     */
+    uint32_t ends;
+    /**
+     * Most knots, at least 2. Default 257.
+     */
+    uint32_t max_grid;
+    /**
+     * Knots to use without refinement, 2 to 8193; 0 (default) refines.
+     */
+    uint32_t grid;
+    /**
+     * Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+     */
+    uint32_t thread_count;
+} planish_curve_options;
+
+/**
  * How points are interpolated. Fill with planish_interpolate_options_init(), then change what you need.
  */
 typedef struct planish_interpolate_options {
@@ -2789,6 +2886,33 @@ typedef struct planish_pht_options {
 } planish_pht_options;
 
 /**
+ * How a PHT-spline is simplified. Fill with planish_pht_simplify_options_init(), then change what you need.
+ */
+typedef struct planish_pht_simplify_options {
+    /**
+     * Set by planish_pht_simplify_options_init().
+     */
+    size_t struct_size;
+    /**
+     * Hears of the progress and may cancel; NULL (default) for nobody.
+     */
+    planish_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *user;
+    /**
+     * Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+     */
+    const volatile int32_t *cancel;
+    /**
+     * Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+     * Array: [1].
+     */
+    uint32_t *out_stage;
+} planish_pht_simplify_options;
+
+/**
  * How a tensor surface becomes a PHT-spline. Fill with planish_pht_convert_options_init(), then change what you
  * need.
  */
@@ -2832,6 +2956,41 @@ typedef struct planish_pht_convert_options {
      */
     uint32_t reserved;
 } planish_pht_convert_options;
+
+/**
+ * How a PHT-spline becomes tensor surfaces. Fill with planish_pht_patches_options_init(), then change what you need.
+ */
+typedef struct planish_pht_patches_options {
+    /**
+     * Set by planish_pht_patches_options_init().
+     */
+    size_t struct_size;
+    /**
+     * Hears of the progress and may cancel; NULL (default) for nobody.
+     */
+    planish_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *user;
+    /**
+     * Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+     */
+    const volatile int32_t *cancel;
+    /**
+     * Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+     * Array: [1].
+     */
+    uint32_t *out_stage;
+    /**
+     * By how much the levels of cells in one surface may differ: many small ones for 0 (default), one for 20.
+     */
+    uint32_t level_spread;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} planish_pht_patches_options;
 
 /**
  * Options of D1RC-splines and of fits by them. Fill with planish_d1rc_options_init(), then change what you need.
@@ -2973,6 +3132,18 @@ extern "C" {
  * of this header. Never NULL; the text is static.
  */
 PLANISH_API const char *planish_version(void);
+
+/**
+ * Whether the library that is loaded serves programs that were compiled with a version of this header: that is so with
+ * the same major version, and before version 1 the same minor version too, if the header is not newer.
+ *
+ * major: PLANISH_VERSION_MAJOR.
+ * minor: PLANISH_VERSION_MINOR.
+ * Returns PLANISH_STATUS_OK or PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+enum planish_status planish_check_version(uint32_t major,
+                                          uint32_t minor);
 
 /**
  * The name of a status, such as "PLANISH_STATUS_OK"; "unknown status" for a number that is none. Never
@@ -4160,20 +4331,31 @@ enum planish_status planish_tensor_combine(const struct planish_surface *const *
                                            struct planish_surface **out_surface);
 
 /**
+ * Fills options with the defaults.
+ *
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_gradient_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+ */
+PLANISH_API
+enum planish_status planish_gradient_options_init(struct planish_gradient_options *options,
+                                                  size_t struct_size);
+
+/**
  * The gradient in space of a field over the parameters of a shape: for each component the vector, tangential to the
  * shape, that gives its change along the shape.
  *
  * shape:         not NULL, of dimension 3.
  * field:         not NULL, over the same (u,v).
- * uv:            count rows of u, v, inside both domains.
+ * uv:            count rows of u, v, inside both domains; rows start options->uv_stride doubles apart.
  * count:         may be 0.
- * thread_count:  threads to use, at most 1024; 0 for all cores.
+ * options:       NULL for the defaults.
  * out_gradients: receives count times dim rows of 3 numbers, dim being that of the field; NaN where the shape has no
  *                tangent plane.
  * Arrays: uv[count, 2], out_gradients[count, surface_dim, 3].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension of shape,
- * thread_count), PLANISH_STATUS_NOT_FINITE, PLANISH_STATUS_OUTSIDE (the index is the point for both) or
- * PLANISH_STATUS_TOO_LARGE.
+ * an option), PLANISH_STATUS_NOT_FINITE, PLANISH_STATUS_OUTSIDE (the index is the point for both),
+ * PLANISH_STATUS_TOO_LARGE or PLANISH_STATUS_VERSION.
  */
 PLANISH_API
 PLANISH_NODISCARD
@@ -4181,7 +4363,7 @@ enum planish_status planish_surface_field_gradient(const struct planish_surface 
                                                    const struct planish_surface *field,
                                                    const double *uv,
                                                    size_t count,
-                                                   uint32_t thread_count,
+                                                   const struct planish_gradient_options *options,
                                                    double *out_gradients);
 
 /**
@@ -4471,6 +4653,46 @@ enum planish_status planish_mesh_sample_rows(const struct planish_mesh *mesh,
                                              double *out_points,
                                              size_t point_count,
                                              size_t *out_point_count);
+
+/**
+ * The box of a surface over its whole domain, whatever its trims.
+ *
+ * surface: not NULL.
+ * out_box: receives dim numbers, the least of each component, then the largest of each. Of a D1RC-spline it is the box of
+ *          places on it, a few for each face.
+ * Arrays: out_box[2, surface_dim].
+ * Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_box(const struct planish_surface *surface,
+                                        double *out_box);
+
+/**
+ * The area of the part of a surface in space that is inside its trims.
+ *
+ * surface:  not NULL, of dim 3.
+ * options:  how finely the surface is divided, which matters little: pieces are integrated along the surface. NULL for
+ *           the defaults; out_report is not looked at.
+ * out_area: receives the area, in squares of model units.
+ * Arrays: out_area[1].
+ * Returns PLANISH_STATUS_OK or what planish_surface_tessellate() returns.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_area(const struct planish_surface *surface,
+                                         const struct planish_tessellate_options *options,
+                                         double *out_area);
+
+/**
+ * 1 if the sides of the domain at the least and the largest parameter of an axis are one curve, as those of a tube are; 0
+ * if not, for NULL, for an axis that is none, and for a D1RC-spline, whose domain has no sides.
+ *
+ * axis: a planish_axis.
+ */
+PLANISH_API
+uint32_t planish_surface_is_closed(const struct planish_surface *surface,
+                                   uint32_t axis);
 
 /**
  * Fills options with the defaults.
@@ -4943,15 +5165,24 @@ enum planish_status planish_model_load_file(const char *path,
                                             struct planish_model **out_model);
 
 /**
+ * Fills options with the defaults.
+ *
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_curve_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+ */
+PLANISH_API
+enum planish_status planish_curve_options_init(struct planish_curve_options *options,
+                                               size_t struct_size);
+
+/**
  * Fits a cubic curve to values at parameters, by the method of planish_tensor_fit() in one parameter.
  *
  * u:          count parameters, in any order.
  * values:     count rows of dim numbers.
  * count:      at least 3.
  * dim:        numbers of a value, at least 1.
- * options:    NULL for the defaults. grid_u fixes the grid, and 0 refines; energy, grid_v, max_coefficients,
- *             correction_sweeps, regularize, parameterize and measure_distance are not used; out_parameters
- *             must be NULL.
+ * options:    NULL for the defaults.
  * out_curve:  receives a new curve; destroy with planish_curve_free().
  * out_report: receives what the fit did and how good it is; grid_v is 1. NULL for no report.
  * Arrays: u[count], values[count, dim].
@@ -4963,7 +5194,7 @@ enum planish_status planish_curve_fit(const double *u,
                                       const double *values,
                                       size_t count,
                                       size_t dim,
-                                      const struct planish_tensor_options *options,
+                                      const struct planish_curve_options *options,
                                       struct planish_curve **out_curve,
                                       struct planish_fit_report *out_report);
 
@@ -5562,19 +5793,32 @@ enum planish_status planish_pht_merge(struct planish_surface *surface,
                                       size_t count);
 
 /**
+ * Fills options with the defaults.
+ *
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_pht_simplify_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+ */
+PLANISH_API
+enum planish_status planish_pht_simplify_options_init(struct planish_pht_simplify_options *options,
+                                                      size_t struct_size);
+
+/**
  * Merges as many cells of a PHT-spline as it can while no point moves by more than a tolerance.
  *
- * surface:       not NULL; changed.
+ * surface:       not NULL; changed on success.
  * tolerance:     in model units, not negative.
+ * options:       NULL for the defaults.
  * out_deviation: receives a bound of how far a point has moved; NULL for none.
  * Arrays: out_deviation[1].
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
- * PLANISH_STATUS_INVALID_ARGUMENT (tolerance).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND,
+ * PLANISH_STATUS_INVALID_ARGUMENT (tolerance), PLANISH_STATUS_VERSION or PLANISH_STATUS_CANCELLED.
  */
 PLANISH_API
 PLANISH_NODISCARD
 enum planish_status planish_pht_simplify(struct planish_surface *surface,
                                          double tolerance,
+                                         const struct planish_pht_simplify_options *options,
                                          double *out_deviation);
 
 /**
@@ -5625,23 +5869,34 @@ enum planish_status planish_pht_from_surface(const struct planish_surface *surfa
                                              struct planish_surface **out_surface);
 
 /**
- * Makes tensor surfaces that together are a PHT-spline exactly. They meet with equal parameters, each over cells
- * whose levels differ by at most sigma: many small ones for 0, one for 20. Each
- * has its part of the trims; one outside of them has a trim without area.
+ * Fills options with the defaults.
+ *
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_pht_patches_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+ */
+PLANISH_API
+enum planish_status planish_pht_patches_options_init(struct planish_pht_patches_options *options,
+                                                     size_t struct_size);
+
+/**
+ * Makes tensor surfaces that together are a PHT-spline exactly. They meet with equal parameters. Each has its part of
+ * the trims; one outside of them has a trim without area.
  *
  * surface:      not NULL.
- * sigma:        levels.
+ * options:      NULL for the defaults.
  * out_surfaces: receives new surfaces; destroy each with planish_surface_free(). NULL asks for the number.
  * count:        handles that out_surfaces has room for.
  * out_count:    receives the number of surfaces.
  * Arrays: out_surfaces[count], out_count[1].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND,
- * PLANISH_STATUS_BUFFER_TOO_SMALL (nothing is made) or PLANISH_STATUS_NOT_FINITE (a number would overflow).
+ * PLANISH_STATUS_BUFFER_TOO_SMALL (nothing is made), PLANISH_STATUS_NOT_FINITE (a number would overflow),
+ * PLANISH_STATUS_VERSION or PLANISH_STATUS_CANCELLED.
  */
 PLANISH_API
 PLANISH_NODISCARD
 enum planish_status planish_pht_to_tensor_patches(const struct planish_surface *surface,
-                                                  uint32_t sigma,
+                                                  const struct planish_pht_patches_options *options,
                                                   struct planish_surface **out_surfaces,
                                                   size_t count,
                                                   size_t *out_count);

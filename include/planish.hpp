@@ -147,6 +147,18 @@ inline planish_status init(planish_d1rc_options &options) {
 inline planish_status init(planish_pht_convert_options &options) {
   return planish_pht_convert_options_init(&options, sizeof options);
 }
+inline planish_status init(planish_gradient_options &options) {
+  return planish_gradient_options_init(&options, sizeof options);
+}
+inline planish_status init(planish_pht_simplify_options &options) {
+  return planish_pht_simplify_options_init(&options, sizeof options);
+}
+inline planish_status init(planish_pht_patches_options &options) {
+  return planish_pht_patches_options_init(&options, sizeof options);
+}
+inline planish_status init(planish_curve_options &options) {
+  return planish_curve_options_init(&options, sizeof options);
+}
 inline planish_status init(planish_eval_options &options) {
   return planish_eval_options_init(&options, sizeof options);
 }
@@ -276,6 +288,11 @@ Options defaults() {
 
 /// The version of the library that is loaded, such as "0.1.0".
 inline std::string version() { return planish_version(); }
+
+/// Throws unless the library that is loaded serves programs that were compiled with this header.
+inline void check_version() {
+  detail::checked(planish_check_version(PLANISH_VERSION_MAJOR, PLANISH_VERSION_MINOR));
+}
 
 /// What came of a map.
 struct parameterized {
@@ -605,6 +622,23 @@ class surface {
   std::size_t dim() const noexcept { return planish_surface_dim(get()); }
   /// Number of control points.
   std::size_t coefficient_count() const noexcept { return planish_surface_coefficient_count(get()); }
+
+  /// The box of the surface over its whole domain: the least of each component, then the largest of each.
+  std::vector<double> box() const {
+    std::vector<double> box(2 * dim());
+    detail::checked(planish_surface_box(get(), box.data()));
+    return box;
+  }
+
+  /// The area of the part inside the trims of a surface in space; options say how finely it is divided.
+  double area(const planish_tessellate_options &options = defaults<planish_tessellate_options>()) const {
+    double area = 0;
+    detail::checked(planish_surface_area(get(), &options, &area));
+    return area;
+  }
+
+  /// Whether the two sides of the domain that bound an axis are one curve.
+  bool is_closed(planish_axis axis) const noexcept { return planish_surface_is_closed(get(), axis) != 0; }
 
   /// Least u, largest u, least v, largest v.
   std::array<double, 4> domain() const {
@@ -1348,11 +1382,11 @@ inline surface d1rc_new(const mesh &control_mesh,
 
 /// Fits a cubic curve to rows of `dim` numbers at parameters in any order.
 inline fitted_curve curve_fit(const values<double> &u, const values<double> &values, std::size_t dim,
-                              const planish_tensor_options &options = defaults<planish_tensor_options>(),
+                              const planish_curve_options &options = defaults<planish_curve_options>(),
                               const progress &hear = {}) {
   detail::check_rows(values.count(), u.count(), dim);
   return detail::fit_any<fitted_curve, curve, planish_curve>(
-      options, hear, [&](const planish_tensor_options *given, auto out, auto report) {
+      options, hear, [&](const planish_curve_options *given, auto out, auto report) {
         return planish_curve_fit(u.data(), values.data(), u.count(), dim, given, out, report);
       });
 }
@@ -1571,18 +1605,20 @@ class pht {
   /// Merges what it can while no point moves by more than `tolerance`; returns a bound of how far one has.
   double simplify(double tolerance) {
     double deviation = 0;
-    detail::checked(planish_pht_simplify(surface_, tolerance, &deviation));
+    detail::checked(planish_pht_simplify(surface_, tolerance, nullptr, &deviation));
     return deviation;
   }
 
-  /// Exact tensor surfaces over cells whose levels differ by at most `sigma`.
-  std::vector<surface> tensor_patches(std::uint32_t sigma) const {
+  /// Exact tensor surfaces over cells whose levels differ by at most `level_spread`.
+  std::vector<surface> tensor_patches(std::uint32_t level_spread) const {
+    auto options = defaults<planish_pht_patches_options>();
+    options.level_spread = level_spread;
     std::size_t count = 0;
-    detail::checked(planish_pht_to_tensor_patches(surface_, sigma, nullptr, 0, &count));
+    detail::checked(planish_pht_to_tensor_patches(surface_, &options, nullptr, 0, &count));
     std::vector<surface> patches;
     patches.reserve(count);
     std::vector<planish_surface *> handles(count);
-    detail::checked(planish_pht_to_tensor_patches(surface_, sigma, handles.data(), count, &count));
+    detail::checked(planish_pht_to_tensor_patches(surface_, &options, handles.data(), count, &count));
     for (planish_surface *handle : handles) patches.emplace_back(handle);
     return patches;
   }
@@ -1764,10 +1800,11 @@ inline surface combine(const std::vector<std::pair<double, const surface *>> &te
 
 /// The gradients in space of a field over the parameters of a shape: for each point a row of three numbers for each
 /// component of the field.
-inline std::vector<double> field_gradient(const surface &shape, const surface &field, const rows<double, 2> &uv,
-                                          std::uint32_t thread_count = 0) {
+inline std::vector<double> field_gradient(
+    const surface &shape, const surface &field, const rows<double, 2> &uv,
+    const planish_gradient_options &options = defaults<planish_gradient_options>()) {
   std::vector<double> gradients(3 * field.dim() * uv.count());
-  detail::checked(planish_surface_field_gradient(shape.get(), field.get(), uv.data(), uv.count(), thread_count,
+  detail::checked(planish_surface_field_gradient(shape.get(), field.get(), uv.data(), uv.count(), &options,
                                                  gradients.data()));
   return gradients;
 }

@@ -566,6 +566,15 @@ class planish_field_options(Structure):
     }
 
 
+class planish_gradient_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("uv_stride", c_size_t),
+        ("thread_count", c_uint32),
+        ("reserved", c_uint32),
+    ]
+
+
 class planish_transfer_options(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -903,6 +912,43 @@ class planish_measure_report(Structure):
     ]
 
 
+class planish_curve_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("tolerance", c_double),
+        ("smoothing", c_double),
+        ("buffer", c_double),
+        ("weights", c_void_p),
+        ("progress", planish_progress),
+        ("user", c_void_p),
+        ("cancel", c_void_p),
+        ("out_stage", c_void_p),
+        ("out_errors", c_void_p),
+        ("tolerance_scale", c_uint32),
+        ("method", c_uint32),
+        ("ends", c_uint32),
+        ("max_grid", c_uint32),
+        ("grid", c_uint32),
+        ("thread_count", c_uint32),
+    ]
+    choices = {
+        "out_stage": "planish_stage",
+        "tolerance_scale": "planish_tolerance_scale",
+        "method": "planish_tensor_method",
+        "ends": "planish_ends",
+    }
+    elements = {
+        "weights": c_double,
+        "out_stage": c_uint32,
+        "out_errors": c_double,
+    }
+    arrays = {
+        "weights": ("data",),
+        "out_stage": ("1",),
+        "out_errors": ("data",),
+    }
+
+
 class planish_interpolate_options(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -1042,6 +1088,25 @@ class planish_pht_options(Structure):
     }
 
 
+class planish_pht_simplify_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("progress", planish_progress),
+        ("user", c_void_p),
+        ("cancel", c_void_p),
+        ("out_stage", c_void_p),
+    ]
+    choices = {
+        "out_stage": "planish_stage",
+    }
+    elements = {
+        "out_stage": c_uint32,
+    }
+    arrays = {
+        "out_stage": ("1",),
+    }
+
+
 class planish_pht_convert_options(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -1052,6 +1117,27 @@ class planish_pht_convert_options(Structure):
         ("cancel", c_void_p),
         ("out_stage", c_void_p),
         ("max_level", c_uint32),
+        ("reserved", c_uint32),
+    ]
+    choices = {
+        "out_stage": "planish_stage",
+    }
+    elements = {
+        "out_stage": c_uint32,
+    }
+    arrays = {
+        "out_stage": ("1",),
+    }
+
+
+class planish_pht_patches_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("progress", planish_progress),
+        ("user", c_void_p),
+        ("cancel", c_void_p),
+        ("out_stage", c_void_p),
+        ("level_spread", c_uint32),
         ("reserved", c_uint32),
     ]
     choices = {
@@ -1137,6 +1223,7 @@ SIZES = {
     planish_convert_options: 48,
     planish_tensor_options: 152,
     planish_field_options: 128,
+    planish_gradient_options: 24,
     planish_transfer_options: 32,
     planish_transfer_report: 104,
     planish_balance_report: 152,
@@ -1154,11 +1241,14 @@ SIZES = {
     planish_face_info: 120,
     planish_shell_info: 24,
     planish_measure_report: 144,
+    planish_curve_options: 104,
     planish_interpolate_options: 24,
     planish_skin_report: 112,
     planish_skin_options: 160,
     planish_pht_options: 144,
+    planish_pht_simplify_options: 40,
     planish_pht_convert_options: 64,
+    planish_pht_patches_options: 48,
     planish_d1rc_options: 192,
 }
 if sizeof(c_void_p) == 8:
@@ -1168,6 +1258,7 @@ if sizeof(c_void_p) == 8:
 #: The types of each function's result and arguments.
 FUNCTIONS = {
     "planish_version": (c_char_p,),
+    "planish_check_version": (c_int32, c_uint32, c_uint32),
     "planish_status_name": (c_char_p, c_int32),
     "planish_error_message": (c_size_t, c_void_p, c_size_t),
     "planish_error_index": (c_int64,),
@@ -1252,7 +1343,8 @@ FUNCTIONS = {
     "planish_field_fitter_fit": (c_int32, c_void_p, c_void_p, c_size_t, c_size_t, c_void_p, c_void_p),
     "planish_field_fitter_update": (c_int32, c_void_p, c_void_p, c_void_p, c_size_t, c_size_t),
     "planish_tensor_combine": (c_int32, c_void_p, c_void_p, c_size_t, c_void_p),
-    "planish_surface_field_gradient": (c_int32, c_void_p, c_void_p, c_void_p, c_size_t, c_uint32, c_void_p),
+    "planish_gradient_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_surface_field_gradient": (c_int32, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p, c_void_p),
     "planish_transfer_options_init": (c_int32, c_void_p, c_size_t),
     "planish_transfer_new": (c_int32, c_void_p, c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
     "planish_transfer_free": (None, c_void_p),
@@ -1271,6 +1363,9 @@ FUNCTIONS = {
     "planish_surface_deviation": (c_int32, c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p),
     "planish_sample_rows_options_init": (c_int32, c_void_p, c_size_t),
     "planish_mesh_sample_rows": (c_int32, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p, c_size_t, c_void_p),
+    "planish_surface_box": (c_int32, c_void_p, c_void_p),
+    "planish_surface_area": (c_int32, c_void_p, c_void_p, c_void_p),
+    "planish_surface_is_closed": (c_uint32, c_void_p, c_uint32),
     "planish_vtk_options_init": (c_int32, c_void_p, c_size_t),
     "planish_surface_write_vtk": (c_int32, c_void_p, c_char_p, c_void_p),
     "planish_surface_save_size": (c_size_t, c_void_p),
@@ -1306,6 +1401,7 @@ FUNCTIONS = {
     "planish_model_load": (c_int32, c_void_p, c_size_t, c_void_p),
     "planish_model_save_file": (c_int32, c_void_p, c_char_p),
     "planish_model_load_file": (c_int32, c_char_p, c_void_p),
+    "planish_curve_options_init": (c_int32, c_void_p, c_size_t),
     "planish_curve_fit": (c_int32, c_void_p, c_void_p, c_size_t, c_size_t, c_void_p, c_void_p, c_void_p),
     "planish_curve_new": (c_int32, c_size_t, c_uint32, c_void_p, c_size_t, c_void_p, c_void_p),
     "planish_interpolate_options_init": (c_int32, c_void_p, c_size_t),
@@ -1346,11 +1442,13 @@ FUNCTIONS = {
     "planish_pht_new": (c_int32, c_size_t, c_uint32, c_void_p, c_size_t, c_void_p, c_size_t, c_void_p, c_size_t, c_void_p, c_size_t, c_void_p),
     "planish_pht_split": (c_int32, c_void_p, c_void_p, c_size_t),
     "planish_pht_merge": (c_int32, c_void_p, c_void_p, c_size_t),
-    "planish_pht_simplify": (c_int32, c_void_p, c_double, c_void_p),
+    "planish_pht_simplify_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_pht_simplify": (c_int32, c_void_p, c_double, c_void_p, c_void_p),
     "planish_pht_refine_region": (c_int32, c_void_p, c_void_p, c_uint32, c_size_t),
     "planish_pht_convert_options_init": (c_int32, c_void_p, c_size_t),
     "planish_pht_from_surface": (c_int32, c_void_p, c_void_p, c_void_p),
-    "planish_pht_to_tensor_patches": (c_int32, c_void_p, c_uint32, c_void_p, c_size_t, c_void_p),
+    "planish_pht_patches_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_pht_to_tensor_patches": (c_int32, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p),
     "planish_pht_stitch": (c_int32, c_void_p, c_uint32, c_void_p, c_uint32, c_uint32),
     "planish_pht_cell_count": (c_size_t, c_void_p),
     "planish_pht_vertex_count": (c_size_t, c_void_p),
@@ -1394,6 +1492,7 @@ CHOICES = {
     ("planish_tensor_elevate_degree", "axis"): "planish_axis",
     ("planish_tensor_reverse", "axis"): "planish_axis",
     ("planish_tensor_split", "axis"): "planish_axis",
+    ("planish_surface_is_closed", "axis"): "planish_axis",
     ("planish_pht_stitch", "first_side"): "planish_border_side",
     ("planish_pht_stitch", "second_side"): "planish_border_side",
     ("planish_pht_copy_control_points", "basis"): "planish_pht_basis",

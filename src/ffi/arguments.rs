@@ -37,6 +37,8 @@ pub(super) enum ArgumentError {
     RecordSize { record: &'static str, size: usize },
     #[error("{record} has {size} bytes, this version knows {known} and the rest is not zero")]
     RecordVersion { record: &'static str, size: usize, known: usize },
+    #[error("the header is of version {major}.{minor}, the library of version {}", env!("CARGO_PKG_VERSION"))]
+    Version { major: u32, minor: u32 },
     #[error("a reserved field of {record} is {given}, this version knows only 0")]
     Reserved { record: &'static str, given: u32 },
     #[error("the surface is of the family {found:?}, this call needs {needed:?}")]
@@ -58,7 +60,9 @@ impl ArgumentError {
             Self::Overflow { .. } => planish_status::TooLarge,
             Self::TooSmall { .. } => planish_status::BufferTooSmall,
             Self::NoSuch { .. } => planish_status::Index,
-            Self::RecordVersion { .. } | Self::Reserved { .. } => planish_status::Version,
+            Self::RecordVersion { .. } | Self::Reserved { .. } | Self::Version { .. } => {
+                planish_status::Version
+            }
             Self::WrongKind { .. } | Self::NoPatches { .. } | Self::NoControlNet { .. } => {
                 planish_status::WrongKind
             }
@@ -350,6 +354,14 @@ macro_rules! record {
         };
 
         $(
+            #[cfg(test)]
+            mod $init {
+                #[test]
+                fn fills_in_what_the_header_tells() {
+                    $crate::ffi::tests::records::defaults_are_told::<super::$record>();
+                }
+            }
+
             /// Fills options with the defaults.
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn $init(

@@ -8,13 +8,15 @@ use super::guard::{Failure, guard};
 use super::progress::{thread_count, with_control};
 use super::report::{FitOutputs, planish_fit_report};
 use super::status::query;
-use super::{
-    planish_eval_options, planish_flag, planish_section_ends, planish_status, planish_tensor_options,
-};
+use super::tensor::{planish_ends, planish_tensor_method, planish_tolerance_scale};
+use super::{planish_eval_options, planish_flag, planish_progress, planish_section_ends, planish_status};
 use crate::curve::{Curve, EndRule, MAX_DERIVATIVE, interpolate};
+use crate::fit::common::uniform::{Ends, Method};
 use crate::fit::curve::{CurveOptions, fit_curve};
+use crate::fit::report::{Tolerance, ToleranceScale};
 use crate::knots::KnotVector;
 use crate::surface::evaluate::OutsideRule;
+use std::ffi::c_void;
 
 /// A B-spline curve: a map from an interval of parameters u to R^dim. Made by planish_curve_fit(),
 /// planish_curve_interpolate(), planish_curve_new() or planish_curve_load(), destroyed by planish_curve_free().
@@ -37,15 +39,81 @@ impl planish_curve {
     }
 }
 
+record! {
+    /// Options of curve fits. Fill with planish_curve_options_init(), then change what you need.
+    pub struct planish_curve_options (planish_curve_options_init; core: CurveOptions) {
+        /// The largest error allowed at the data, positive, measured in tolerance_scale. Default 1e-3.
+        pub tolerance: f64 = core.tolerance.value,
+        /// Weight of the bending energy; 0 (default) takes the largest of 1e-3, 1e-4, 1e-5, 1e-6 that meets the
+        /// tolerance (for PLANISH_TENSOR_METHOD_FERGUSON 1e-3).
+        pub smoothing: f64 = core.smoothing,
+        /// How far the knots reach beyond the data, as a fraction of the data's range, 0 to 10. Default 0.1.
+        pub buffer: f64 = core.buffer,
+        /// A positive weight for each datum; NULL (default) for all 1.
+        /// Array: [data].
+        pub weights: *const f64,
+        /// Hears of the progress and may cancel; NULL (default) for nobody.
+        pub progress: planish_progress,
+        /// Handed to progress as it is.
+        pub user: *mut c_void,
+        /// Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+        pub cancel: *const i32,
+        /// Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+        /// Array: [1].
+        pub out_stage: *mut u32,
+        /// Receives the error of each datum in model units: one number for each datum, or NULL (default). Written
+        /// on success only.
+        /// Array: [data].
+        pub out_errors: *mut f64,
+        /// A planish_tolerance_scale. Default PLANISH_TOLERANCE_SCALE_RELATIVE.
+        pub tolerance_scale: u32 = planish_tolerance_scale::Relative as u32,
+        /// A planish_tensor_method. Default PLANISH_TENSOR_METHOD_LEAST_SQUARES.
+        pub method: u32 = planish_tensor_method::LeastSquares as u32,
+        /// A planish_ends. Default PLANISH_ENDS_NATURAL.
+        pub ends: u32 = planish_ends::Natural as u32,
+        /// Most knots, at least 2. Default 257.
+        pub max_grid: u32 = core.max_grid as u32,
+        /// Knots to use without refinement, 2 to 8193; 0 (default) refines.
+        pub grid: u32,
+        /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+        pub thread_count: u32,
+    }
+}
+
+impl planish_curve_options {
+    /// # Safety
+    /// The weights are NULL or `count` numbers, until the options are no longer used.
+    unsafe fn to_core<'a>(self, count: usize) -> Result<CurveOptions<'a>, ArgumentError> {
+        let scale = choice(
+            self.tolerance_scale,
+            &[ToleranceScale::Relative, ToleranceScale::Absolute],
+            "tolerance_scale",
+        )?;
+        let weights = match self.weights {
+            at if at.is_null() => None,
+            // SAFETY: the caller's promise.
+            at => Some(unsafe { slice(at, count, "weights") }?),
+        };
+        Ok(CurveOptions {
+            tolerance: Tolerance { value: self.tolerance, scale },
+            method: choice(self.method, &[Method::LeastSquares, Method::Ferguson], "method")?,
+            ends: choice(self.ends, &[Ends::Natural, Ends::Free], "ends")?,
+            smoothing: self.smoothing,
+            buffer: self.buffer,
+            max_grid: self.max_grid as usize,
+            fixed_count: (self.grid != 0).then_some(self.grid as usize),
+            weights,
+        })
+    }
+}
+
 /// Fits a cubic curve to values at parameters, by the method of planish_tensor_fit() in one parameter.
 ///
 /// u:          count parameters, in any order.
 /// values:     count rows of dim numbers.
 /// count:      at least 3.
 /// dim:        numbers of a value, at least 1.
-/// options:    NULL for the defaults. grid_u fixes the grid, and 0 refines; energy, grid_v, max_coefficients,
-///             correction_sweeps, regularize, parameterize and measure_distance are not used; out_parameters
-///             must be NULL.
+/// options:    NULL for the defaults.
 /// out_curve:  receives a new curve; destroy with planish_curve_free().
 /// out_report: receives what the fit did and how good it is; grid_v is 1. NULL for no report.
 /// Arrays: u[count], values[count, dim].
@@ -57,7 +125,7 @@ pub unsafe extern "C" fn planish_curve_fit(
     values: *const f64,
     count: usize,
     dim: usize,
-    options: *const planish_tensor_options,
+    options: *const planish_curve_options,
     out_curve: *mut *mut planish_curve,
     out_report: *mut planish_fit_report,
 ) -> planish_status {
@@ -66,23 +134,14 @@ pub unsafe extern "C" fn planish_curve_fit(
         let u = slice(u, count, "u")?;
         let values = slice(values, array_len::<f64>(count, dim, "values")?, "values")?;
         let given = self::options(options)?;
-        if !given.out_parameters.is_null() {
-            return Err(ArgumentError::NotNull { name: "out_parameters" }.into());
-        }
-        let (parameters, errors) = (given.out_parameters, given.out_errors);
-        let outputs = FitOutputs::new((out_curve, "out_curve"), out_report, parameters, errors, count)?;
-        // a curve has one direction; the other is given the grid of this one so that both are valid
-        let given_core = planish_tensor_options { grid_v: given.grid_u, ..given }.to_core(count)?;
-        let options = CurveOptions {
-            tolerance: given_core.tolerance,
-            method: given_core.method,
-            ends: given_core.ends,
-            smoothing: given_core.smoothing,
-            buffer: given_core.buffer,
-            max_grid: given_core.max_grid,
-            fixed_count: given_core.fixed_grid.map(|[count, _]| count),
-            weights: given_core.weights,
-        };
+        let outputs = FitOutputs::new(
+            (out_curve, "out_curve"),
+            out_report,
+            std::ptr::null_mut(),
+            given.out_errors,
+            count,
+        )?;
+        let options = given.to_core(count)?;
         let fit = with_control(given.thread_count, listener!(given), |control| {
             fit_curve(u, values, dim, &options, control)
         })??;

@@ -2,7 +2,7 @@
 
 use super::arguments::{
     ArgumentError, ReportOut, array_len, choice, copy_rows, deref, deref_mut, options, out, rows_mut, slice,
-    slice_mut,
+    slice_mut, stride,
 };
 use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;
@@ -375,20 +375,32 @@ pub unsafe extern "C" fn planish_tensor_combine(
     })
 }
 
+record! {
+    /// How gradients are computed. Fill with planish_gradient_options_init(), then change what you need.
+    pub struct planish_gradient_options (planish_gradient_options_init) {
+        /// Doubles from one point to the next in `uv`; at least 2, or 0 (default) for 2.
+        pub uv_stride: usize,
+        /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+        pub thread_count: u32,
+        /// 0.
+        pub reserved: u32,
+    }
+}
+
 /// The gradient in space of a field over the parameters of a shape: for each component the vector, tangential to the
 /// shape, that gives its change along the shape.
 ///
 /// shape:         not NULL, of dimension 3.
 /// field:         not NULL, over the same (u,v).
-/// uv:            count rows of u, v, inside both domains.
+/// uv:            count rows of u, v, inside both domains; rows start options->uv_stride doubles apart.
 /// count:         may be 0.
-/// thread_count:  threads to use, at most 1024; 0 for all cores.
+/// options:       NULL for the defaults.
 /// out_gradients: receives count times dim rows of 3 numbers, dim being that of the field; NaN where the shape has no
 ///                tangent plane.
 /// Arrays: uv[count, 2], out_gradients[count, surface_dim, 3].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension of shape,
-/// thread_count), PLANISH_STATUS_NOT_FINITE, PLANISH_STATUS_OUTSIDE (the index is the point for both) or
-/// PLANISH_STATUS_TOO_LARGE.
+/// an option), PLANISH_STATUS_NOT_FINITE, PLANISH_STATUS_OUTSIDE (the index is the point for both),
+/// PLANISH_STATUS_TOO_LARGE or PLANISH_STATUS_VERSION.
 #[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_surface_field_gradient(
@@ -396,17 +408,22 @@ pub unsafe extern "C" fn planish_surface_field_gradient(
     field: *const planish_surface,
     uv: *const f64,
     count: usize,
-    thread_count: u32,
+    options: *const planish_gradient_options,
     out_gradients: *mut f64,
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
         let (shape, field) = (deref(shape, "shape")?.any(), deref(field, "field")?.any());
-        let uv = copy_rows(uv, count, 2, "uv", DVec2::from_array)?;
+        let given = self::options(options)?;
+        if given.reserved != 0 {
+            let record = "planish_gradient_options";
+            return Err(ArgumentError::Reserved { record, given: given.reserved }.into());
+        }
+        let uv = copy_rows(uv, count, stride(given.uv_stride, 2, "uv_stride")?, "uv", DVec2::from_array)?;
         let rows = array_len::<f64>(count, field.dim(), "out_gradients")?;
         let len = array_len::<f64>(rows, 3, "out_gradients")?;
         let out_gradients = slice_mut(out_gradients, len, "out_gradients")?;
-        let pool = Pool::new(self::thread_count(thread_count)?);
+        let pool = Pool::new(thread_count(given.thread_count)?);
         Ok(field_gradient(shape, field, &uv, out_gradients, &pool)?)
     })
 }

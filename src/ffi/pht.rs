@@ -364,25 +364,50 @@ pub unsafe extern "C" fn planish_pht_merge(
     guard(|| unsafe { Ok(deref_mut(surface, "surface")?.pht_mut()?.merge(&self::cells(cells, count)?)?) })
 }
 
+record! {
+    /// How a PHT-spline is simplified. Fill with planish_pht_simplify_options_init(), then change what you need.
+    pub struct planish_pht_simplify_options (planish_pht_simplify_options_init) {
+        /// Hears of the progress and may cancel; NULL (default) for nobody.
+        pub progress: planish_progress,
+        /// Handed to progress as it is.
+        pub user: *mut c_void,
+        /// Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+        pub cancel: *const i32,
+        /// Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+        /// Array: [1].
+        pub out_stage: *mut u32,
+    }
+}
+
 /// Merges as many cells of a PHT-spline as it can while no point moves by more than a tolerance.
 ///
-/// surface:       not NULL; changed.
+/// surface:       not NULL; changed on success.
 /// tolerance:     in model units, not negative.
+/// options:       NULL for the defaults.
 /// out_deviation: receives a bound of how far a point has moved; NULL for none.
 /// Arrays: out_deviation[1].
-/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND or
-/// PLANISH_STATUS_INVALID_ARGUMENT (tolerance).
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND,
+/// PLANISH_STATUS_INVALID_ARGUMENT (tolerance), PLANISH_STATUS_VERSION or PLANISH_STATUS_CANCELLED.
 #[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_pht_simplify(
     surface: *mut planish_surface,
     tolerance: f64,
+    options: *const planish_pht_simplify_options,
     out_deviation: *mut f64,
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
+        let given = self::options(options)?;
+        let pht = deref_mut(surface, "surface")?.pht_mut()?;
         let out_deviation = slice_mut_or_none(out_deviation, 1, "out_deviation")?;
-        let result = deref_mut(surface, "surface")?.pht_mut()?.simplify(tolerance)?;
+        // of a copy, so that a call that is cancelled changes nothing; one thread is enough
+        let mut simplified = pht.clone();
+        let result = with_control(1, listener!(given), |control| {
+            control.enter(Stage::Convert);
+            simplified.simplify(tolerance)
+        })??;
+        *pht = simplified;
         if let Some(out) = out_deviation {
             out[0] = result.deviation;
         }
@@ -484,23 +509,42 @@ pub unsafe extern "C" fn planish_pht_from_surface(
     })
 }
 
-/// Makes tensor surfaces that together are a PHT-spline exactly. They meet with equal parameters, each over cells
-/// whose levels differ by at most sigma: many small ones for 0, one for 20. Each
-/// has its part of the trims; one outside of them has a trim without area.
+record! {
+    /// How a PHT-spline becomes tensor surfaces. Fill with planish_pht_patches_options_init(), then change what you need.
+    pub struct planish_pht_patches_options (planish_pht_patches_options_init) {
+        /// Hears of the progress and may cancel; NULL (default) for nobody.
+        pub progress: planish_progress,
+        /// Handed to progress as it is.
+        pub user: *mut c_void,
+        /// Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+        pub cancel: *const i32,
+        /// Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+        /// Array: [1].
+        pub out_stage: *mut u32,
+        /// By how much the levels of cells in one surface may differ: many small ones for 0 (default), one for 20.
+        pub level_spread: u32,
+        /// 0.
+        pub reserved: u32,
+    }
+}
+
+/// Makes tensor surfaces that together are a PHT-spline exactly. They meet with equal parameters. Each has its part of
+/// the trims; one outside of them has a trim without area.
 ///
 /// surface:      not NULL.
-/// sigma:        levels.
+/// options:      NULL for the defaults.
 /// out_surfaces: receives new surfaces; destroy each with planish_surface_free(). NULL asks for the number.
 /// count:        handles that out_surfaces has room for.
 /// out_count:    receives the number of surfaces.
 /// Arrays: out_surfaces[count], out_count[1].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND,
-/// PLANISH_STATUS_BUFFER_TOO_SMALL (nothing is made) or PLANISH_STATUS_NOT_FINITE (a number would overflow).
+/// PLANISH_STATUS_BUFFER_TOO_SMALL (nothing is made), PLANISH_STATUS_NOT_FINITE (a number would overflow),
+/// PLANISH_STATUS_VERSION or PLANISH_STATUS_CANCELLED.
 #[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_pht_to_tensor_patches(
     surface: *const planish_surface,
-    sigma: u32,
+    options: *const planish_pht_patches_options,
     out_surfaces: *mut *mut planish_surface,
     count: usize,
     out_count: *mut usize,
@@ -509,7 +553,16 @@ pub unsafe extern "C" fn planish_pht_to_tensor_patches(
     guard(|| unsafe {
         let pht = deref(surface, "surface")?.pht()?;
         let out_count = out(out_count, "out_count")?;
-        let patches = pht.to_tensor_patches(sigma)?;
+        let given = self::options(options)?;
+        if given.reserved != 0 {
+            let record = "planish_pht_patches_options";
+            return Err(ArgumentError::Reserved { record, given: given.reserved }.into());
+        }
+        // results are the same for any number of threads, and one is enough
+        let patches = with_control(1, listener!(given), |control| {
+            control.enter(Stage::Convert);
+            pht.to_tensor_patches(given.level_spread)
+        })??;
         if !out_surfaces.is_null() {
             let handles = rows_mut(out_surfaces, count, patches.len(), 1, "out_surfaces")?;
             out_count.write(patches.len());

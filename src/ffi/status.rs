@@ -1,6 +1,7 @@
 //! What calls return, and what the thread's last failure was.
 
-use super::guard::{guard_value, last_failure};
+use super::arguments::ArgumentError;
+use super::guard::{guard, guard_value, last_failure};
 use crate::failure::ErrorKind;
 use std::ffi::{CStr, c_char};
 
@@ -96,6 +97,23 @@ impl From<()> for planish_status {
 pub extern "C" fn planish_version() -> *const c_char {
     const TEXT: &str = concat!(env!("CARGO_PKG_VERSION"), "\0");
     TEXT.as_ptr().cast()
+}
+
+/// Whether the library that is loaded serves programs that were compiled with a version of this header: that is so with
+/// the same major version, and before version 1 the same minor version too, if the header is not newer.
+///
+/// major: PLANISH_VERSION_MAJOR.
+/// minor: PLANISH_VERSION_MINOR.
+/// Returns PLANISH_STATUS_OK or PLANISH_STATUS_VERSION.
+#[unsafe(no_mangle)]
+pub extern "C" fn planish_check_version(major: u32, minor: u32) -> planish_status {
+    guard(|| {
+        let part = |text: &str| text.parse::<u32>().unwrap_or(u32::MAX);
+        let (own_major, own_minor) =
+            (part(env!("CARGO_PKG_VERSION_MAJOR")), part(env!("CARGO_PKG_VERSION_MINOR")));
+        let fits = major == own_major && if major == 0 { minor == own_minor } else { minor <= own_minor };
+        if fits { Ok(()) } else { Err(ArgumentError::Version { major, minor }.into()) }
+    })
 }
 
 /// The name of a status, such as "PLANISH_STATUS_OK"; "unknown status" for a number that is none. Never

@@ -2,6 +2,7 @@
 //! meshes.
 
 pub mod deviation;
+pub mod extent;
 pub mod gradient;
 pub mod project;
 pub mod rows;

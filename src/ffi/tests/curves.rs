@@ -14,7 +14,7 @@ fn line() -> (CurveHandle, planish_fit_report, [f64; 11]) {
     let u: [f64; 11] = std::array::from_fn(|i| i as f64 / 10.0);
     let values: Vec<f64> = u.iter().flat_map(|u| [2.0 * u, 1.0 - u]).collect();
     let (mut out, mut report, mut errors) = (null_mut(), record(), [NAN; 11]);
-    let options = planish_tensor_options { out_errors: errors.as_mut_ptr(), ..record() };
+    let options = planish_curve_options { out_errors: errors.as_mut_ptr(), ..record() };
     // SAFETY: the arrays have these lengths.
     ok(unsafe { planish_curve_fit(u.as_ptr(), values.as_ptr(), 11, 2, &options, &mut out, &mut report) });
     (CurveHandle(out), report, errors)
@@ -101,10 +101,7 @@ fn bad_arguments_are_refused() {
         refused(planish_curve_fit(u, v, 3, 1, null(), &mut out, none), NotFinite, 2, &["datum 2"]);
         refused(planish_curve_fit(u, u, 0, 1, null(), &mut out, none), InvalidArgument, -1, &["0 data"]);
         refused(planish_curve_fit(u, u, 3, 0, null(), &mut out, none), InvalidArgument, -1, &["dim is 0"]);
-        let options = planish_tensor_options { out_parameters: n, ..record() };
-        let status = planish_curve_fit(u, u, 3, 1, &options, &mut out, none);
-        refused(status, InvalidArgument, -1, &["out_parameters must be NULL"]);
-        let options = planish_tensor_options { grid_u: 1, ..record() };
+        let options = planish_curve_options { grid: 1, ..record() };
         let status = planish_curve_fit(u, u, 3, 1, &options, &mut out, none);
         refused(status, InvalidArgument, -1, &["grid is 1"]);
         null_refused(planish_curve_clone(null(), &mut out), "curve");

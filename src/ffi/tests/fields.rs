@@ -222,7 +222,7 @@ fn gradients_lie_in_the_tangent_plane() {
     // SAFETY: live handles, and arrays of these lengths.
     unsafe {
         let to = out.as_mut_ptr();
-        ok(planish_surface_field_gradient(saddle.0, saddle.0, uv.as_ptr(), 1, 1, to));
+        ok(planish_surface_field_gradient(saddle.0, saddle.0, uv.as_ptr(), 1, null(), to));
         // the field is the place itself: the gradients are the projections of the axes onto the tangent plane of
         // z = x y, whose normal is (-1/4, -1/2, 1)
         let n = [-0.25, -0.5, 1.0];
@@ -232,15 +232,15 @@ fn gradients_lie_in_the_tangent_plane() {
                 assert!((x - exact).abs() <= 16.0 * f64::EPSILON, "{out:?}");
             }
         }
-        null_refused(planish_surface_field_gradient(null(), saddle.0, uv.as_ptr(), 1, 1, to), "shape");
-        null_refused(planish_surface_field_gradient(saddle.0, null(), uv.as_ptr(), 1, 1, to), "field");
-        null_refused(planish_surface_field_gradient(saddle.0, saddle.0, null(), 1, 1, to), "uv");
+        null_refused(planish_surface_field_gradient(null(), saddle.0, uv.as_ptr(), 1, null(), to), "shape");
+        null_refused(planish_surface_field_gradient(saddle.0, null(), uv.as_ptr(), 1, null(), to), "field");
+        null_refused(planish_surface_field_gradient(saddle.0, saddle.0, null(), 1, null(), to), "uv");
         null_refused(
-            planish_surface_field_gradient(saddle.0, saddle.0, uv.as_ptr(), 1, 1, null_mut()),
+            planish_surface_field_gradient(saddle.0, saddle.0, uv.as_ptr(), 1, null(), null_mut()),
             "out_gradients",
         );
         let outside = [0.5, 2.0];
-        let status = planish_surface_field_gradient(saddle.0, saddle.0, outside.as_ptr(), 1, 1, to);
+        let status = planish_surface_field_gradient(saddle.0, saddle.0, outside.as_ptr(), 1, null(), to);
         refused(status, planish_status::Outside, 0, &["point 0", "shape"]);
     }
 }

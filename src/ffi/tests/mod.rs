@@ -11,7 +11,7 @@ mod meshes;
 mod models;
 mod pht;
 mod queries;
-mod records;
+pub(super) mod records;
 mod rows;
 mod spheres;
 mod statuses;

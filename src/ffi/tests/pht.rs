@@ -88,9 +88,9 @@ fn splits_are_undone_and_simplification_says_how_far_it_went() {
         ok(planish_pht_refine_region(s, [0.6, 0.7, 0.6, 0.7].as_ptr(), 3, 100));
         assert_eq!(planish_pht_cell_count(s), 13);
         let mut deviation = -1.0;
-        ok(planish_pht_simplify(s, 1e-12, &mut deviation));
+        ok(planish_pht_simplify(s, 1e-12, null(), &mut deviation));
         assert!((0.0..=1e-12).contains(&deviation) && planish_pht_cell_count(s) <= 7, "{deviation}");
-        ok(planish_pht_simplify(s, 10.0, null_mut()));
+        ok(planish_pht_simplify(s, 10.0, null(), null_mut()));
         assert_eq!(planish_pht_cell_count(s), 1);
     }
 }
@@ -116,12 +116,12 @@ fn conversions_keep_the_surface() {
         assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 16.0 * f64::EPSILON), "{a:?} {b:?}");
 
         let mut count = 0;
-        ok(planish_pht_to_tensor_patches(pht.0, 0, null_mut(), 0, &mut count));
+        ok(planish_pht_to_tensor_patches(pht.0, null(), null_mut(), 0, &mut count));
         let mut handles = vec![null_mut(); count];
-        let short = planish_pht_to_tensor_patches(pht.0, 0, handles.as_mut_ptr(), count - 1, &mut count);
+        let short = planish_pht_to_tensor_patches(pht.0, null(), handles.as_mut_ptr(), count - 1, &mut count);
         refused(short, planish_status::BufferTooSmall, -1, &["out_surfaces"]);
         assert!(handles.iter().all(|handle| handle.is_null()));
-        ok(planish_pht_to_tensor_patches(pht.0, 0, handles.as_mut_ptr(), count, &mut count));
+        ok(planish_pht_to_tensor_patches(pht.0, null(), handles.as_mut_ptr(), count, &mut count));
         let patches: Vec<SurfaceHandle> = handles.into_iter().map(SurfaceHandle).collect();
         assert!(count > 1 && patches.iter().all(|patch| planish_surface_kind(patch.0) == 1));
 
@@ -250,7 +250,7 @@ fn refused_changes_leave_the_surface_alone() {
     unsafe {
         refused(planish_pht_split(s, missing.as_ptr(), 2), Index, 1, &["cell 1"]);
         refused(planish_pht_merge(s, missing.as_ptr(), 1), Index, 0, &["cell 0"]);
-        refused(planish_pht_simplify(s, -1.0, numbers.as_mut_ptr()), InvalidArgument, -1, &["-1"]);
+        refused(planish_pht_simplify(s, -1.0, null(), numbers.as_mut_ptr()), InvalidArgument, -1, &["-1"]);
         refused(planish_pht_set_data(s, [12].as_ptr(), 1, [0.0; 4].as_ptr()), Index, 12, &["vertex 12"]);
         let bad = [0.0, f64::NAN, 0.0, 0.0];
         refused(planish_pht_set_data(s, [3].as_ptr(), 1, bad.as_ptr()), NotFinite, 3, &["vertex 3"]);
@@ -267,7 +267,7 @@ fn refused_changes_leave_the_surface_alone() {
         let (t, n) = (saddle.0, numbers.as_mut_ptr());
         wrong(planish_pht_split(t, missing.as_ptr(), 1));
         wrong(planish_pht_merge(t, missing.as_ptr(), 1));
-        wrong(planish_pht_simplify(t, 1.0, null_mut()));
+        wrong(planish_pht_simplify(t, 1.0, null(), null_mut()));
         wrong(planish_pht_refine_region(t, [0.0; 4].as_ptr(), 1, 9));
         wrong(planish_pht_copy_data(t, n, 1));
         wrong(planish_pht_set_data(t, [0].as_ptr(), 1, n));
@@ -275,7 +275,7 @@ fn refused_changes_leave_the_surface_alone() {
         wrong(planish_pht_copy_hanging(t, n, null_mut(), 2));
         wrong(planish_pht_copy_control_points(t, 0, n, 1));
         wrong(planish_pht_set_control_points(t, [0].as_ptr(), 1, 0, n));
-        wrong(planish_pht_to_tensor_patches(t, 0, null_mut(), 0, &mut count));
+        wrong(planish_pht_to_tensor_patches(t, null(), null_mut(), 0, &mut count));
         assert_eq!((planish_pht_cell_count(t), planish_pht_vertex_count(t)), (0, 0));
         assert_eq!(
             (planish_pht_hanging_count(t), planish_pht_width(t), planish_pht_cell_at(t, 0., 0.)),

@@ -1,5 +1,56 @@
 use super::*;
 
+#[test]
+fn a_surface_says_how_large_it_is() {
+    let surface = SurfaceHandle::saddle();
+    let (mut numbers, mut area): ([f64; 6], f64) = (canary(), canary());
+    // SAFETY: the arrays have these lengths, or are refused before.
+    unsafe {
+        null_refused(planish_surface_box(null(), numbers.as_mut_ptr()), "surface");
+        null_refused(planish_surface_box(surface.0, null_mut()), "out_box");
+        null_refused(planish_surface_area(null(), null(), &mut area), "surface");
+        null_refused(planish_surface_area(surface.0, null(), null_mut()), "out_area");
+        let coarse = planish_tessellate_options { chord_tolerance: -1.0, ..record() };
+        let status = planish_surface_area(surface.0, &coarse, &mut area);
+        refused(status, planish_status::InvalidArgument, -1, &["chord_tolerance"]);
+        assert_untouched(&numbers);
+        assert_untouched(&area);
+        ok(planish_surface_box(surface.0, numbers.as_mut_ptr()));
+        ok(planish_surface_area(surface.0, null(), &mut area));
+        assert_eq!(planish_surface_is_closed(surface.0, 0), 0);
+        assert_eq!(planish_surface_is_closed(null(), 0), 0);
+    }
+    assert!(
+        area > (numbers[3] - numbers[0]) * (numbers[4] - numbers[1]),
+        "{area} is no more than its shadow"
+    );
+}
+
+#[test]
+fn a_flag_cancels_and_a_stage_is_shown() {
+    let surface = SurfaceHandle::saddle();
+    let (points, mut uv) = ([0.5; 3], [canary::<f64>(); 2]);
+    let (cancel, mut stage) = (1, canary::<u32>());
+    let options = planish_project_options { cancel: &cancel, out_stage: &mut stage, ..record() };
+    // SAFETY: one point.
+    let status = unsafe {
+        planish_surface_project(surface.0, points.as_ptr(), 1, &options, uv.as_mut_ptr(), null_mut())
+    };
+    // so short a call may have ended before the flag was looked at
+    if status as i32 != 0 {
+        refused(status, planish_status::Cancelled, -1, &["cancelled"]);
+        assert_untouched(&uv);
+    }
+    assert_eq!(stage, planish_stage::Project as u32);
+}
+
+#[test]
+fn headers_of_other_versions_are_refused() {
+    ok(planish_check_version(0, 1));
+    refused(planish_check_version(0, 2), planish_status::Version, -1, &["0.2", "0.1.0"]);
+    refused(planish_check_version(1, 0), planish_status::Version, -1, &["1.0"]);
+}
+
 const NAN: f64 = f64::NAN;
 
 #[test]

@@ -38,6 +38,12 @@ module planish_calls
 
 pub fn text(api: &Api) -> String {
     let mut text = HEAD.to_owned();
+    text.push_str("\n  !> The version of planish.h that this follows.\n");
+    for (part, value) in ["MAJOR", "MINOR", "PATCH"].iter().zip(&api.version) {
+        text.push_str(&format!(
+            "  integer(c_int32_t), parameter, public :: PLANISH_VERSION_{part} = {value}\n"
+        ));
+    }
     for constant in &api.constants {
         text.push('\n');
         comment(&mut text, 2, &constant.documentation.sentence());
@@ -53,8 +59,39 @@ pub fn text(api: &Api) -> String {
     text.push_str(CALLS);
     let functions = api.functions.iter().map(function).collect::<Vec<_>>();
     text.push_str(&functions.join("\n"));
-    text.push_str("  end interface\nend module\n");
+    text.push_str("  end interface\n\n");
+    inits(api, &mut text);
+    text.push_str("end module\n");
     text
+}
+
+/// One name for all functions that fill options with the defaults.
+fn inits(api: &Api, text: &mut String) {
+    let records = || {
+        let names = api.records.iter().map(|record| &record.name);
+        names.filter(|name| api.function(&format!("{name}_init")).is_some())
+    };
+    let local = |name: &str| name.replacen("planish_", "init_", 1);
+    text.push_str(
+        "  !> Puts a record back to the defaults that the library has: `call planish_options_init(options)`.\n  \
+         interface planish_options_init\n",
+    );
+    for name in records() {
+        text.push_str(&format!("    module procedure {}\n", local(name)));
+    }
+    text.push_str("  end interface\n");
+    for name in records() {
+        text.push_str(&format!("  private :: {}\n", local(name)));
+    }
+    text.push_str("\ncontains\n");
+    for name in records() {
+        let call = name.replacen("planish_", "c_", 1);
+        text.push_str(&format!(
+            "\n  subroutine {}(options)\n    type({name}), intent(inout) :: options\n    integer(c_int) :: status\n    \
+             status = {call}_init(options, c_sizeof(options)) ! which cannot fail\n  end subroutine\n",
+            local(name)
+        ));
+    }
 }
 
 fn enumeration(api: &Api, enumeration: &Enumeration, text: &mut String) {

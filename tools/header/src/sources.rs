@@ -23,6 +23,7 @@ const ORDER: &[&str] = &[
     "transfer.rs",
     "query.rs",
     "rows.rs",
+    "extent.rs",
     "export.rs",
     "step.rs",
     "report_page.rs",
