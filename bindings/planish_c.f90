@@ -2923,7 +2923,7 @@ module planish_calls
       implicit none
       type(c_ptr), value :: surface
       integer(c_size_t), value :: cell
-      integer(c_size_t), intent(inout), optional :: out_cells(*)
+      integer(c_int32_t), intent(inout), optional :: out_cells(*)
       integer(c_size_t), value :: count
       integer(c_size_t), intent(inout) :: out_count
     end function
@@ -2940,7 +2940,7 @@ module planish_calls
       import
       implicit none
       type(c_ptr), value :: surface
-      integer(c_size_t), intent(in) :: vertices(*)
+      integer(c_int32_t), intent(in) :: vertices(*)
       integer(c_size_t), value :: count
       real(c_double), intent(in) :: data(*)
     end function
@@ -2962,7 +2962,7 @@ module planish_calls
       import
       implicit none
       type(c_ptr), value :: surface
-      integer(c_size_t), intent(in) :: vertices(*)
+      integer(c_int32_t), intent(in) :: vertices(*)
       integer(c_size_t), value :: count
       integer(c_int32_t), value :: basis
       real(c_double), intent(in) :: points(*)

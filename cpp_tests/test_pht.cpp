@@ -21,7 +21,7 @@ static planish::surface hat() {
   planish::surface surface = planish::pht_new(1, false, unit, unit, {{0, 0, 0}, {1, 0, 0}});
   planish::pht view(surface);
   const auto vertices = view.vertices();
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
+  for (std::uint32_t i = 0; i < vertices.size(); ++i) {
     if (vertices[i] == planish::point2{0.5, 0.5}) view.set_data({i}, {1, 0, 0, 0});
   }
   return surface;
@@ -225,7 +225,7 @@ TEST(Pht, RefusalsChangeNothing) {
   planish_surface *out = sentinel<planish_surface>();
   const std::uint32_t gone[] = {1, 0, 0};
   const double bad[] = {nan_, 0, 0, 0};
-  const std::size_t vertex = 0, far = 12;
+  const std::uint32_t vertex = 0, far = 12;
   CHECK(planish_pht_split(s, gone, 1) == PLANISH_STATUS_INDEX);
   CHECK_EQUAL(planish_error_index(), 0);
   CHECK(planish_pht_split(nullptr, gone, 1) == PLANISH_STATUS_NULL_POINTER);

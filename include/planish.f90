@@ -3256,7 +3256,7 @@ contains
     integer, allocatable, intent(inout) :: cells(:)
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    integer(c_size_t), allocatable :: found(:)
+    integer(c_int32_t), allocatable :: found(:)
     integer(c_size_t) :: count
     integer(c_int) :: status
     if (refuse(cell < 1, PLANISH_STATUS_INDEX, "cells count from 1", stat, errmsg)) return
@@ -3289,7 +3289,7 @@ contains
     character(*), intent(inout), optional :: errmsg
     if (refuse_quadruples(surface, shape(data, c_size_t), "data", stat, errmsg)) return
     if (refuse_vertices(vertices, size(data, 3, c_size_t), "data", stat, errmsg)) return
-    call conclude(c_pht_set_data(surface%get(), vertices - 1_c_size_t, size(vertices, kind=c_size_t), data), &
+    call conclude(c_pht_set_data(surface%get(), vertices - 1_c_int32_t, size(vertices, kind=c_size_t), data), &
         stat, errmsg)
   end subroutine
 
@@ -3315,7 +3315,7 @@ contains
     character(*), intent(inout), optional :: errmsg
     if (refuse_quadruples(surface, shape(points, c_size_t), "points", stat, errmsg)) return
     if (refuse_vertices(vertices, size(points, 3, c_size_t), "points", stat, errmsg)) return
-    call conclude(c_pht_set_control_points(surface%get(), vertices - 1_c_size_t, size(vertices, kind=c_size_t), &
+    call conclude(c_pht_set_control_points(surface%get(), vertices - 1_c_int32_t, size(vertices, kind=c_size_t), &
         basis, points), stat, errmsg)
   end subroutine
 

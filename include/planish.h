@@ -6011,7 +6011,7 @@ PLANISH_API
 PLANISH_NODISCARD
 enum planish_status planish_pht_copy_neighbours(const struct planish_surface *surface,
                                                 size_t cell,
-                                                size_t *out_cells,
+                                                uint32_t *out_cells,
                                                 size_t count,
                                                 size_t *out_count);
 
@@ -6047,7 +6047,7 @@ enum planish_status planish_pht_copy_data(const struct planish_surface *surface,
 PLANISH_API
 PLANISH_NODISCARD
 enum planish_status planish_pht_set_data(struct planish_surface *surface,
-                                         const size_t *vertices,
+                                         const uint32_t *vertices,
                                          size_t count,
                                          const double *data);
 
@@ -6084,7 +6084,7 @@ enum planish_status planish_pht_copy_control_points(const struct planish_surface
 PLANISH_API
 PLANISH_NODISCARD
 enum planish_status planish_pht_set_control_points(struct planish_surface *surface,
-                                                   const size_t *vertices,
+                                                   const uint32_t *vertices,
                                                    size_t count,
                                                    uint32_t basis,
                                                    const double *points);

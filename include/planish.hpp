@@ -1532,10 +1532,10 @@ class pht {
   }
 
   /// The cells that share a part of an edge with a cell: at its least u, largest u, least v, largest v.
-  std::vector<std::size_t> neighbours(std::size_t cell) const {
+  std::vector<std::uint32_t> neighbours(std::size_t cell) const {
     std::size_t count = 0;
     detail::checked(planish_pht_copy_neighbours(surface_, cell, nullptr, 0, &count));
-    std::vector<std::size_t> cells(count);
+    std::vector<std::uint32_t> cells(count);
     detail::checked(planish_pht_copy_neighbours(surface_, cell, cells.data(), count, &count));
     return cells;
   }
@@ -1548,7 +1548,7 @@ class pht {
   }
 
   /// Replaces the data of some basis vertices.
-  void set_data(const std::vector<std::size_t> &vertices, const std::vector<double> &data) {
+  void set_data(const std::vector<std::uint32_t> &vertices, const std::vector<double> &data) {
     detail::check_rows(data.size(), vertices.size(), 4 * width());
     detail::checked(planish_pht_set_data(surface_, vertices.data(), vertices.size(), data.data()));
   }
@@ -1561,7 +1561,7 @@ class pht {
   }
 
   /// Replaces the control points of some basis vertices.
-  void set_control_points(const std::vector<std::size_t> &vertices, const std::vector<double> &points,
+  void set_control_points(const std::vector<std::uint32_t> &vertices, const std::vector<double> &points,
                           planish_pht_basis basis = PLANISH_PHT_BASIS_CANONICAL) {
     detail::check_rows(points.size(), vertices.size(), 4 * width());
     detail::checked(

@@ -307,19 +307,6 @@ pub(super) unsafe trait Record: Copy + Default {
 /// }
 /// ```
 macro_rules! record {
-    // the fields stand elsewhere
-    ($record:ident, $size:literal, { $($field:ident: $offset:literal),* $(,)? }) => {
-        // SAFETY: the type's size is that of its fields.
-        unsafe impl $crate::ffi::arguments::Record for $record {
-            const NAME: &'static str = stringify!($record);
-        }
-
-        #[cfg(target_pointer_width = "64")]
-        const _: () = {
-            assert!(size_of::<$record>() == $size);
-            $(assert!(std::mem::offset_of!($record, $field) == $offset, stringify!($field));)*
-        };
-    };
     (
         $(#[$told:meta])*
         pub struct $record:ident $(($init:ident $(; $($core:ident: $options:ty),+)?))? {

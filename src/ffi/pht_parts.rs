@@ -1,6 +1,8 @@
 //! PHT-splines in parts: cells, vertices, data, control points, extraction operators.
 
-use super::arguments::{ArgumentError, choice, deref, deref_mut, out, rows_mut, slice, slice_mut_or_none};
+use super::arguments::{
+    ArgumentError, choice, copy_rows, deref, deref_mut, out, rows_mut, slice, slice_mut_or_none,
+};
 use super::guard::guard;
 use super::planish_status;
 use super::surface::{planish_surface, query_surface};
@@ -169,7 +171,7 @@ fn leaf(pht: &PhtSurface, index: usize) -> Result<NodeId, ArgumentError> {
 pub unsafe extern "C" fn planish_pht_copy_neighbours(
     surface: *const planish_surface,
     cell: usize,
-    out_cells: *mut usize,
+    out_cells: *mut u32,
     count: usize,
     out_count: *mut usize,
 ) -> planish_status {
@@ -181,7 +183,8 @@ pub unsafe extern "C" fn planish_pht_copy_neighbours(
         if !out_cells.is_null() {
             let cells = rows_mut(out_cells, count, neighbours.len(), 1, "out_cells")?;
             for (cell, &neighbour) in cells.iter_mut().zip(&neighbours) {
-                *cell = pht.topology().leaf_of(neighbour);
+                // max_cells keeps the numbers of leaves far below 2^32
+                *cell = pht.topology().leaf_of(neighbour) as u32;
             }
         }
         out_count.write(neighbours.len());
@@ -229,7 +232,7 @@ pub unsafe extern "C" fn planish_pht_copy_data(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_pht_set_data(
     surface: *mut planish_surface,
-    vertices: *const usize,
+    vertices: *const u32,
     count: usize,
     data: *const f64,
 ) -> planish_status {
@@ -237,7 +240,7 @@ pub unsafe extern "C" fn planish_pht_set_data(
     guard(|| unsafe {
         let pht = deref_mut(surface, "surface")?.pht_mut()?;
         let len = super::arguments::array_len::<f64>(count, 4 * pht.width(), "data")?;
-        Ok(pht.set_jets(slice(vertices, count, "vertices")?, slice(data, len, "data")?)?)
+        Ok(pht.set_jets(&numbers(vertices, count)?, slice(data, len, "data")?)?)
     })
 }
 
@@ -269,6 +272,15 @@ pub unsafe extern "C" fn planish_pht_copy_control_points(
     })
 }
 
+/// Numbers of vertices.
+///
+/// # Safety
+/// `vertices` is NULL or points to so many numbers.
+unsafe fn numbers(vertices: *const u32, count: usize) -> Result<Vec<usize>, ArgumentError> {
+    // SAFETY: the caller's promise.
+    unsafe { copy_rows(vertices, count, 1, "vertices", |[vertex]| vertex as usize) }
+}
+
 /// Replaces the control points of some basis vertices of a PHT-spline, all or none.
 ///
 /// surface:  not NULL; changed.
@@ -282,7 +294,7 @@ pub unsafe extern "C" fn planish_pht_copy_control_points(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_pht_set_control_points(
     surface: *mut planish_surface,
-    vertices: *const usize,
+    vertices: *const u32,
     count: usize,
     basis: u32,
     points: *const f64,
@@ -292,8 +304,8 @@ pub unsafe extern "C" fn planish_pht_set_control_points(
         let pht = deref_mut(surface, "surface")?.pht_mut()?;
         let basis = self::basis(basis)?;
         let len = super::arguments::array_len::<f64>(count, 4 * pht.width(), "points")?;
-        let vertices = slice(vertices, count, "vertices")?;
-        Ok(pht.set_control_points(vertices, basis, slice(points, len, "points")?)?)
+        let vertices = numbers(vertices, count)?;
+        Ok(pht.set_control_points(&vertices, basis, slice(points, len, "points")?)?)
     })
 }
 

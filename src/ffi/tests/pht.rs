@@ -37,22 +37,28 @@ fn the_worked_example_goes_in_and_out() {
         let (mut hanging, mut hosts) = ([0.0; 4], [9_u32; 2]);
         ok(planish_pht_copy_hanging(s, hanging.as_mut_ptr(), hosts.as_mut_ptr(), 2));
         assert_eq!((hanging, hosts), ([0.25, 0.5, 0.5, 0.25], [4, 5]));
-        let (mut near, mut count) = ([0_usize; 8], 0);
+        let (mut near, mut count) = ([0_u32; 8], 0);
         ok(planish_pht_copy_neighbours(s, 4, null_mut(), 0, &mut count));
         assert_eq!(count, 3);
         ok(planish_pht_copy_neighbours(s, 4, near.as_mut_ptr(), 8, &mut count));
         assert_eq!(near[..count], [6, 1, 3]);
         assert_eq!(planish_pht_cell_at(s, 0.3, 0.3), 3);
 
-        ok(planish_pht_set_data(s, [middle].as_ptr(), 1, [1.0, 0.0, 0.0, 0.0].as_ptr()));
+        ok(planish_pht_set_data(s, [middle as u32].as_ptr(), 1, [1.0, 0.0, 0.0, 0.0].as_ptr()));
         assert!((value(&surface, 0.375, 0.375) - 19.0 / 32.0).abs() <= 4.0 * f64::EPSILON);
         let mut points = [0.0; 48];
         for basis in [planish_pht_basis::Canonical, planish_pht_basis::SupportSized] {
             ok(planish_pht_copy_control_points(s, basis as u32, points.as_mut_ptr(), 12));
             assert_eq!(points[4 * middle..][..4], [1.0; 4]);
-            ok(planish_pht_set_control_points(s, [middle].as_ptr(), 1, basis as u32, [2.0; 4].as_ptr()));
+            ok(planish_pht_set_control_points(
+                s,
+                [middle as u32].as_ptr(),
+                1,
+                basis as u32,
+                [2.0; 4].as_ptr(),
+            ));
             assert!((value(&surface, 0.375, 0.375) - 19.0 / 16.0).abs() <= 8.0 * f64::EPSILON);
-            ok(planish_pht_set_data(s, [middle].as_ptr(), 1, [1.0, 0.0, 0.0, 0.0].as_ptr()));
+            ok(planish_pht_set_data(s, [middle as u32].as_ptr(), 1, [1.0, 0.0, 0.0, 0.0].as_ptr()));
         }
         let mut data = [0.0; 48];
         ok(planish_pht_copy_data(s, data.as_mut_ptr(), 12));

@@ -1,0 +1,122 @@
+//! How soon long calls end when they are cancelled, and how often they ask.
+//!
+//! `cargo bench --bench cancel -- [NODES [NAME]]`, 100,000 nodes unless told otherwise; NAME picks one call.
+//!
+//! Each call runs once undisturbed, then a flag is set from another thread after 1/8, 2/8 .. 7/8 of its time. `asked` is
+//! the longest time between two questions to the listener, `ended` the longest from the flag to the end of the call, both
+//! in milliseconds of the clock on 2 threads.
+
+use glam::DVec2;
+use planish::Control;
+use planish::fit::d1rc::{D1rcFitOptions, fit_mesh as fit_d1rc};
+use planish::fit::field::{FieldFitter, FieldOptions};
+use planish::fit::pht::{PhtOptions, fit_mesh as fit_pht};
+use planish::fit::report::Tolerance;
+use planish::fit::tensor::{TensorOptions, fit_mesh as fit_tensor};
+use planish::mesh::{DecimateOptions, Mesh};
+use planish::parameterize::{ParameterizeOptions, parameterize};
+use planish::query::deviation::{DeviationOptions, deviation};
+use planish::query::project::{ProjectOptions, Projector};
+use planish::query::tessellate::{TessellateOptions, tessellate};
+use planish::samples::{franke, grid};
+use planish::surface::pht::{ConvertOptions, PhtSurface};
+use planish::surface::tensor::TensorSurface;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicI32, Ordering};
+use std::sync::mpsc;
+use std::time::{Duration, Instant};
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
+    let nodes: usize = arguments.first().map_or(100_000, |nodes| nodes.parse().expect("a number of nodes"));
+    let name = arguments.get(1).cloned();
+    let sheet = sheet(nodes);
+    let mut bare = sheet.clone();
+    bare.clear_parameters();
+    let tolerance = Tolerance { value: 1e-3, ..Tolerance::default() };
+    let surface =
+        fit_tensor(&sheet, &TensorOptions::default().with_tolerance(tolerance), &mut Control::new(2));
+    let surface: TensorSurface = surface.expect("a sheet can be fitted").surface;
+    let pht = PhtSurface::from_tensor(&surface, &ConvertOptions::default()).expect("it converts");
+    let points: Vec<f64> = sheet.points().iter().flat_map(|p| (*p * 1.01).to_array()).collect();
+
+    println!("{:14} {:>9} {:>9} {:>9}", "call", "ms", "asked", "ended");
+    let mut row = |call: &str, run: &(dyn Fn(&mut Control) + Sync)| {
+        if name.as_ref().is_none_or(|name| name == call) {
+            measure(call, run);
+        }
+    };
+    row("parameterize", &|control| drop(parameterize(&bare, &ParameterizeOptions::TENSOR, control)));
+    row("tensor_fit", &|control| {
+        let fine = Tolerance { value: 1e-5, ..tolerance };
+        drop(fit_tensor(&sheet, &TensorOptions::default().with_tolerance(fine), control));
+    });
+    row("pht_fit", &|control| {
+        let options =
+            PhtOptions { tolerance: Tolerance { value: 1e-5, ..tolerance }, ..PhtOptions::default() };
+        drop(fit_pht(&sheet, &options, control));
+    });
+    row("d1rc_fit", &|control| drop(fit_d1rc(&sheet, &D1rcFitOptions::default(), control)));
+    row("field_fitter", &|control| drop(FieldFitter::on_mesh(&sheet, &FieldOptions::default(), control)));
+    row("decimate", &|control| drop(sheet.decimate(&DecimateOptions::default(), control)));
+    row("project", &|control| {
+        let (mut uv, mut distances) =
+            (vec![DVec2::ZERO; sheet.points().len()], vec![0.0; sheet.points().len()]);
+        let projector = Projector::new(&surface).expect("it has patches");
+        drop(projector.project(&points, &ProjectOptions::default(), &mut uv, &mut distances, control.pool()));
+    });
+    row("deviation", &|control| {
+        let options = DeviationOptions { measure_back: true, ..DeviationOptions::default() };
+        drop(deviation(&surface, &sheet, &options, control.pool()));
+    });
+    row("tessellate", &|_| {
+        let options = TessellateOptions { chord_tolerance: 1e-6, ..TessellateOptions::default() };
+        drop(tessellate(&surface, &options));
+    });
+    row("pht_from", &|_| drop(PhtSurface::from_tensor(&surface, &ConvertOptions::default())));
+    row("pht_simplify", &|_| drop(pht.clone().simplify(1e-3)));
+}
+
+/// A bumpy sheet with about so many nodes over the unit square, their parameters.
+fn sheet(nodes: usize) -> Mesh {
+    let side = (nodes as f64).sqrt() as usize;
+    let (places, triangles) = grid([side, side], 0.2, 1, |_| true);
+    let height = |p: DVec2| 0.2 * franke(p) + 0.01 * (40.0 * p.x).sin() * (30.0 * p.y).cos();
+    let mut mesh = Mesh::new(places.iter().map(|&p| p.extend(height(p))).collect(), triangles)
+        .expect("a grid is a mesh");
+    mesh.set_parameters(places).expect("one for each node");
+    mesh
+}
+
+fn measure(name: &str, run: &(dyn Fn(&mut Control) + Sync)) {
+    let mut asked = (Instant::now(), Duration::ZERO);
+    let mut listen = |_: f64, _: f64| {
+        asked = (Instant::now(), asked.1.max(asked.0.elapsed()));
+        ControlFlow::Continue(())
+    };
+    let start = Instant::now();
+    let _ = Control::new(2).with_progress(&mut listen).host(run);
+    let time = start.elapsed();
+    asked.1 = asked.1.max(asked.0.elapsed());
+    let ended = (1..8).map(|k| until_ended(time * k / 8, run)).max().unwrap_or_default();
+    let ms = |time: Duration| time.as_secs_f64() * 1e3;
+    println!("{name:14} {:9.0} {:9.1} {:9.1}", ms(time), ms(asked.1), ms(ended));
+}
+
+/// From the flag, set after some time, to the end of the call; zero if it had ended before.
+fn until_ended(after: Duration, run: &(dyn Fn(&mut Control) + Sync)) -> Duration {
+    let flag = AtomicI32::new(0);
+    let (tell_end, end) = mpsc::channel();
+    std::thread::scope(|scope| {
+        let set = scope.spawn(|| {
+            let has_ended = end.recv_timeout(after).is_ok();
+            flag.store(1, Ordering::Relaxed);
+            (!has_ended).then(Instant::now)
+        });
+        let _ = Control::new(2).with_cancel(&flag).host(run);
+        let ended = Instant::now();
+        let _ = tell_end.send(());
+        let set = set.join().expect("it only waits");
+        set.map_or(Duration::ZERO, |set| ended.saturating_duration_since(set))
+    })
+}
