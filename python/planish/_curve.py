@@ -152,8 +152,8 @@ def fit_curve(
     errors = np.empty(len(u))
     report = report_record("fit_report")
     scale = "absolute" if absolute else "relative"
-    filled = dict(long.fields("tensor_options"), tolerance=tolerance, tolerance_scale=scale, out_errors=errors)
-    record = options("tensor_options", curve_options, **filled)
+    filled = dict(long.fields("curve_options"), tolerance=tolerance, tolerance_scale=scale, out_errors=errors)
+    record = options("curve_options", curve_options, **filled)
     status, handle = made(
         "planish_curve_fit",
         *(pointer(u), pointer(values), len(u), values.size // len(u), by_reference(record), OUT),

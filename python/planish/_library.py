@@ -26,7 +26,9 @@ def _load() -> ctypes.CDLL:
     library = ctypes.CDLL(path)
     library.planish_version.restype = ctypes.c_char_p
     found = library.planish_version().decode()
-    if found.split(".")[:2] != _abi.VERSION.split(".")[:2]:
+    major, minor, _ = map(int, _abi.VERSION.split("."))
+    check = getattr(library, "planish_check_version", None)
+    if check is None or check(ctypes.c_uint32(major), ctypes.c_uint32(minor)) != 0:
         raise ImportError(f"{path} is planish {found}, this package needs {_abi.VERSION}")
     _abi.declare(library)
     return library

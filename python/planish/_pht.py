@@ -127,18 +127,21 @@ class PhtSurface(Surface, kind="pht"):
         expect(region, (4,), "region")
         call("planish_pht_refine_region", self, pointer(region), level, max_cells)
 
-    def simplify(self, tolerance: float) -> float:
+    def simplify(self, tolerance: float, *, progress: ProgressCallback | None = None) -> float:
         """Merges cells where the surface moves by at most `tolerance`, in its units; returns a bound of how far it did."""
+        long = LongCall(progress)
+        record = options("pht_simplify_options", **long.fields("pht_simplify_options"))
         deviation = ctypes.c_double()
-        call("planish_pht_simplify", self, tolerance, ctypes.byref(deviation))
+        long("planish_pht_simplify", self, tolerance, by_reference(record), ctypes.byref(deviation))
         return deviation.value
 
-    def to_tensor_patches(self, sigma: int = 1) -> list[TensorSurface]:
-        """The same shape as few tensor product surfaces, each spanning at most `sigma` levels of the T-mesh."""
+    def to_tensor_patches(self, level_spread: int = 1) -> list[TensorSurface]:
+        """The same shape as few tensor product surfaces, each over cells whose levels differ by at most `level_spread`."""
         count = ctypes.c_size_t()
-        lib.planish_pht_to_tensor_patches(self, sigma, None, 0, ctypes.byref(count))
+        record = options("pht_patches_options", {"level_spread": level_spread})
+        call("planish_pht_to_tensor_patches", self, by_reference(record), None, 0, ctypes.byref(count))
         handles = (ctypes.c_void_p * count.value)()
-        arguments = (self, sigma, ctypes.addressof(handles), len(handles), ctypes.byref(count))
+        arguments = (self, by_reference(record), ctypes.addressof(handles), len(handles), ctypes.byref(count))
         call("planish_pht_to_tensor_patches", *arguments)
         return [Surface._own(ctypes.c_void_p(handle)) for handle in handles]
 

@@ -86,6 +86,28 @@ class Surface(Handle):
         return self._box("planish_surface_domain")
 
     @property
+    def box(self) -> np.ndarray:
+        """The box of the surface over its whole domain, (2, dim): the least of each component, then the largest."""
+        box = np.empty((2, self.dim))
+        call("planish_surface_box", self, pointer(box))
+        return box
+
+    def area(self, *, progress: ProgressCallback | None = None, **tessellate_options: Any) -> float:
+        """The area of the part inside the trims, in squares of model units; options say how finely it is divided."""
+        long = LongCall(progress)
+        record = options("tessellate_options", tessellate_options, **long.fields("tessellate_options"))
+        area = ctypes.c_double()
+        long("planish_surface_area", self, by_reference(record), ctypes.byref(area))
+        return area.value
+
+    def is_closed(self, axis: str) -> bool:
+        """Whether the two sides of the domain that bound an axis, "u" or "v", are one curve."""
+        axes = _abi.ENUMERATIONS["planish_axis"]
+        if axis not in axes:
+            raise InvalidError(f"axis is {axis!r}; the choices are 'u', 'v'")
+        return bool(lib.planish_surface_is_closed(self, axes[axis]))
+
+    @property
     def data_box(self) -> tuple[float, float, float, float]:
         """(u0, u1, v0, v1): the box of the data's parameters, which may be smaller than the domain."""
         return self._box("planish_surface_data_box")

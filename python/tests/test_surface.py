@@ -156,6 +156,18 @@ def test_normals_and_curvatures_of_a_cylinder():
     assert np.abs(known[0]).max() <= 1e-12 and np.abs(known[1] - 0.5).max() <= 1e-12
 
 
+def test_a_surface_says_how_large_it_is():
+    knots_u, knots_v = [0, 0, 1, 2, 3, 4, 4], [0, 0, 1, 1]
+    outline = np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]], float)
+    points = np.stack([np.column_stack([outline, np.full(5, z)]) for z in (0.0, 3.0)], axis=1)
+    tube = planish.tensor(knots_u, knots_v, points)
+    assert tube.box.tolist() == [[0, 0, 0], [1, 1, 3]]
+    assert abs(tube.area() - 12) < 1e-12
+    assert tube.is_closed("u") and not tube.is_closed("v")
+    with pytest.raises(ValueError):
+        tube.is_closed("w")
+
+
 def test_a_closed_handle_is_told(spline):
     spline.close()
     with pytest.raises((ValueError, ctypes.ArgumentError), match="closed"):
