@@ -4,10 +4,12 @@
 //! same bits on every machine.
 
 pub mod layouts;
+mod parts;
 pub mod rows;
 mod solids;
 
-pub use solids::{ball, handles, holed_block, starfish};
+pub use parts::{bracket, bust, limb};
+pub use solids::{ball, handles, holed_block, rocker, starfish};
 
 use crate::mesh::{Mesh, MeshError};
 use crate::surface::{Domain, Trims};

@@ -4,7 +4,7 @@ mod common;
 
 use glam::DVec2;
 use planish::Control;
-use planish::mesh::{Mesh, MeshOptions, read};
+use planish::mesh::Mesh;
 use planish::parameterize::{ParameterizeOptions, parameterize};
 use planish::samples::Random;
 use planish::surface::Surface;
@@ -12,8 +12,7 @@ use planish::surface::d1rc::{Boundary, D1rcOptions, D1rcSurface, Recipe, Space, 
 
 /// The mesh with our map; None, and a line that says so, where the file is absent.
 fn mapped(name: &str) -> Option<Mesh> {
-    let path = common::shared_data(name)?;
-    let (mut mesh, _) = read(&path, &MeshOptions::default()).unwrap();
+    let mut mesh = common::mesh(name)?;
     let map = parameterize(&mesh, &ParameterizeOptions::default(), &mut Control::default()).unwrap();
     mesh.set_parameters(map.uv).unwrap();
     Some(mesh)
@@ -30,7 +29,7 @@ fn plane(mesh: &Mesh, options: D1rcOptions, sharp: &[[u32; 2]]) -> D1rcSurface {
 
 #[test]
 fn real_control_meshes_keep_the_plane() {
-    for name in ["mask_control_1290.off", "maxface_disk_4k.off"] {
+    for name in ["bust", "limb", "mask_control_1290.off", "maxface_disk_4k.off"] {
         let Some(mesh) = mapped(name) else { continue };
         let sharp = sharp_edges(&mesh, 40_f64.to_radians()).unwrap();
         for (degree, boundary, sharp) in [

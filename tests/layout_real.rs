@@ -6,7 +6,6 @@ mod common;
 
 use planish::Control;
 use planish::layout::of_mesh::{LayoutKind, MeshLayoutOptions, layout_of_mesh};
-use planish::mesh::{MeshOptions, read};
 
 #[test]
 fn base_complexes_of_real_meshes_are_as_good_as_measured() {
@@ -17,8 +16,7 @@ fn base_complexes_of_real_meshes_are_as_good_as_measured() {
         ("bullet_closed_14k.ply", 40, 6.0),
         ("hammer_closed_30k.ply", 40, 6.5),
     ] {
-        let Some(path) = common::shared_data(name) else { continue };
-        let (mesh, _) = read(&path, &MeshOptions::default()).expect(name);
+        let Some(mesh) = common::mesh(name) else { continue };
         let options = MeshLayoutOptions::default().with_kind(LayoutKind::Complex).with_patches(patches);
         let made = layout_of_mesh(&mesh, &options, &mut Control::new(2)).expect(name);
         let report = made.report;
@@ -33,8 +31,7 @@ fn base_complexes_of_real_meshes_are_as_good_as_measured() {
 #[test]
 fn spheres_become_cubes() {
     for name in ["igea_closed_45k.ply", "hammer_closed_30k.ply"] {
-        let Some(path) = common::shared_data(name) else { continue };
-        let (mesh, _) = read(&path, &MeshOptions::default()).expect(name);
+        let Some(mesh) = common::mesh(name) else { continue };
         let made = layout_of_mesh(&mesh, &MeshLayoutOptions::default(), &mut Control::new(2)).expect(name);
         assert_eq!((made.report.kind, made.layout.quads().len()), (LayoutKind::Cube, 6));
         assert_eq!((made.report.folded_nodes, made.report.spread_nodes), (0, 0), "{name}");

@@ -2,19 +2,11 @@
 //!
 //! Skips, and says so, where the shared meshes are not at hand.
 
-use planish::Control;
-use planish::mesh::{Mesh, MeshOptions, read};
-use planish::parameterize::{Border, Method, ParameterizeOptions, ParameterizeReport, Remarks, parameterize};
-use std::path::{Path, PathBuf};
+mod common;
 
-fn shared_data() -> Option<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
-    if !folder.is_dir() {
-        eprintln!("SKIPPED: {} is not there", folder.display());
-        return None;
-    }
-    Some(folder)
-}
+use planish::Control;
+use planish::mesh::Mesh;
+use planish::parameterize::{Border, Method, ParameterizeOptions, ParameterizeReport, Remarks, parameterize};
 
 /// L2, Linf and area ratio.
 type Row = [f64; 3];
@@ -101,10 +93,9 @@ fn run(mesh: &Mesh, options: ParameterizeOptions) -> ParameterizeReport {
 
 #[test]
 fn maps_of_real_meshes_stretch_as_measured_and_never_fold() {
-    let Some(folder) = shared_data() else { return };
     let mut faults = Vec::new();
     for case in &CASES {
-        let (mesh, _) = read(&folder.join(case.file), &MeshOptions::default()).expect(case.file);
+        let Some(mesh) = common::mesh(case.file) else { continue };
         let (first, full) = (ParameterizeOptions::MEAN_VALUE, ParameterizeOptions::TENSOR.with_unroll(false));
         let harmonic = first.with_method(Method::Harmonic);
         for (name, options, expected) in [
@@ -155,9 +146,24 @@ fn maps_of_real_meshes_stretch_as_measured_and_never_fold() {
 
 #[test]
 fn a_harmonic_map_of_a_head_reports_its_flips() {
-    let Some(folder) = shared_data() else { return };
-    let (mesh, _) = read(&folder.join("mannequin_disk_13k.off"), &MeshOptions::default()).expect("mannequin");
+    let Some(mesh) = common::mesh("mannequin_disk_13k.off") else { return };
     let report = run(&mesh, ParameterizeOptions::HARMONIC.with_border(Border::Circle));
     assert_eq!(report.flipped_triangles, 3);
     assert!(report.remarks.contains(Remarks::FOLDED));
+}
+
+#[test]
+fn maps_of_samples_never_fold_and_stretch_steps_even_them_out() {
+    for name in ["bust", "limb"] {
+        let Some(mesh) = common::mesh(name) else { continue };
+        for border in [Border::Circle, Border::SquareByTurns, Border::SquareByArc] {
+            let first = run(&mesh, ParameterizeOptions::MEAN_VALUE.with_border(border));
+            let full = run(&mesh, ParameterizeOptions::TENSOR.with_unroll(false).with_border(border));
+            for report in [&first, &full] {
+                assert_eq!(report.flipped_triangles + report.degenerate_triangles, 0, "{name}, {border:?}");
+                assert!(!report.remarks.contains(Remarks::FOLDED));
+            }
+            assert!(full.stretch.l2 <= first.stretch.l2, "{name}, {border:?}: {full:?}");
+        }
+    }
 }

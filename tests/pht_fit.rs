@@ -6,7 +6,7 @@ use glam::DVec2;
 use planish::Control;
 use planish::fit::pht::{PhtFit, PhtOptions, fit_mesh, fit_points};
 use planish::fit::report::{Remarks, StopReason, Tolerance};
-use planish::mesh::{MeshOptions, read};
+use planish::mesh::Mesh;
 use planish::surface::Surface;
 use std::path::Path;
 
@@ -14,8 +14,8 @@ fn options<'a>(value: f64) -> PhtOptions<'a> {
     PhtOptions { tolerance: Tolerance { value, ..Tolerance::default() }, ..PhtOptions::default() }
 }
 
-fn fit(path: &Path, tolerance: f64) -> PhtFit {
-    let (mut mesh, _) = read(path, &MeshOptions::default()).unwrap();
+fn fit(mesh: &Mesh, tolerance: f64) -> PhtFit {
+    let mut mesh = mesh.clone();
     mesh.clear_parameters();
     fit_mesh(&mesh, &options(tolerance), &mut Control::default()).unwrap()
 }
@@ -29,9 +29,9 @@ fn heads_and_panels_need_no_more_coefficients_than_this() {
         ("mannequin_disk_13k.off", 1800, 9500),
         ("igea_disk_43k.ply", 900, 9000),
     ] {
-        let Some(path) = common::shared_data(name) else { continue };
+        let Some(mesh) = common::mesh(name) else { continue };
         for (tolerance, most) in [(1e-2, coarse), (1e-3, fine)] {
-            let report = fit(&path, tolerance).report;
+            let report = fit(&mesh, tolerance).report;
             assert!(report.max_error <= tolerance * report.diagonal, "{name} {tolerance:e}: {report:?}");
             assert!(report.coefficient_count <= most, "{name} {tolerance:e}: {report:?}");
             assert_eq!(report.flipped_count, 0, "{name} {tolerance:e}");
@@ -41,8 +41,8 @@ fn heads_and_panels_need_no_more_coefficients_than_this() {
 
 #[test]
 fn an_airliner_in_one_chart_is_said_to_need_more() {
-    let Some(path) = common::shared_data("airplane_holes_8k.off") else { return };
-    let report = fit(&path, 1e-3).report;
+    let Some(mesh) = common::mesh("airplane_holes_8k.off") else { return };
+    let report = fit(&mesh, 1e-3).report;
     assert!(report.remarks.has(Remarks::SEGMENTATION_ADVISED), "{report:?}");
 }
 

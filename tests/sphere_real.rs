@@ -5,7 +5,6 @@
 mod common;
 
 use planish::Control;
-use planish::mesh::{MeshOptions, read};
 use planish::parameterize::sphere::{SphereOptions, map_to_sphere};
 
 #[test]
@@ -17,8 +16,7 @@ fn maps_of_real_meshes_have_the_energies_measured_and_no_folds() {
         ("fandisk_closed_6k.off", 10.0, 0.1, 3.0),
         ("bullet_closed_14k.ply", 40.0, 0.05, 5.0),
     ] {
-        let Some(path) = common::shared_data(name) else { continue };
-        let (mesh, _) = read(&path, &MeshOptions::default()).expect(name);
+        let Some(mesh) = common::mesh(name) else { continue };
         let map = map_to_sphere(&mesh, &SphereOptions::default(), &mut Control::new(2)).expect(name);
         let report = map.report;
         eprintln!("{name:28} {report:?}");

@@ -7,7 +7,7 @@ use planish::Control;
 use planish::fit::common::{FitError, Regularize};
 use planish::fit::report::{FitReport, Remarks, StopReason, Tolerance, ToleranceScale};
 use planish::fit::tensor::{Ends, Method, TensorFit, TensorOptions, fit_field, fit_mesh, fit_points};
-use planish::mesh::{Mesh, MeshOptions, read};
+use planish::mesh::Mesh;
 use planish::samples::{self, Random};
 use planish::surface::Surface;
 
@@ -304,8 +304,7 @@ const REAL: [(&str, usize, Result<usize, f64>); 6] = [
 #[test]
 fn real_meshes_need_no_more_coefficients_than_measured_before() {
     for (name, coarse, fine) in REAL {
-        let Some(path) = common::shared_data(name) else { return };
-        let (mut mesh, _) = read(&path, &MeshOptions::default()).unwrap();
+        let Some(mut mesh) = common::mesh(name) else { continue };
         mesh.clear_parameters();
         let at = |value| {
             let tolerance = Tolerance { value, ..Tolerance::default() };
@@ -326,8 +325,7 @@ fn real_meshes_need_no_more_coefficients_than_measured_before() {
 
 #[test]
 fn an_airplane_with_holes_is_told_to_be_cut_into_charts() {
-    let Some(path) = common::shared_data("airplane_holes_8k.off") else { return };
-    let (mesh, _) = read(&path, &MeshOptions::default()).unwrap();
+    let Some(mesh) = common::mesh("airplane_holes_8k.off") else { return };
     let report = fit(&mesh, &TensorOptions { max_grid: 65, ..TensorOptions::default() }).report;
     assert_eq!(report.flipped_count, 0);
     assert!(report.remarks.has(Remarks::TOLERANCE_NOT_MET));

@@ -112,6 +112,20 @@ pub fn screwdriver() -> RowSet {
     set
 }
 
+/// A limb: 14 closed rows, 820 points in all, the first one of each repeated at its end.
+pub fn limb() -> RowSet {
+    const COUNTS: [usize; 14] = [40, 44, 48, 54, 60, 66, 72, 76, 72, 66, 60, 58, 54, 50];
+    const DENSE: usize = 4001;
+    let mut set = RowSet::default();
+    for (j, &count) in COUNTS.iter().enumerate() {
+        let share = 0.15 + 0.85 * j as f64 / (COUNTS.len() - 1) as f64;
+        let curve: Vec<[f64; 3]> =
+            shares(DENSE).map(|s| super::parts::limb_place(share, 2.0 * PI * s).to_array()).collect();
+        set.push(resample(&curve, count, |_| 1.0));
+    }
+    set
+}
+
 /// A head: 100 closed rows, 18,368 points in all, with nose, ears, eyes, mouth, chin and some hair; the first point of
 /// each row is repeated at its end.
 pub fn head() -> RowSet {
@@ -187,6 +201,7 @@ mod tests {
             (dustpan(), 11, 222, 10, 30),
             (wave(), 5, 504, 54, 158),
             (screwdriver(), 12, 1224, 90, 150),
+            (limb(), 14, 820, 40, 76),
             (head(), 100, 18_368, 127, 268),
         ] {
             assert_eq!((set.counts.len(), set.points.len()), (rows, 3 * points));

@@ -71,6 +71,24 @@ pub fn holed_block(holes: usize, count: usize, seed: u64) -> Result<Mesh, MeshEr
     implicit(shape, half + 0.1, count, 8.4 * holes.max(1) as f64, seed)
 }
 
+/// A rocker: two arms of unlike length on a hub with a round hole, one handle in all. About `count` nodes.
+pub fn rocker(count: usize, seed: u64) -> Result<Mesh, MeshError> {
+    const ENDS: [DVec3; 2] = [DVec3::new(1.7, 0.4, 0.0), DVec3::new(-1.3, 0.5, 0.1)];
+    const THICKNESS: f64 = 0.28;
+    const HOLE: f64 = 0.26;
+    let shape = |p: DVec3| {
+        let across = p.truncate().length();
+        let hub = (across - 0.4).max(0.0).hypot(p.z) - THICKNESS;
+        let arm = |end: DVec3| {
+            let share = (p.dot(end) / end.length_squared()).clamp(0.0, 1.0);
+            p.distance(share * end) - THICKNESS * (0.8 + 0.3 * share)
+        };
+        let body = smooth_least(ENDS.into_iter().map(arm).chain([hub]), 0.15);
+        -smooth_least([-body, across - HOLE].into_iter(), 0.1)
+    };
+    implicit(shape, DVec3::new(2.2, 1.0, 0.6), count, 9.0, seed)
+}
+
 /// The least of some numbers, rounded off over `width` where they are nearly equal.
 fn smooth_least(values: impl Iterator<Item = f64>, width: f64) -> f64 {
     let blend = |a: f64, b: f64| {

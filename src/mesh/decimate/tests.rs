@@ -1,6 +1,5 @@
 use super::*;
 use crate::samples;
-use std::path::Path;
 
 fn decimate(mesh: &Mesh, options: &DecimateOptions) -> Decimation {
     mesh.decimate(options, &mut Control::new(1)).unwrap()
@@ -8,15 +7,6 @@ fn decimate(mesh: &Mesh, options: &DecimateOptions) -> Decimation {
 
 fn to(target_count: usize) -> DecimateOptions<'static> {
     DecimateOptions::default().with_target_count(target_count)
-}
-
-fn file(name: &str) -> Option<Mesh> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data").join(name);
-    if !path.exists() {
-        eprintln!("SKIPPED: {name} is not in ../shared/data");
-        return None;
-    }
-    Some(crate::mesh::read(&path, &Default::default()).unwrap().0)
 }
 
 /// Nodes of each of the six sides of the unit cube, `n` by `n` cells a side, bent by `bend` where it is not flat.
@@ -241,8 +231,8 @@ fn a_listener_can_cancel() {
 }
 
 #[test]
-fn all_sharp_edges_of_fandisk_stay() {
-    let Some(mesh) = file("fandisk_closed_6k.off") else { return };
+fn all_sharp_edges_of_a_bracket_stay() {
+    let mesh = samples::bracket().unwrap();
     let options = to(400).with_sharp_angle(Some(40_f64.to_radians()));
     let coarse = decimate(&mesh, &options);
     assert_same_kind(&mesh, &coarse);
@@ -262,5 +252,6 @@ fn all_sharp_edges_of_fandisk_stay() {
         ends.map(|(a, b)| mesh.points()[a].distance(mesh.points()[b as usize])).sum::<f64>() / 2.0
     };
     let [long, short] = [length(&mesh, &before), length(&coarse.piece.mesh, &after)];
-    assert!(short <= long && short >= 0.98 * long);
+    // straight chains keep their length, but for the roundoff of its sum
+    assert!((short - long).abs() <= 1e-12 * long, "{short} of {long} is left");
 }

@@ -301,53 +301,6 @@ fn missing_files_are_named() {
     assert!(error.to_string().starts_with("cannot read 'no/such/mesh.off': "), "{error}");
 }
 
-#[test]
-fn real_meshes_have_the_topology_of_their_table() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
-    if !folder.is_dir() {
-        eprintln!("skipped: no folder {}", folder.display());
-        return;
-    }
-    // nodes, triangles, genus, nodes of each loop
-    let table: [(&str, usize, usize, usize, &[usize]); 15] = [
-        ("igea_closed_134k.ply", 134345, 268686, 0, &[]),
-        ("igea_closed_45k.ply", 44992, 89980, 0, &[]),
-        ("igea_disk_43k.ply", 43076, 86012, 0, &[138]),
-        ("mannequin_disk_13k.off", 12977, 25888, 0, &[64]),
-        ("camelhead_disk_11k.off", 11381, 22704, 0, &[56]),
-        ("maxface_disk_4k.off", 4486, 8743, 0, &[227]),
-        ("mask_control_1290.off", 1290, 2449, 0, &[129]),
-        ("fandisk_closed_6k.off", 6475, 12946, 0, &[]),
-        ("rockerarm_genus1_10k.off", 10044, 20088, 1, &[]),
-        ("neon_side_holes_16k.off", 15896, 30376, 0, &[40, 310, 326, 744]),
-        ("airplane_holes_8k.off", 8519, 16747, 0, &[12; 27]),
-        ("hammer_closed_30k.ply", 30082, 60160, 0, &[]),
-        ("bullet_closed_14k.ply", 13878, 27752, 0, &[]),
-        ("brain_pial_10k_fields.ply", 10242, 20480, 0, &[]),
-        ("blow_shell_displacement.ply", 511, 928, 0, &[92]),
-    ];
-    for (name, point_count, triangle_count, genus, loops) in table {
-        let (mesh, repairs) =
-            read(&folder.join(name), &OPTIONS).unwrap_or_else(|error| panic!("{name}: {error}"));
-        assert_eq!((mesh.points().len(), mesh.triangles().len()), (point_count, triangle_count), "{name}");
-        assert_eq!((mesh.component_count(), mesh.genus()), (1, genus), "{name}");
-        assert_eq!(mesh.loops().len(), loops.len(), "{name}");
-        assert!(
-            repairs.is_empty() && mesh.unused_nodes().is_empty() && mesh.pinched_nodes().is_empty(),
-            "{name}"
-        );
-        if loops.len() < 27 {
-            let mut sizes: Vec<usize> = mesh.loops().iter().map(Vec::len).collect();
-            sizes.sort_unstable();
-            assert_eq!(sizes, loops, "{name}");
-        }
-    }
-    let (brain, _) = read(&folder.join("brain_pial_10k_fields.ply"), &OPTIONS).unwrap();
-    assert!(["sulc", "thickness", "curv"].iter().all(|name| brain.field(name).is_some()));
-    let (panel, repairs) = read(&folder.join("synthetic/fuselage.obj"), &OPTIONS).unwrap();
-    assert!(panel.parameters().is_some() && panel.is_disk() && repairs.is_empty());
-}
-
 /// A hilly grid of `side` by `side` squares without some of its triangles.
 fn hills(side: u32, scale: f64, removed: &[usize]) -> Mesh {
     let place = |node: u32| {
