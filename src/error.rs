@@ -11,6 +11,7 @@ use crate::failure::{Classify, ErrorKind};
 use crate::fit::common::FitError;
 use crate::fit::conversion::ConversionError;
 use crate::fit::d1rc::D1rcFitError;
+use crate::fit::field::FieldError;
 use crate::fit::field::transfer::TransferError;
 use crate::fit::model::ModelFitError;
 use crate::fit::skin::SkinError;
@@ -71,6 +72,8 @@ union! {
     Fit(FitError),
     /// A mesh does not become a model.
     ModelFit(ModelFitError),
+    /// A field cannot be fitted.
+    Field(FieldError),
     /// Values cannot be carried from mesh to mesh.
     Transfer(TransferError),
     /// A D1RC fit is not possible.

@@ -15,8 +15,10 @@ use super::{planish_parameterize_options, planish_progress, planish_status};
 use crate::control::{Control, Pool};
 use crate::fit::common::FitError;
 use crate::fit::common::uniform::{Ends, Energy};
-use crate::fit::field::{FieldFitter, FieldGrid, FieldOptions};
+use crate::fit::field::{FieldError, FieldFitter, FieldGrid, FieldNodes, FieldOptions};
+use crate::fit::found_grid::{self, SampleField};
 use crate::fit::report::{Tolerance, ToleranceScale};
+use crate::mesh::Mesh;
 use crate::query::gradient::field_gradient;
 use crate::surface::tensor::TensorSurface;
 use glam::DVec2;
@@ -89,7 +91,7 @@ record! {
 pub(super) unsafe fn with_field_options<R: Send>(
     given: planish_field_options,
     count: usize,
-    work: impl FnOnce(&FieldOptions, &mut Control) -> R + Send,
+    work: impl FnOnce(&FieldOptions, Option<SampleField>, &mut Control) -> R + Send,
 ) -> Result<R, Failure> {
     // SAFETY: the caller's promises.
     unsafe {
@@ -103,15 +105,18 @@ pub(super) unsafe fn with_field_options<R: Send>(
             true => None,
             false => Some(slice(given.mask, count, "mask")?.iter().map(|&known| known != 0).collect()),
         };
-        let grid = match [given.grid_u, given.grid_v] {
-            [0, 0] if given.sample_values.is_null() => FieldGrid::Auto,
-            [0, 0] => {
+        let counts = [given.grid_u, given.grid_v];
+        let sample = match given.sample_values.is_null() {
+            true => None,
+            false if counts != [0, 0] => return Err(ArgumentError::NotNull { name: "sample_values" }.into()),
+            false => {
                 let len = array_len::<f64>(count, given.sample_dim, "sample_values")?;
-                FieldGrid::FoundFor(slice(given.sample_values, len, "sample_values")?, given.sample_dim)
+                let values = slice(given.sample_values, len, "sample_values")?;
+                Some(SampleField { values, dim: given.sample_dim })
             }
-            _ if !given.sample_values.is_null() => {
-                return Err(ArgumentError::NotNull { name: "sample_values" }.into());
-            }
+        };
+        let grid = match counts {
+            [0, 0] => FieldGrid::Auto,
             counts => FieldGrid::Fixed(counts.map(|count| count as usize)),
         };
         let scale = tolerance_scale(given.tolerance_scale, "tolerance_scale")?;
@@ -126,8 +131,20 @@ pub(super) unsafe fn with_field_options<R: Send>(
             is_known: is_known.as_deref(),
             parameterize: parameterize.to_core()?,
         };
-        Ok(with_control(given.thread_count, listener!(given), |control| work(&core, control))?)
+        Ok(with_control(given.thread_count, listener!(given), |control| work(&core, sample, control))?)
     }
+}
+
+/// A fitter for fields on the nodes of a mesh, on the grid that is found for a sample if there is one.
+pub(super) fn fitter_on_mesh(
+    mesh: &Mesh,
+    options: &FieldOptions,
+    sample: Option<SampleField>,
+    control: &mut Control,
+) -> Result<FieldFitter, FieldError> {
+    let Some(sample) = sample else { return FieldFitter::on_mesh(mesh, options, control) };
+    let nodes = control.within(0.0, 0.3, |control| FieldNodes::of_mesh(mesh, options, control))?;
+    control.within(0.3, 1.0, |control| found_grid::fitter(nodes, &sample, options, control))
 }
 
 /// What a tolerance is measured in.
@@ -157,8 +174,8 @@ pub unsafe extern "C" fn planish_field_fitter_new(
     guard(|| unsafe {
         let mesh = &deref(mesh, "mesh")?.0;
         let (out_fitter, given) = (out(out_fitter, "out_fitter")?, self::options(options)?);
-        let fitter = with_field_options(given, mesh.points().len(), |core, control| {
-            FieldFitter::on_mesh(mesh, core, control)
+        let fitter = with_field_options(given, mesh.points().len(), |core, sample, control| {
+            fitter_on_mesh(mesh, core, sample, control)
         })??;
         out_fitter.write(Box::into_raw(Box::new(planish_field_fitter(fitter))));
         Ok(())
@@ -185,7 +202,10 @@ pub unsafe extern "C" fn planish_field_fitter_new_points(
     guard(|| unsafe {
         let uv = copy_rows(uv, count, 2, "uv", DVec2::from_array)?;
         let (out_fitter, given) = (out(out_fitter, "out_fitter")?, self::options(options)?);
-        let fitter = with_field_options(given, count, |core, control| FieldFitter::at(&uv, core, control))??;
+        let fitter = with_field_options(given, count, |core, sample, control| match sample {
+            None => FieldFitter::at(&uv, core, control),
+            Some(sample) => found_grid::fitter(FieldNodes::at(&uv, core)?, &sample, core, control),
+        })??;
         out_fitter.write(Box::into_raw(Box::new(planish_field_fitter(fitter))));
         Ok(())
     })

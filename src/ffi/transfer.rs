@@ -1,13 +1,14 @@
 //! Values and forces between meshes whose nodes do not match.
 
 use super::arguments::{ReportOut, array_len, choice, copy_rows, deref, options, out, rows_mut, slice};
-use super::field::{planish_field_options, tolerance_scale, with_field_options};
+use super::field::{fitter_on_mesh, planish_field_options, tolerance_scale, with_field_options};
 use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;
 use super::planish_status;
 use super::report::write_pairs;
 use super::status::query;
 use super::tensor::planish_tolerance_scale;
+use crate::control::Control;
 use crate::fit::common::FitError;
 use crate::fit::field::transfer::{Balance, FarRule, Transfer, TransferOptions, TransferReport};
 use glam::DVec3;
@@ -181,11 +182,17 @@ pub unsafe extern "C" fn planish_transfer_new(
         let distance_scale = tolerance_scale(given.distance_scale, "distance_scale")?;
         let far = choice(given.far_rule, &[FarRule::Refuse, FarRule::Keep], "far_rule")?;
         let field: planish_field_options = self::options(given.field)?;
-        let (transfer, made) = with_field_options(field, source.points().len(), |field, control| {
-            let (field, max_distance) = (*field, given.max_distance);
-            let core = TransferOptions { field, max_distance, distance_scale, far };
-            Transfer::new(source, &targets, &core, control)
-        })??;
+        let (transfer, made) =
+            with_field_options(field, source.points().len(), |field, sample, control| {
+                let (field, max_distance) = (*field, given.max_distance);
+                let core = TransferOptions { field, max_distance, distance_scale, far };
+                core.check(&targets)?;
+                let make = |control: &mut Control| fitter_on_mesh(source, &field, sample, control);
+                let fitter = control.within(0.0, 0.5, make)?;
+                let make =
+                    |control: &mut Control| Transfer::with_fitter(fitter, source, &targets, &core, control);
+                control.within(0.5, 1.0, make)
+            })??;
         report.store((&made).into());
         out_transfer.write(Box::into_raw(Box::new(planish_transfer(transfer))));
         Ok(if made.far_count > 0 { planish_status::PointsOutside } else { planish_status::Ok })

@@ -5,6 +5,7 @@ pub mod conversion;
 pub mod curve;
 pub mod d1rc;
 pub mod field;
+pub mod found_grid;
 pub mod model;
 pub mod pht;
 pub mod skin;

@@ -48,9 +48,6 @@ pub enum FitError {
         /// The datum.
         index: usize,
     },
-    /// A surface that is to be updated is not one of this fitter's.
-    #[error("the surface has other knots or another dimension than the fields of this fitter")]
-    OtherGrid,
     /// A weight is not a positive number.
     #[error("weight {index} is {weight}, it must be positive and finite")]
     Weight {
@@ -81,9 +78,7 @@ pub enum FitError {
 impl Classify for FitError {
     fn kind(&self) -> ErrorKind {
         match self {
-            Self::Option { .. } | Self::TooFew { .. } | Self::Count { .. } | Self::OtherGrid => {
-                ErrorKind::InvalidArgument
-            }
+            Self::Option { .. } | Self::TooFew { .. } | Self::Count { .. } => ErrorKind::InvalidArgument,
             Self::Weight { weight, .. } if weight.is_finite() => ErrorKind::InvalidArgument,
             Self::ParametersNotFinite { .. } | Self::ValuesNotFinite { .. } | Self::Weight { .. } => {
                 ErrorKind::NotFinite

@@ -24,6 +24,7 @@ pub enum Regularize {
 }
 
 /// The parameters of the nodes, and how they came about.
+#[derive(Debug)]
 pub(in crate::fit) struct NodeParameters {
     pub uv: Vec<DVec2>,
     pub remarks: Remarks,

@@ -143,6 +143,8 @@ impl Course {
 mod tests {
     use super::*;
 
+    const IMPOSSIBLE: FitError = FitError::TooFew { count: 0 };
+
     /// Rounds with given errors; None is one that is not possible.
     struct Given {
         errors: Vec<Option<f64>>,
@@ -155,11 +157,11 @@ mod tests {
         type Error = FitError;
 
         fn fit(&mut self, _: &mut Control) -> Result<f64, FitError> {
-            self.errors.remove(0).ok_or(FitError::OtherGrid)
+            self.errors.remove(0).ok_or(IMPOSSIBLE)
         }
 
         fn may_go_on(&self, error: &FitError) -> bool {
-            *error == FitError::OtherGrid
+            *error == IMPOSSIBLE
         }
 
         fn error(&self, round: &f64) -> f64 {
@@ -218,6 +220,6 @@ mod tests {
 
     #[test]
     fn a_fit_without_any_round_says_why() {
-        assert_eq!(given(&[(None, Next::Stop(StopReason::Limit))]).0, Err(FitError::OtherGrid));
+        assert_eq!(given(&[(None, Next::Stop(StopReason::Limit))]).0, Err(IMPOSSIBLE));
     }
 }

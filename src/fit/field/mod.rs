@@ -7,10 +7,12 @@
 //! [`FieldFitter`] factors the left side once. Each further field costs its right side, one solution, and, where
 //! it is asked for, the measure of its errors.
 
+mod error;
 mod options;
 mod right_side;
 pub mod transfer;
 
+pub use error::FieldError;
 pub use options::{FieldGrid, FieldOptions};
 
 use super::common::checks::{check_parameters, check_values};
@@ -22,7 +24,6 @@ use super::common::uniform::energy::FreeFunctions;
 use super::common::uniform::grid::{UniformBasis, UniformGrid};
 use super::common::uniform::normal_equations::{NormalEquations, Samples, TensorBasis};
 use super::common::{FitError, NodeParameters, Regularize, node_parameters, trims};
-use super::tensor::{TensorOptions, fit_field, fit_points};
 use crate::control::{Control, Pool, Stage, Watch};
 use crate::geometry::Bounds;
 use crate::knots::KnotVector;
@@ -59,6 +60,42 @@ pub struct FieldFitter {
     scratch: Mutex<Vec<Scratch>>,
 }
 
+/// Nodes over the parameter plane, for fields that are to be fitted on them.
+#[derive(Debug)]
+pub struct FieldNodes<'a> {
+    mesh: Option<&'a Mesh>,
+    map: NodeParameters,
+}
+
+impl<'a> FieldNodes<'a> {
+    /// Those of a mesh, over its parameters or, if it has none, over those it is given here.
+    pub fn of_mesh(
+        mesh: &'a Mesh,
+        options: &FieldOptions,
+        control: &mut Control,
+    ) -> Result<Self, FieldError> {
+        let map = node_parameters(mesh, &options.parameterize, Regularize::Never, control)?;
+        options.check(map.uv.len())?;
+        Ok(Self { mesh: Some(mesh), map })
+    }
+
+    /// Scattered ones.
+    pub fn at(uv: &[DVec2], options: &FieldOptions) -> Result<Self, FieldError> {
+        options.check(uv.len())?;
+        Ok(Self { mesh: None, map: NodeParameters { uv: uv.to_vec(), remarks: Remarks::default() } })
+    }
+
+    /// The mesh, if its nodes have parameters of its own.
+    pub fn mesh_with_parameters(&self) -> Option<&'a Mesh> {
+        self.mesh.filter(|mesh| mesh.parameters().is_some())
+    }
+
+    /// The (u,v) of the nodes.
+    pub fn parameters(&self) -> &[DVec2] {
+        &self.map.uv
+    }
+}
+
 /// A fitted field, measured.
 #[derive(Debug, Clone)]
 pub struct FieldReport {
@@ -70,26 +107,19 @@ pub struct FieldReport {
 
 impl FieldFitter {
     /// For fields on the nodes of a mesh, over its parameters or, if it has none, over those it is given here.
-    pub fn on_mesh(mesh: &Mesh, options: &FieldOptions, control: &mut Control) -> Result<Self, FitError> {
-        let find =
-            |control: &mut Control| node_parameters(mesh, &options.parameterize, Regularize::Never, control);
-        let map = control.within(0.0, 0.3, find)?;
-        Self::new(map, Some(mesh), options, control)
+    pub fn on_mesh(mesh: &Mesh, options: &FieldOptions, control: &mut Control) -> Result<Self, FieldError> {
+        let nodes = control.within(0.0, 0.3, |control| FieldNodes::of_mesh(mesh, options, control))?;
+        control.within(0.3, 1.0, |control| Self::new(nodes, options, control))
     }
 
     /// For fields at scattered parameters.
-    pub fn at(uv: &[DVec2], options: &FieldOptions, control: &mut Control) -> Result<Self, FitError> {
-        let map = NodeParameters { uv: uv.to_vec(), remarks: Remarks::default() };
-        Self::new(map, None, options, control)
+    pub fn at(uv: &[DVec2], options: &FieldOptions, control: &mut Control) -> Result<Self, FieldError> {
+        Self::new(FieldNodes::at(uv, options)?, options, control)
     }
 
-    fn new(
-        map: NodeParameters,
-        mesh: Option<&Mesh>,
-        options: &FieldOptions,
-        control: &mut Control,
-    ) -> Result<Self, FitError> {
-        let uv = map.uv;
+    /// For fields on these nodes.
+    pub fn new(nodes: FieldNodes, options: &FieldOptions, control: &mut Control) -> Result<Self, FieldError> {
+        let FieldNodes { mesh, map: NodeParameters { uv, remarks } } = nodes;
         options.check(uv.len())?;
         let known = known_nodes(&uv, options)?;
         let known_uv: Vec<DVec2> = match &known {
@@ -101,12 +131,13 @@ impl FieldFitter {
         let energy = match FreeFunctions::of(&known_uv, &data_box) {
             FreeFunctions::None => options.energy,
             FreeFunctions::Bilinear => Energy::Plate,
-            FreeFunctions::Linear => return Err(FitError::Singular),
+            FreeFunctions::Linear => return Err(FitError::Singular.into()),
         };
         control.enter(Stage::Fit);
-        let choose = |control: &mut Control| choose_grid(&uv, mesh, known_uv.len(), options, control);
-        let (counts, smoothing) = control.within(0.3, 0.7, choose)?;
-        control.set_stage(0.7, 1.0);
+        let counts = match options.grid {
+            FieldGrid::Fixed(counts) => counts,
+            FieldGrid::Auto => [bearable_count(known_uv.len()); 2],
+        };
         control.report(0.0, f64::NAN)?;
         let grid = [
             UniformGrid::over(data_box.min.x, data_box.max.x, options.buffer, counts[0]),
@@ -122,9 +153,9 @@ impl FieldFitter {
                 places.filter(|place| place.nodes.into_iter().all(is_known)).collect()
             }
         };
-        let data = right_side::Data::new(&uv, known.as_deref(), options.weights, places, smoothing);
+        let data = right_side::Data::new(&uv, known.as_deref(), options.weights, places, options.smoothing);
         let (factor, right_side) = control.watch(|pool, watch| -> Result<_, FitError> {
-            let factor = factor(&basis, &data, smoothing, energy, pool, watch)?;
+            let factor = factor(&basis, &data, options.smoothing, energy, pool, watch)?;
             Ok((factor, RightSide::new(&basis, data, pool)))
         })??;
         control.report(1.0, f64::NAN)?;
@@ -143,9 +174,9 @@ impl FieldFitter {
             region,
             right_side,
             factor,
-            smoothing,
+            smoothing: options.smoothing,
             tolerance: options.tolerance,
-            map_remarks: map.remarks,
+            map_remarks: remarks,
             pool: Pool::new(control.thread_count()),
             scratch: Mutex::default(),
         })
@@ -167,7 +198,7 @@ impl FieldFitter {
     }
 
     /// Fits rows of `dim` numbers, one a node.
-    pub fn fit(&self, values: &[f64], dim: usize) -> Result<TensorSurface, FitError> {
+    pub fn fit(&self, values: &[f64], dim: usize) -> Result<TensorSurface, FieldError> {
         self.check(values, dim)?;
         self.with_scratch(dim, |scratch| {
             self.solve(values, dim, scratch);
@@ -181,7 +212,7 @@ impl FieldFitter {
 
     /// Turns a surface of [`FieldFitter::fit`] into that of other values, in its place: no memory is asked for
     /// that grows with the nodes or the grid, once a field of this `dim` has been fitted.
-    pub fn update(&self, surface: &mut TensorSurface, values: &[f64], dim: usize) -> Result<(), FitError> {
+    pub fn update(&self, surface: &mut TensorSurface, values: &[f64], dim: usize) -> Result<(), FieldError> {
         self.check(values, dim)?;
         let [u, v] = &self.knots;
         let is_ours = surface.dim() == dim
@@ -189,11 +220,11 @@ impl FieldFitter {
             && surface.knots(Axis::U) == u
             && surface.knots(Axis::V) == v;
         if !is_ours {
-            return Err(FitError::OtherGrid);
+            return Err(FieldError::OtherGrid);
         }
         self.with_scratch(dim, |scratch| {
             self.solve(values, dim, scratch);
-            surface.set_control_points(&scratch.control_points).map_err(|_| FitError::Singular)
+            surface.set_control_points(&scratch.control_points).map_err(|_| FitError::Singular.into())
         })
     }
 
@@ -203,7 +234,7 @@ impl FieldFitter {
         surface: &TensorSurface,
         values: &[f64],
         dim: usize,
-    ) -> Result<FieldReport, FitError> {
+    ) -> Result<FieldReport, FieldError> {
         let start = Instant::now();
         self.check(values, dim)?;
         let bounds = self.bounds(values, dim);
@@ -298,66 +329,12 @@ fn known_nodes(uv: &[DVec2], options: &FieldOptions) -> Result<Option<Vec<u32>>,
     Ok(Some(known))
 }
 
-fn choose_grid(
-    uv: &[DVec2],
-    mesh: Option<&Mesh>,
-    known_count: usize,
-    options: &FieldOptions,
-    control: &mut Control,
-) -> Result<([usize; 2], f64), FitError> {
-    match options.grid {
-        FieldGrid::Fixed(counts) => Ok((counts, options.smoothing)),
-        FieldGrid::Auto => {
-            let bearable = |count: usize| {
-                count <= LARGEST_AUTO_GRID && NODES_PER_COEFFICIENT * count * count <= known_count
-            };
-            let doubled = std::iter::successors(Some(2), |&count| Some(2 * count - 1));
-            let count = doubled.take_while(|&count| count == 2 || bearable(count)).last().unwrap_or(2);
-            Ok(([count; 2], options.smoothing))
-        }
-        FieldGrid::FoundFor(values, dim) => {
-            let found = find_grid(uv, mesh, values, dim, options, control)?;
-            Ok(([found.grid_u, found.grid_v], found.smoothing))
-        }
-    }
-}
-
-/// What the adaptive fit of a field says.
-fn find_grid(
-    uv: &[DVec2],
-    mesh: Option<&Mesh>,
-    values: &[f64],
-    dim: usize,
-    options: &FieldOptions,
-    control: &mut Control,
-) -> Result<FitReport, FitError> {
-    let adaptive = TensorOptions {
-        tolerance: options.tolerance,
-        ends: options.ends,
-        energy: options.energy,
-        buffer: options.buffer,
-        weights: options.weights,
-        regularize: Regularize::Never,
-        parameterize: options.parameterize,
-        ..TensorOptions::default()
-    };
-    if let Some(is_known) = options.is_known {
-        let expected = uv.len().saturating_mul(dim);
-        if values.len() != expected {
-            return Err(FitError::Count { what: "the values", count: values.len(), expected });
-        }
-        let nodes = || (0..uv.len()).filter(|&node| is_known[node]);
-        let known_uv: Vec<DVec2> = nodes().map(|node| uv[node]).collect();
-        let rows: Vec<f64> = nodes().flat_map(|node| &values[node * dim..][..dim]).copied().collect();
-        let weights: Option<Vec<f64>> =
-            options.weights.map(|weights| nodes().map(|node| weights[node]).collect());
-        let adaptive = TensorOptions { weights: weights.as_deref(), ..adaptive };
-        return Ok(fit_points(&known_uv, &rows, dim, &adaptive, control)?.report);
-    }
-    Ok(match mesh {
-        Some(mesh) if mesh.parameters().is_some() => fit_field(mesh, values, dim, &adaptive, control)?.report,
-        _ => fit_points(uv, values, dim, &adaptive, control)?.report,
-    })
+/// Knots along one direction that so many nodes with values bear.
+fn bearable_count(known_count: usize) -> usize {
+    let is_bearable =
+        |count: usize| count <= LARGEST_AUTO_GRID && NODES_PER_COEFFICIENT * count * count <= known_count;
+    let doubled = std::iter::successors(Some(2), |&count| Some(2 * count - 1));
+    doubled.take_while(|&count| count == 2 || is_bearable(count)).last().unwrap_or(2)
 }
 
 fn factor(

@@ -9,24 +9,22 @@ use crate::fit::common::uniform::{Ends, Energy};
 use crate::options::with_fields;
 use crate::parameterize::ParameterizeOptions;
 
-/// On which grid fields are fitted.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum FieldGrid<'a> {
+/// On which grid fields are fitted. On the one that the adaptive fit of a field takes: [`crate::fit::found_grid`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FieldGrid {
     /// As fine as the nodes bear, about four of them a coefficient, but no finer than 129 x 129 knots.
     Auto,
     /// Knots along u and v.
     Fixed([usize; 2]),
-    /// The grid and the smoothing that the adaptive fit of this field takes: rows of `dim` numbers, one a node.
-    FoundFor(&'a [f64], usize),
 }
 
 /// Options of a field fitter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FieldOptions<'a> {
-    /// What reports compare the errors with, and what [`FieldGrid::FoundFor`] meets.
+    /// What reports compare the errors with.
     pub tolerance: Tolerance,
     /// The grid.
-    pub grid: FieldGrid<'a>,
+    pub grid: FieldGrid,
     /// Weight mu of the energy, positive.
     pub smoothing: f64,
     /// How far the knots reach beyond the nodes, as a fraction of their range.
@@ -62,7 +60,7 @@ impl Default for FieldOptions<'_> {
 impl<'a> FieldOptions<'a> {
     with_fields! {
         with_tolerance tolerance: Tolerance,
-        with_grid grid: FieldGrid<'a>,
+        with_grid grid: FieldGrid,
         with_smoothing smoothing: f64,
         with_buffer buffer: f64,
         with_ends ends: Ends,

@@ -3,6 +3,7 @@
 use crate::control::Cancelled;
 use crate::failure::{Classify, ErrorKind};
 use crate::fit::common::FitError;
+use crate::fit::field::FieldError;
 use crate::query::project::ProjectError;
 
 /// A transfer is not possible.
@@ -33,7 +34,10 @@ pub enum TransferError {
         /// The target.
         index: usize,
     },
-    /// Fields on the source cannot be fitted, or values are none.
+    /// Fields on the source cannot be fitted.
+    #[error(transparent)]
+    Field(#[from] FieldError),
+    /// Values are none.
     #[error(transparent)]
     Fit(#[from] FitError),
     /// Targets cannot be projected.
@@ -50,6 +54,7 @@ impl Classify for TransferError {
             Self::Far { .. } => ErrorKind::Outside,
             Self::MaxDistance { .. } => ErrorKind::InvalidArgument,
             Self::NotFinite { .. } => ErrorKind::NotFinite,
+            Self::Field(error) => error.kind(),
             Self::Fit(error) => error.kind(),
             Self::Project(error) => error.kind(),
             Self::Cancelled(_) => ErrorKind::Cancelled,
@@ -60,6 +65,7 @@ impl Classify for TransferError {
     fn index(&self) -> Option<usize> {
         match self {
             Self::Far { index, .. } | Self::NotFinite { index } => Some(*index),
+            Self::Field(error) => error.index(),
             Self::Fit(error) => error.index(),
             Self::Project(error) => error.index(),
             _ => None,

@@ -76,6 +76,18 @@ impl<'a> TransferOptions<'a> {
         with_distance_scale distance_scale: ToleranceScale,
         with_far far: FarRule,
     }
+
+    /// Checks the limit, and the targets.
+    pub fn check(&self, targets: &[DVec3]) -> Result<(), TransferError> {
+        let limit = self.max_distance;
+        if !(limit >= 0.0) {
+            return Err(TransferError::MaxDistance { value: limit });
+        }
+        match targets.iter().position(|point| !point.is_finite()) {
+            Some(index) => Err(TransferError::NotFinite { index }),
+            None => Ok(()),
+        }
+    }
 }
 
 /// How well the meshes lie on one another.
@@ -120,16 +132,27 @@ impl Transfer {
         options: &TransferOptions,
         control: &mut Control,
     ) -> Result<(Self, TransferReport), TransferError> {
+        options.check(targets)?;
         let start = Instant::now();
-        let limit = options.max_distance;
-        if !(limit >= 0.0) {
-            return Err(TransferError::MaxDistance { value: limit });
-        }
-        if let Some(index) = targets.iter().position(|point| !point.is_finite()) {
-            return Err(TransferError::NotFinite { index });
-        }
         let make = |control: &mut Control| FieldFitter::on_mesh(source, &options.field, control);
         let fitter = control.within(0.0, 0.5, make)?;
+        let make = |control: &mut Control| Self::with_fitter(fitter, source, targets, options, control);
+        let (transfer, mut report) = control.within(0.5, 1.0, make)?;
+        report.seconds = start.elapsed().as_secs_f64();
+        Ok((transfer, report))
+    }
+
+    /// The same with a fitter for fields on the source, in place of what `options` say of it.
+    pub fn with_fitter(
+        fitter: FieldFitter,
+        source: &Mesh,
+        targets: &[DVec3],
+        options: &TransferOptions,
+        control: &mut Control,
+    ) -> Result<(Self, TransferReport), TransferError> {
+        let start = Instant::now();
+        options.check(targets)?;
+        let limit = options.max_distance;
         let positions: Vec<f64> = source.points().iter().flat_map(|p| p.to_array()).collect();
         let shape = fitter.fit(&positions, 3)?;
         let shape_report = fitter.measure(&shape, &positions, 3)?.fit;
@@ -137,8 +160,7 @@ impl Transfer {
             ToleranceScale::Relative => limit * shape_report.diagonal,
             ToleranceScale::Absolute => limit,
         };
-        let (parameters, distances) =
-            control.within(0.5, 1.0, |control| project(&shape, targets, control))?;
+        let (parameters, distances) = project(&shape, targets, control)?;
         let is_far = |&distance: &f64| distance > limit;
         if options.far == FarRule::Refuse
             && let Some(index) = distances.iter().position(&is_far)
