@@ -43,9 +43,8 @@ fn a_run_says_what_failed_and_what_was_skipped() {
     let failed = run("failed", "false", None);
     assert!(!failed.status.success() && text(&failed).contains("tests FAILED in: work"), "{failed:?}");
     // one test without two files is one test
-    let skips = ["one without a.ply", "one without b.ply", "two without a.ply"].map(|skip| {
-        format!("echo 'SKIPPED: {skip} of ../shared/data' >>\"$PLANISH_SKIPPED\"")
-    });
+    let skips = ["one without a.ply", "one without b.ply", "two without a.ply"]
+        .map(|skip| format!("echo 'SKIPPED: {skip} of ../shared/data' >>\"$PLANISH_SKIPPED\""));
     let passed = run("passed", &skips.join("\n"), None);
     assert!(passed.status.success() && text(&passed).contains("all tests passed"), "{passed:?}");
     assert!(text(&passed).contains("planish: 2 tests skipped"), "{passed:?}");

@@ -77,7 +77,11 @@ pub fn to_model(surface: &AnySurface, options: &ConversionOptions) -> Result<Mod
 fn fitted(surface: &D1rcSurface, options: &ConversionOptions) -> Result<TensorSurface, ConversionError> {
     let mesh =
         tessellate(surface, &TessellateOptions { keep_trims: true, ..TessellateOptions::default() })?.mesh;
-    let value = if options.tolerance == 0.0 { 1e-3 * mesh.diagonal() } else { options.tolerance };
+    let value = if options.tolerance == 0.0 {
+        Tolerance::default().value * mesh.diagonal()
+    } else {
+        options.tolerance
+    };
     // nodes lie on the surface; between them the fit is as free as the chords are off
     let fine = TessellateOptions { chord_tolerance: value / 4.0, ..TessellateOptions::default() };
     let mesh = tessellate(surface, &fine)?.mesh;

@@ -1,4 +1,9 @@
-//! Sparse LU of matrices that need no pivoting, for many matrices of one pattern.
+//! Sparse LU of matrices that need no pivoting, for many matrices of one pattern: here we factor the maps of meshes
+//! (mean value, harmonic, stretch) ourselves; Cholesky and all other LU is faer's ([`super::SymbolicCholesky`],
+//! [`super::Entries`]).
+//!
+//! Ours because faer's sparse LU pivots, so it cannot factor another matrix of a pattern without looking for pivots
+//! again: `benches/lu.rs` times both.
 //!
 //! I. Duff, J. Reid, "The multifrontal solution of unsymmetric sets of linear equations", SIAM J.
 //! Sci. Stat. Comput. 5 (1984), 633-641; J. W. H. Liu, "The multifrontal method for sparse matrix

@@ -43,7 +43,8 @@ pub struct Curvatures {
 ///
 /// In an orthonormal tangent frame `e1 = Su/|Su|`, `e2 = n x e1` the second fundamental form is a symmetric
 /// matrix whose eigenvalues and eigenvectors are the curvatures and directions (M. do Carmo, "Differential
-/// Geometry of Curves and Surfaces", section 3.2). At an umbilic the directions are those of the frame.
+/// Geometry of Curves and Surfaces", section 3.2), here in closed form: it makes the directions those of the frame at an umbilic, where
+/// those of an iteration are chance.
 pub fn curvatures([su, sv, suu, suv, svv]: [DVec3; 5]) -> Curvatures {
     let n = normal(su, sv);
     let e1 = su.normalize();

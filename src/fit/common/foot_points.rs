@@ -15,6 +15,9 @@ pub const LONGEST_STEP: f64 = 0.3;
 /// How often a move is halved before it is given up.
 const HALVINGS: u32 = 8;
 
+/// Squared sine of the angle between tangents that are parallel: a thousandth of a minute of arc. A step along them
+/// would be a quotient of roundings; with a larger share surfaces that are merely skew would keep their data still.
+const PARALLEL: f64 = 1e-12;
 /// Data moved in one piece of work, at least.
 const PIECE: usize = 256;
 
@@ -56,7 +59,7 @@ fn gauss_newton_step(row: &[f64], value: &[f64]) -> DVec2 {
     let (a, b, c) = (dot(su, su), dot(su, sv), dot(sv, sv));
     let (p, q) = (dot(su, &miss), dot(sv, &miss));
     let determinant = a * c - b * b;
-    if determinant <= 1e-12 * a * c {
+    if determinant <= PARALLEL * a * c {
         return DVec2::ZERO;
     }
     DVec2::new(c * p - b * q, a * q - b * p) / determinant

@@ -9,6 +9,7 @@ use crate::control::Pool;
 use crate::fit::common::FitError;
 use crate::tmesh::{TMesh, Topology, VertexKind};
 use glam::DVec2;
+use nalgebra::{Const, Dyn, OMatrix, SMatrix};
 use rayon::prelude::*;
 use spade::{DelaunayTriangulation, FloatTriangulation, HasPosition, Point2, Triangulation};
 
@@ -89,6 +90,9 @@ impl HasPosition for Site {
     }
 }
 
+/// A row of numbers for each of `N` coefficients.
+type RowsOf<const N: usize> = OMatrix<f64, Const<N>, Dyn>;
+
 /// The jet of the polynomial with `N` coefficients that fits the data near `center` best, `weight` of the distance
 /// in radii; parameters in the unit square.
 fn polynomial_jet<const N: usize>(
@@ -100,7 +104,7 @@ fn polynomial_jet<const N: usize>(
 ) -> Vec<f64> {
     let dim = data.dim;
     let radius = if near.radius > 0.0 { near.radius } else { 1.0 };
-    let (mut matrix, mut right) = ([[0.0; N]; N], vec![0.0; N * dim]);
+    let (mut matrix, mut right) = (SMatrix::<f64, N, N>::zeros(), RowsOf::<N>::zeros(dim));
     for &(distance, datum) in &near.data {
         let d = (buckets.uv[datum] - center) / radius;
         let monomials = monomials::<N>(d);
@@ -109,17 +113,21 @@ fn polynomial_jet<const N: usize>(
         let value = &data.sample_values[datum * dim..][..dim];
         for i in 0..N {
             for j in 0..N {
-                matrix[i][j] += weight * monomials[i] * monomials[j];
+                matrix[(i, j)] += weight * monomials[i] * monomials[j];
             }
-            let row = &mut right[i * dim..][..dim];
-            row.iter_mut().zip(value).for_each(|(sum, x)| *sum += weight * monomials[i] * x);
+            value.iter().enumerate().for_each(|(k, x)| right[(i, k)] += weight * monomials[i] * x);
         }
     }
-    solve(&mut matrix, &mut right, dim);
+    let ridge = RIDGE * matrix.trace().max(f64::MIN_POSITIVE);
+    matrix += SMatrix::from_diagonal_element(ridge);
+    // positive but for overflow, which the surface refuses
+    if let Some(factor) = matrix.cholesky() {
+        factor.solve_mut(&mut right);
+    }
     let scales = [1.0, radius, radius, radius * radius];
     // 1, x, y and xy are the first, second, third and fifth monomial
     let rows = [0, 1, 2, 4].into_iter().zip(scales);
-    rows.flat_map(|(row, scale)| right[row * dim..][..dim].iter().map(move |x| x / scale)).collect()
+    rows.flat_map(|(row, scale)| right.row(row).iter().map(|x| x / scale).collect::<Vec<_>>()).collect()
 }
 
 /// 1, x, y, x^2, xy, y^2, x^3, x^2 y, x y^2, y^3.
@@ -131,30 +139,6 @@ fn monomials<const N: usize>(DVec2 { x, y }: DVec2) -> [f64; N] {
 /// Share of the trace that is added to the diagonal: data on a line leave coefficients undetermined, which then
 /// are zero.
 const RIDGE: f64 = 1e-12;
-
-/// Cholesky's method for a small system with rows of `dim` right-hand sides.
-fn solve<const N: usize>(matrix: &mut [[f64; N]; N], right: &mut [f64], dim: usize) {
-    let trace: f64 = (0..N).map(|k| matrix[k][k]).sum();
-    (0..N).for_each(|k| matrix[k][k] += RIDGE * trace.max(f64::MIN_POSITIVE));
-    for k in 0..N {
-        let pivot = matrix[k][k];
-        for i in k + 1..N {
-            let factor = matrix[i][k] / pivot;
-            for j in k..N {
-                matrix[i][j] -= factor * matrix[k][j];
-            }
-            for c in 0..dim {
-                right[i * dim + c] -= factor * right[k * dim + c];
-            }
-        }
-    }
-    for i in (0..N).rev() {
-        for c in 0..dim {
-            let later: f64 = (i + 1..N).map(|j| matrix[i][j] * right[j * dim + c]).sum();
-            right[i * dim + c] = (right[i * dim + c] - later) / matrix[i][i];
-        }
-    }
-}
 
 /// Data near a place.
 struct Near {

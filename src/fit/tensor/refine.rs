@@ -19,6 +19,12 @@ const STAGNANT_ROUNDS: usize = 4;
 /// than one unknown for this many data is a standstill one.
 const DATA_PER_UNKNOWN: f64 = 4.0;
 
+/// Errors below this share of the data's diagonal are rounding: some hundred operations on numbers of that size.
+const ROUNDING: f64 = 1e-13;
+/// RMS errors that differ by a smaller share are equal: the two grids differ by symmetry, and what is left is the
+/// rounding of solutions of condition up to 1e6. With less, rounding would choose the direction that is doubled.
+const SAME_ERROR: f64 = 1e-9;
+
 /// A triangle that keeps less than this share of its area holds its nodes back.
 const LEAST_AREA: f64 = 1e-3;
 
@@ -132,8 +138,8 @@ impl Problem<'_> {
 
     /// Errors that differ by rounding only.
     fn is_tie(&self, first: &Candidate, second: &Candidate) -> bool {
-        let noise = 1e-13 * self.frame.scale;
-        (first.errors.rms - second.errors.rms).abs() <= noise.max(1e-9 * first.errors.rms)
+        let noise = ROUNDING * self.frame.scale;
+        (first.errors.rms - second.errors.rms).abs() <= noise.max(SAME_ERROR * first.errors.rms)
     }
 
     /// Compares the cells from before the doubling; `along_u` is the grid doubled in u.

@@ -116,6 +116,9 @@ impl FacetProjector {
     }
 }
 
+/// A determinant below this share of the product of its diagonal is rounding, and a step by it noise.
+const PARALLEL: f64 = 1e-14;
+
 /// Half the squared distance with its derivatives.
 struct Local {
     distance_sq: f64,
@@ -133,7 +136,7 @@ impl Local {
         let (a, c) = (a + added, c + added);
         let determinant = a * c - b * b;
         let [p, q] = self.slope;
-        if !(determinant > 1e-14 * a * c) {
+        if !(determinant > PARALLEL * a * c) {
             // parallel tangents: straight down
             return -DVec2::new(p, q) / (a + c).max(f64::MIN_POSITIVE);
         }

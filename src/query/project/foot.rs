@@ -93,13 +93,17 @@ fn constrained_step(form: &Form, here: &Local, at: [f64; 2], damping: f64) -> [f
     }
 }
 
+/// A determinant below this share of the product of its diagonal is rounding: 45 roundings of that product. With less
+/// a step would be noise; with more, skew patches would be searched along their slopes, which takes longer.
+const PARALLEL: f64 = 1e-14;
+
 /// The minimum of the model in the box around `at`, or on the side it crosses first.
 #[inline(always)]
 fn boxed_step(here: &Local, [a, b, c]: [f64; 3], at: [f64; 2]) -> [f64; 2] {
     let [p, q] = here.slope;
     let determinant = a * c - b * b;
     let clip = |k: usize, step: f64| step.clamp(-at[k], 1.0 - at[k]);
-    if determinant <= 1e-14 * a * c {
+    if determinant <= PARALLEL * a * c {
         // parallel tangents: down the slope to the minimum of the model along it
         let curvature = (a * p + 2.0 * b * q) * p + c * q * q;
         let length = if curvature > 0.0 { (p * p + q * q) / curvature } else { 1.0 };

@@ -21,10 +21,12 @@ use std::collections::HashMap;
 use subdivide::{Fineness, tessellate_facets};
 use tessellation::{distance_to_segment, least_angle};
 
+pub use subdivide::CHORD_SHARE;
+
 /// How fine a tessellation is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TessellateOptions {
-    /// Largest distance between the surface and its triangles, in model units; 0 takes 1e-3 of the diagonal.
+    /// Largest distance between the surface and its triangles, in model units; 0 takes [`CHORD_SHARE`] of the diagonal.
     pub chord_tolerance: f64,
     /// Longest edge in model units; 0 for no limit.
     pub max_edge_length: f64,
@@ -94,8 +96,11 @@ struct Plane<'a> {
 impl<'a> Plane<'a> {
     fn new(surface: &'a dyn Surface, options: &'a TessellateOptions) -> Result<Self, TessellateError> {
         let probe = Probe::new(surface);
-        let chord_tolerance =
-            if options.chord_tolerance > 0.0 { options.chord_tolerance } else { 1e-3 * probe.diagonal };
+        let chord_tolerance = if options.chord_tolerance > 0.0 {
+            options.chord_tolerance
+        } else {
+            CHORD_SHARE * probe.diagonal
+        };
         Ok(Self {
             surface,
             options,

@@ -16,6 +16,9 @@ use crate::mesh::Mesh;
 use crate::surface::Facets;
 use glam::{DVec2, DVec3};
 
+/// Chord tolerance where none is given, as a share of the diagonal: that of fits, and what the eye takes for smooth.
+pub const CHORD_SHARE: f64 = 1e-3;
+
 /// Sides are not divided into more parts than this: a kink that no edge follows would go on for ever.
 const MOST_PARTS: usize = 64;
 
@@ -31,7 +34,8 @@ pub struct Fineness {
 pub fn tessellate_facets(surface: &dyn Facets, fineness: &Fineness) -> Result<Tessellation, TessellateError> {
     let mut coarse = Division::new(surface, 1, fineness.max_points)?;
     let diagonal = coarse.diagonal();
-    let tolerance = if fineness.chord_tolerance > 0.0 { fineness.chord_tolerance } else { 1e-3 * diagonal };
+    let tolerance =
+        if fineness.chord_tolerance > 0.0 { fineness.chord_tolerance } else { CHORD_SHARE * diagonal };
     loop {
         let fine = Division::new(surface, 2 * coarse.parts, fineness.max_points)?;
         let (chord_error, longest) = coarse.measure(&fine);

@@ -1,5 +1,4 @@
-//! Writes what follows from `src/ffi`; with `--verify` it only tells whether the files are up to date and no promise is
-//! broken:
+//! Writes what follows from `src/ffi`; with `--verify` it only tells whether the files are up to date:
 //!
 //! | file | for |
 //! |---|---|
@@ -8,8 +7,6 @@
 //! | `bindings/planish_c.f90` | Fortran: names, records and interfaces below `include/planish.f90` |
 //! | `python/planish/_abi.py` | Python: the same for ctypes |
 //! | `cpp_tests/layout.c` | the tests: where a C compiler must put the fields of records |
-//!
-//! With `--freeze` it also writes `bindings/planish.abi`, the promises that `--verify` holds the interface to.
 //!
 //! Rust's declarations say the most; the rest is read from their documentation, where readers of the header need
 //! it too. What is missing is an error, which names the place.
@@ -34,7 +31,6 @@
 //! * **NULL.** An argument whose text speaks of NULL otherwise than as "not NULL" may be NULL.
 //! * **Freeing.** A new handle, `out_x: *mut *mut planish_x`, is destroyed by `planish_x_free`, which must exist.
 
-mod abi;
 mod api;
 mod documentation;
 mod fortran;
@@ -51,16 +47,15 @@ use std::path::Path;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let task = match std::env::args().skip(1).collect::<Vec<_>>().as_slice() {
-        [] => Task::Renew,
-        [flag] if flag == "--verify" => Task::Verify,
-        [flag] if flag == "--freeze" => Task::Freeze,
+    let verify = match std::env::args().skip(1).collect::<Vec<_>>().as_slice() {
+        [] => false,
+        [flag] if flag == "--verify" => true,
         _ => {
-            eprintln!("usage: planish-header [--verify | --freeze]");
+            eprintln!("usage: planish-header [--verify]");
             return ExitCode::FAILURE;
         }
     };
-    match run(task) {
+    match run(verify) {
         Ok(code) => code,
         Err(error) => {
             eprintln!("planish-header: {error}");
@@ -69,17 +64,7 @@ fn main() -> ExitCode {
     }
 }
 
-#[derive(Clone, Copy, PartialEq)]
-enum Task {
-    Renew,
-    Verify,
-    Freeze,
-}
-
-/// Where the promises stand.
-const PROMISES: &str = "bindings/planish.abi";
-
-fn run(task: Task) -> Result<ExitCode, Box<dyn Error>> {
+fn run(verify: bool) -> Result<ExitCode, Box<dyn Error>> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize()?;
     let version = version(&fs::read_to_string(root.join("Cargo.toml"))?)?;
     let files = sources::read(&root.join("src/ffi"))?;
@@ -93,13 +78,7 @@ fn run(task: Task) -> Result<ExitCode, Box<dyn Error>> {
     ];
     let mut same = true;
     for (name, text) in &written {
-        same &=
-            if task == Task::Verify { is_up_to_date(&root, name, text) } else { renew(&root, name, text)? };
-    }
-    match task {
-        Task::Renew => {}
-        Task::Verify => same &= keeps_promises(&api, &fs::read_to_string(root.join(PROMISES))?),
-        Task::Freeze => same &= renew(&root, PROMISES, &abi::text(&api))?,
+        same &= if verify { is_up_to_date(&root, name, text) } else { renew(&root, name, text)? };
     }
     Ok(if same { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
@@ -126,15 +105,6 @@ fn is_up_to_date(root: &Path, name: &str, text: &str) -> bool {
     eprintln!("  generated: {}", text.lines().nth(same).unwrap_or("(end of file)"));
     eprintln!("`cargo run -p planish-header` renews it");
     false
-}
-
-/// Whether all that compiled programs rely on is still so.
-fn keeps_promises(api: &Api, committed: &str) -> bool {
-    let broken = abi::broken(api, committed);
-    for fact in &broken {
-        eprintln!("{PROMISES}: no longer true: {fact}");
-    }
-    broken.is_empty()
 }
 
 /// Major, minor and patch version of the library.

@@ -55,7 +55,8 @@ pub enum FreeFunctions {
 const LEAST_PIVOT: f64 = 1e-13;
 
 impl FreeFunctions {
-    /// Factors the Gram matrix of 1, u, v, uv over the data and looks for a pivot that vanishes.
+    /// Factors the Gram matrix of 1, u, v, uv over the data and looks for a pivot that vanishes. Elimination in this
+    /// order and by hand: which pivot vanishes is the answer, and a library's pivoting would lose it.
     pub fn of(uv: &[DVec2], data: &Domain) -> Self {
         let (center, half) = ((data.min + data.max) / 2.0, data.size() / 2.0);
         let mut gram = [[0.0; 4]; 4];
