@@ -2405,6 +2405,89 @@ module planish_calls
       type(c_ptr), intent(inout) :: out_model
     end function
 
+    integer(c_int) function c_model_eval( &
+        model, faces, uv, count, max_derivative, options, out) &
+        bind(c, name="planish_model_eval")
+      import
+      implicit none
+      type(c_ptr), value :: model
+      integer(c_int32_t), intent(in) :: faces(*)
+      real(c_double), intent(in) :: uv(*)
+      integer(c_size_t), value :: count
+      integer(c_int32_t), value :: max_derivative
+      type(planish_eval_options), intent(in), optional :: options
+      real(c_double), intent(inout) :: out(*)
+    end function
+
+    integer(c_int) function c_model_normals( &
+        model, faces, uv, count, options, out_normals) &
+        bind(c, name="planish_model_normals")
+      import
+      implicit none
+      type(c_ptr), value :: model
+      integer(c_int32_t), intent(in) :: faces(*)
+      real(c_double), intent(in) :: uv(*)
+      integer(c_size_t), value :: count
+      type(planish_eval_options), intent(in), optional :: options
+      real(c_double), intent(inout) :: out_normals(*)
+    end function
+
+    integer(c_int) function c_model_curvatures( &
+        model, faces, uv, count, options, out) &
+        bind(c, name="planish_model_curvatures")
+      import
+      implicit none
+      type(c_ptr), value :: model
+      integer(c_int32_t), intent(in) :: faces(*)
+      real(c_double), intent(in) :: uv(*)
+      integer(c_size_t), value :: count
+      type(planish_eval_options), intent(in), optional :: options
+      real(c_double), intent(inout) :: out(*)
+    end function
+
+    integer(c_int) function c_model_project( &
+        model, points, count, options, out_faces, out_uv, out_distances) &
+        bind(c, name="planish_model_project")
+      import
+      implicit none
+      type(c_ptr), value :: model
+      real(c_double), intent(in) :: points(*)
+      integer(c_size_t), value :: count
+      type(planish_project_options), intent(in), optional :: options
+      integer(c_int32_t), intent(inout), optional :: out_faces(*)
+      real(c_double), intent(inout), optional :: out_uv(*)
+      real(c_double), intent(inout), optional :: out_distances(*)
+    end function
+
+    integer(c_int) function c_model_deviation( &
+        model, mesh, options, out_distances, count, out_report) &
+        bind(c, name="planish_model_deviation")
+      import
+      implicit none
+      type(c_ptr), value :: model
+      type(c_ptr), value :: mesh
+      type(planish_deviation_options), intent(in), optional :: options
+      real(c_double), intent(inout), optional :: out_distances(*)
+      integer(c_size_t), value :: count
+      type(planish_deviation_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_model_tessellate(model, options, out_mesh) bind(c, name="planish_model_tessellate")
+      import
+      implicit none
+      type(c_ptr), value :: model
+      type(planish_tessellate_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_mesh
+    end function
+
+    integer(c_int) function c_model_write_vtk(model, path, options) bind(c, name="planish_model_write_vtk")
+      import
+      implicit none
+      type(c_ptr), value :: model
+      character(kind=c_char), intent(in) :: path(*)
+      type(planish_vtk_options), intent(in), optional :: options
+    end function
+
     integer(c_int) function c_curve_options_init(options, struct_size) bind(c, name="planish_curve_options_init")
       import
       implicit none

@@ -242,6 +242,13 @@ module planish_types
     procedure :: copy_pcurve => model_copy_pcurve
     procedure :: copy_vertices => model_copy_vertices
     procedure :: copy_shell => model_copy_shell
+    procedure :: eval => model_eval
+    procedure :: normals => model_normals
+    procedure :: curvatures => model_curvatures
+    procedure :: project => model_project
+    procedure :: deviation => model_deviation
+    procedure :: tessellate => model_tessellate
+    procedure :: write_vtk => model_write_vtk
     procedure :: measure => model_measure
     procedure :: write_step => model_write_step
     procedure :: write_step_memory => model_write_step_memory
@@ -2141,6 +2148,151 @@ contains
       faces = numbers(:info%face_count) + 1
     end if
     call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Values and derivatives up to max_derivative (0 to 2) at uv(2,n) on faces(n): out(3,m,n) with m = 1, 3 or 6.
+  subroutine model_eval(self, faces, uv, max_derivative, out, options, stat, errmsg)
+    class(planish_model_t), intent(in) :: self
+    integer, intent(in) :: faces(:), max_derivative
+    real(c_double), intent(in), contiguous :: uv(:, :)
+    real(c_double), intent(inout), contiguous :: out(:, :, :)
+    type(planish_eval_options), intent(in), optional :: options
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_size_t) :: row_count
+    if (refuse_model_points(faces, uv, size(out, 3, c_size_t), stat, errmsg)) return
+    row_count = (max_derivative + 1) * (max_derivative + 2) / 2
+    if (refuse_extent(size(out, 1, c_size_t), 3_c_size_t, "the first extent of out", stat, errmsg)) return
+    if (refuse_extent(size(out, 2, c_size_t), row_count, "the second extent of out", stat, errmsg)) return
+    call conclude(c_model_eval(self%get(), int(faces, c_int32_t) - 1_c_int32_t, uv, size(uv, 2, c_size_t), &
+        int(max_derivative, c_int32_t), options, out), stat, errmsg)
+  end subroutine
+
+  !> Unit normals(3,n) at uv(2,n) on faces(n), out of the fronts of the faces.
+  subroutine model_normals(self, faces, uv, normals, options, stat, errmsg)
+    class(planish_model_t), intent(in) :: self
+    integer, intent(in) :: faces(:)
+    real(c_double), intent(in), contiguous :: uv(:, :)
+    real(c_double), intent(inout), contiguous :: normals(:, :)
+    type(planish_eval_options), intent(in), optional :: options
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_model_points(faces, uv, size(normals, 2, c_size_t), stat, errmsg)) return
+    if (refuse_extent(size(normals, 1, c_size_t), 3_c_size_t, "the first extent of normals", stat, errmsg)) return
+    call conclude(c_model_normals(self%get(), int(faces, c_int32_t) - 1_c_int32_t, uv, size(uv, 2, c_size_t), options, &
+        normals), stat, errmsg)
+  end subroutine
+
+  !> Principal curvatures and directions, out(8,n): k1, k2, d1(3), d2(3) at uv(2,n) on faces(n).
+  subroutine model_curvatures(self, faces, uv, out, options, stat, errmsg)
+    class(planish_model_t), intent(in) :: self
+    integer, intent(in) :: faces(:)
+    real(c_double), intent(in), contiguous :: uv(:, :)
+    real(c_double), intent(inout), contiguous :: out(:, :)
+    type(planish_eval_options), intent(in), optional :: options
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_model_points(faces, uv, size(out, 2, c_size_t), stat, errmsg)) return
+    if (refuse_extent(size(out, 1, c_size_t), 8_c_size_t, "the first extent of out", stat, errmsg)) return
+    call conclude(c_model_curvatures(self%get(), int(faces, c_int32_t) - 1_c_int32_t, uv, size(uv, 2, c_size_t), &
+        options, out), stat, errmsg)
+  end subroutine
+
+  ! Whether faces(n), uv(2,n) and results for n points do not fit together.
+  logical function refuse_model_points(faces, uv, result_count, stat, errmsg) result(refused)
+    integer, intent(in) :: faces(:)
+    real(c_double), intent(in) :: uv(:, :)
+    integer(c_size_t), intent(in) :: result_count
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    refused = refuse_extent(size(uv, 1, c_size_t), 2_c_size_t, "the first extent of uv", stat, errmsg)
+    if (.not. refused) refused = refuse_extent(size(faces, kind=c_size_t), size(uv, 2, c_size_t), &
+        "the number of faces", stat, errmsg)
+    if (.not. refused) refused = refuse_extent(result_count, size(uv, 2, c_size_t), "the number of results", stat, errmsg)
+    if (.not. refused) refused = refuse(any(faces < 1), PLANISH_STATUS_INDEX, "faces count from 1", stat, errmsg)
+  end function
+
+  !> Finds the place on the model nearest to each of points(3,n).
+  !>
+  !> faces:     receives the faces, 0 for points farther away than options%max_distance.
+  !> uv:        (2,n), receives the places.
+  !> distances: receives how far they are.
+  subroutine model_project(self, points, faces, uv, distances, options, stat, errmsg)
+    class(planish_model_t), intent(in) :: self
+    real(c_double), intent(in), contiguous :: points(:, :)
+    integer, intent(inout) :: faces(:)
+    real(c_double), intent(inout), contiguous :: uv(:, :), distances(:)
+    type(planish_project_options), intent(in), optional :: options
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t), allocatable :: found(:)
+    integer(c_size_t) :: count
+    integer(c_int) :: status
+    count = size(points, 2, c_size_t)
+    if (refuse_extent(size(points, 1, c_size_t), 3_c_size_t, "the first extent of points", stat, errmsg)) return
+    if (refuse_extent(size(uv, 1, c_size_t), 2_c_size_t, "the first extent of uv", stat, errmsg)) return
+    if (refuse_short(size(uv, 2, c_size_t), count, "uv", stat, errmsg)) return
+    if (refuse_short(size(distances, kind=c_size_t), count, "distances", stat, errmsg)) return
+    if (refuse_short(size(faces, kind=c_size_t), count, "faces", stat, errmsg)) return
+    allocate (found(count))
+    status = c_model_project(self%get(), points, count, options, found, uv, distances)
+    if (status >= 0) faces(:count) = found + 1
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Measures how far the nodes of a mesh lie from the model. worst_index of the report counts from 1.
+  subroutine model_deviation(self, mesh, distances, options, report, stat, errmsg)
+    class(planish_model_t), intent(in) :: self
+    class(planish_mesh_t), intent(in) :: mesh
+    real(c_double), intent(inout), optional, contiguous :: distances(:)
+    type(planish_deviation_options), intent(in), optional :: options
+    type(planish_deviation_report), intent(inout), optional :: report
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_size_t) :: room
+    integer(c_int) :: status
+    room = 0
+    if (present(distances)) room = size(distances, kind=c_size_t)
+    status = c_model_deviation(self%get(), mesh%get(), options, distances, room, report)
+    if (status >= 0 .and. present(report)) report%worst_index = report%worst_index + 1
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Makes a watertight triangle mesh of the model.
+  subroutine model_tessellate(self, mesh, options, report, stat, errmsg)
+    class(planish_model_t), intent(in) :: self
+    class(planish_mesh_t), intent(inout) :: mesh
+    type(planish_tessellate_options), intent(in), optional :: options
+    type(planish_tessellate_report), intent(inout), optional, target :: report
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_tessellate_options) :: call_options
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    if (present(options)) call_options = options
+    if (present(report)) call_options%out_report = c_loc(report)
+    status = c_model_tessellate(self%get(), call_options, handle)
+    if (status >= 0) call mesh%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Writes the triangles of the model as a VTK file.
+  !>
+  !> deviation_from: a mesh to compare with.
+  !> tessellate:     how fine the triangles are.
+  subroutine model_write_vtk(self, path, options, deviation_from, tessellate, stat, errmsg)
+    class(planish_model_t), intent(in) :: self
+    character(*), intent(in) :: path
+    type(planish_vtk_options), intent(in), optional :: options
+    class(planish_mesh_t), intent(in), optional :: deviation_from
+    type(planish_tessellate_options), intent(in), optional, target :: tessellate
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_vtk_options) :: call_options
+    if (present(options)) call_options = options
+    if (present(deviation_from)) call_options%deviation_from = deviation_from%get()
+    if (present(tessellate)) call_options%tessellate = c_loc(tessellate)
+    call conclude(c_model_write_vtk(self%get(), terminated(path), call_options), stat, errmsg)
   end subroutine
 
   !> Box, area, volume, and how well the faces meet.

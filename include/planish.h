@@ -5165,6 +5165,161 @@ enum planish_status planish_model_load_file(const char *path,
                                             struct planish_model **out_model);
 
 /**
+ * Evaluates a model and its derivatives at parameters on its faces. On a spline u and v are those of the surface of
+ * planish_model_copy_face(); on a plane those of that surface too; on a cylinder the angle in radians and the height.
+ *
+ * model:          not NULL.
+ * faces:          for each point its face, below planish_model_face_count().
+ * uv:             count rows of u, v; rows start options->uv_stride doubles apart.
+ * count:          may be 0.
+ * max_derivative: 0, 1 or 2.
+ * options:        NULL for the defaults.
+ * out:            receives for each point 1, 3 or 6 rows of 3 numbers: S; Su, Sv; Suu, Suv, Svv. Points start
+ *                 options->out_stride doubles apart. It must not overlap uv.
+ * Arrays: faces[count], uv[count, 2], out[count, *, 3].
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_POINTS_OUTSIDE (with PLANISH_OUTSIDE_FLAG), PLANISH_STATUS_NULL_POINTER,
+ * PLANISH_STATUS_INVALID_ARGUMENT (an option, or max_derivative), PLANISH_STATUS_INDEX (a face; the index is the point),
+ * PLANISH_STATUS_OUTSIDE (with PLANISH_OUTSIDE_FAIL; the index is the first such point of the first such face),
+ * PLANISH_STATUS_NOT_FINITE (the index is the point), PLANISH_STATUS_TOO_LARGE or PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_model_eval(const struct planish_model *model,
+                                       const uint32_t *faces,
+                                       const double *uv,
+                                       size_t count,
+                                       uint32_t max_derivative,
+                                       const struct planish_eval_options *options,
+                                       double *out);
+
+/**
+ * Computes unit normals of a model, out of the fronts of its faces.
+ *
+ * model:       not NULL.
+ * faces:       for each point its face, below planish_model_face_count().
+ * uv:          count rows of u, v; rows start options->uv_stride doubles apart.
+ * count:       may be 0.
+ * options:     NULL for the defaults.
+ * out_normals: receives count rows of 3 numbers; NaN where there is no normal. Rows start options->out_stride
+ *              doubles apart. It must not overlap uv.
+ * Arrays: faces[count], uv[count, 2], out_normals[count, 3].
+ * Returns what planish_model_eval() returns.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_model_normals(const struct planish_model *model,
+                                          const uint32_t *faces,
+                                          const double *uv,
+                                          size_t count,
+                                          const struct planish_eval_options *options,
+                                          double *out_normals);
+
+/**
+ * Computes principal curvatures of a model and their directions.
+ *
+ * model:   not NULL.
+ * faces:   for each point its face, below planish_model_face_count().
+ * uv:      count rows of u, v; rows start options->uv_stride doubles apart.
+ * count:   may be 0.
+ * options: NULL for the defaults.
+ * out:     receives count rows of 8 numbers: k1, k2 with k1 >= k2, positive where the face bends towards its normal,
+ *          then the unit tangents d1 and d2 of 3 numbers each, with d1 x d2 the normal; NaN where there is no
+ *          normal. Rows start options->out_stride doubles apart. It must not overlap uv.
+ * Arrays: faces[count], uv[count, 2], out[count, 8].
+ * Returns what planish_model_eval() returns.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_model_curvatures(const struct planish_model *model,
+                                             const uint32_t *faces,
+                                             const double *uv,
+                                             size_t count,
+                                             const struct planish_eval_options *options,
+                                             double *out);
+
+/**
+ * Finds the place on a model nearest to each point, over all faces, inside their loops.
+ *
+ * model:         not NULL.
+ * points:        count rows of x, y, z.
+ * count:         number of points; with 0 nothing is done.
+ * options:       NULL for the defaults; guesses must be NULL, keep_trims is not used.
+ * out_faces:     receives the face of each; PLANISH_NONE for points farther away than max_distance. NULL for none.
+ * out_uv:        receives count rows u, v on the face's surface, NaN for such points; NULL for none.
+ * out_distances: receives count distances, NaN for such points; NULL for none.
+ * Arrays: points[count, 3], out_faces[count], out_uv[count, 2], out_distances[count].
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_POINTS_OUTSIDE (some points are farther than max_distance),
+ * PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_NOT_FINITE (the index is the point), PLANISH_STATUS_INVALID_ARGUMENT,
+ * PLANISH_STATUS_TOO_LARGE, PLANISH_STATUS_CANCELLED or PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_model_project(const struct planish_model *model,
+                                          const double *points,
+                                          size_t count,
+                                          const struct planish_project_options *options,
+                                          uint32_t *out_faces,
+                                          double *out_uv,
+                                          double *out_distances);
+
+/**
+ * Measures how far the nodes of a mesh lie from a model: closest-point distances, over all faces.
+ *
+ * model:         not NULL.
+ * mesh:          not NULL.
+ * options:       NULL for the defaults; use_parameters and keep_trims are not used.
+ * out_distances: receives planish_mesh_point_count() distances; NULL for none.
+ * count:         doubles that out_distances has room for.
+ * out_report:    receives the sizes of the distances; NULL for none. worst_back_u and worst_back_v are NaN.
+ * Arrays: out_distances[count].
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option),
+ * PLANISH_STATUS_BUFFER_TOO_SMALL, PLANISH_STATUS_TOPOLOGY or PLANISH_STATUS_TOO_LARGE (measuring back only),
+ * PLANISH_STATUS_CANCELLED or PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_model_deviation(const struct planish_model *model,
+                                            const struct planish_mesh *mesh,
+                                            const struct planish_deviation_options *options,
+                                            double *out_distances,
+                                            size_t count,
+                                            struct planish_deviation_report *out_report);
+
+/**
+ * Makes a triangle mesh of a model: watertight, with one polyline for each edge, closed where a shell is. Its nodes lie
+ * on the model.
+ *
+ * model:    not NULL.
+ * options:  NULL for the defaults; keep_trims is not used.
+ * out_mesh: receives a new mesh; destroy with planish_mesh_free().
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option),
+ * PLANISH_STATUS_TOPOLOGY (loops cross), PLANISH_STATUS_DEGENERATE, PLANISH_STATUS_TOO_LARGE (more than
+ * max_point_count nodes), PLANISH_STATUS_CANCELLED or PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_model_tessellate(const struct planish_model *model,
+                                             const struct planish_tessellate_options *options,
+                                             struct planish_mesh **out_mesh);
+
+/**
+ * Writes the triangles of a model as a VTK file: those of planish_model_tessellate() with the number of the face as
+ * cell data "face", or those of a mesh to compare with, each node moved to its nearest place on the model, with the
+ * distance as point data "deviation".
+ *
+ * model:   not NULL.
+ * path:    UTF-8, ends with a NUL; an existing file is replaced.
+ * options: NULL for the defaults; content must be PLANISH_VTK_CONTENT_TRIANGLES.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, a path that is
+ * not UTF-8), PLANISH_STATUS_FILE, or what planish_model_tessellate() or planish_model_deviation() return.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_model_write_vtk(const struct planish_model *model,
+                                            const char *path,
+                                            const struct planish_vtk_options *options);
+
+/**
  * Fills options with the defaults.
  *
  * options:     struct_size writable bytes.

@@ -1162,6 +1162,81 @@ class model {
     return report;
   }
 
+  /// Values and derivatives up to `max_derivative` (at most 2) at parameters on faces: for each point the rows S; Su,
+  /// Sv; Suu, Suv, Svv of 3 numbers.
+  std::vector<double> eval(const values<std::uint32_t> &faces, const rows<double, 2> &uv,
+                           std::uint32_t max_derivative = 0,
+                           const planish_eval_options &options = defaults<planish_eval_options>()) const {
+    constexpr std::size_t row_counts[3] = {1, 3, 6};
+    const std::size_t width = 3 * row_counts[std::min<std::uint32_t>(max_derivative, 2)]; // the call refuses more
+    detail::check_rows(faces.count(), uv.count(), 1);
+    return detail::filled(uv.count(), width, options, [&](double *out) {
+      return planish_model_eval(get(), faces.data(), uv.data(), uv.count(), max_derivative, &options, out);
+    });
+  }
+
+  /// Unit normals at parameters on faces, out of the fronts of the faces.
+  std::vector<double> normals(const values<std::uint32_t> &faces, const rows<double, 2> &uv,
+                              const planish_eval_options &options = defaults<planish_eval_options>()) const {
+    detail::check_rows(faces.count(), uv.count(), 1);
+    return detail::filled(uv.count(), 3, options, [&](double *out) {
+      return planish_model_normals(get(), faces.data(), uv.data(), uv.count(), &options, out);
+    });
+  }
+
+  /// Rows of 8 numbers: the principal curvatures k1 >= k2 and the unit tangents d1, d2.
+  std::vector<double> curvatures(const values<std::uint32_t> &faces, const rows<double, 2> &uv,
+                                 const planish_eval_options &options = defaults<planish_eval_options>()) const {
+    detail::check_rows(faces.count(), uv.count(), 1);
+    return detail::filled(uv.count(), 8, options, [&](double *out) {
+      return planish_model_curvatures(get(), faces.data(), uv.data(), uv.count(), &options, out);
+    });
+  }
+
+  /// The places nearest to points.
+  struct feet {
+    /// Their faces; PLANISH_NONE for points farther away than options.max_distance.
+    std::vector<std::uint32_t> faces;
+    /// Their parameters; NaN for the same points.
+    std::vector<point2> uv;
+    /// Their distances; NaN for the same points.
+    std::vector<double> distances;
+  };
+
+  /// Finds them anywhere on the model.
+  feet project(const rows<double, 3> &points,
+               const planish_project_options &options = defaults<planish_project_options>()) const {
+    const std::size_t count = points.count();
+    feet found{std::vector<std::uint32_t>(count), std::vector<point2>(count), std::vector<double>(count)};
+    detail::checked(planish_model_project(get(), points.data(), count, &options, found.faces.data(),
+                                          count ? found.uv.front().data() : nullptr, found.distances.data()));
+    return found;
+  }
+
+  /// How far the nodes of a mesh are from the model.
+  deviated deviation(
+      const planish::mesh &mesh,
+      const planish_deviation_options &options = defaults<planish_deviation_options>()) const {
+    deviated result{std::vector<double>(mesh.point_count()), detail::sized<planish_deviation_report>()};
+    detail::checked(planish_model_deviation(get(), mesh.get(), &options, result.distances.data(),
+                                            result.distances.size(), &result.report));
+    return result;
+  }
+
+  /// A watertight triangle mesh of the model.
+  planish::mesh tessellate(
+      const planish_tessellate_options &options = defaults<planish_tessellate_options>()) const {
+    planish_mesh *made = nullptr;
+    detail::checked(planish_model_tessellate(get(), &options, &made));
+    return planish::mesh(made);
+  }
+
+  /// Writes its triangles as a VTK file; `path` is UTF-8.
+  void write_vtk(const std::string &path,
+                 const planish_vtk_options &options = defaults<planish_vtk_options>()) const {
+    detail::checked(planish_model_write_vtk(get(), path.c_str(), &options));
+  }
+
   /// Writes a STEP file; `path` is UTF-8.
   planish_step_report write_step(const std::string &path,
                                  planish_step_options options = defaults<planish_step_options>()) const {

@@ -19,7 +19,7 @@ use crate::knots::KnotError;
 use crate::layout::LayoutError;
 use crate::layout::of_mesh::MeshLayoutError;
 use crate::mesh::{CutError, DecimateError, MeshError, ReadError};
-use crate::model::ModelError;
+use crate::model::{ModelError, ModelEvalError};
 use crate::parameterize::ParameterizeError;
 use crate::parameterize::sphere::SphereError;
 use crate::query::deviation::DeviationError;
@@ -114,6 +114,8 @@ union! {
     Vtk(VtkError),
     /// Parts do not make a model.
     Model(ModelError),
+    /// Points on faces cannot be evaluated.
+    ModelEval(ModelEvalError),
     /// A surface has no model.
     Conversion(ConversionError),
     /// A model cannot be written.

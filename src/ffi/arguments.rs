@@ -215,6 +215,21 @@ pub(super) unsafe fn rows_mut<'a, T>(
     unsafe { slice_mut(at, array_len::<T>(needed, width, name)?, name) }
 }
 
+/// The same for an output that the caller may leave out: none if `at` is NULL.
+///
+/// # Safety
+/// As [`rows_mut`].
+pub(super) unsafe fn rows_or_none<'a, T>(
+    at: *mut T,
+    given: usize,
+    needed: usize,
+    width: usize,
+    name: &'static str,
+) -> Argument<Option<&'a mut [T]>> {
+    // SAFETY: the caller's promise.
+    if at.is_null() { Ok(None) } else { unsafe { rows_mut(at, given, needed, width, name) }.map(Some) }
+}
+
 /// A copy of `count` rows of `N` elements every `stride`. Memory is asked for before an element is read.
 ///
 /// # Safety

@@ -1,6 +1,8 @@
 //! Models: faces that share edges and vertices.
 
-use super::arguments::{ArgumentError, ReportOut, deref, options, out, rows_mut, slice, slice_mut, text};
+use super::arguments::{
+    ArgumentError, ReportOut, deref, options, out, rows_mut, rows_or_none, slice, slice_mut, text,
+};
 use super::curve::planish_curve;
 use super::guard::guard;
 use super::planish_status;
@@ -447,20 +449,6 @@ pub unsafe extern "C" fn planish_model_copy_edge(
     })
 }
 
-/// An array of the caller that may be left out.
-///
-/// # Safety
-/// As [`rows_mut`].
-unsafe fn rows_or_none<'a, T>(
-    at: *mut T,
-    given: usize,
-    needed: usize,
-    name: &'static str,
-) -> Result<Option<&'a mut [T]>, ArgumentError> {
-    // SAFETY: the caller's promise.
-    if at.is_null() { Ok(None) } else { unsafe { rows_mut(at, given, needed, 1, name) }.map(Some) }
-}
-
 /// Copies the loops of a face: their edges in order, loop after loop, the outer loop first. Each edge begins where the
 /// one before it ends; the face lies on the left of a loop as seen from its front.
 ///
@@ -490,10 +478,10 @@ pub unsafe extern "C" fn planish_model_copy_loops(
     guard(|| unsafe {
         let model = deref(model, "model")?;
         let face = model.core().face(model.face(face)?);
-        let sizes = rows_or_none(out_sizes, loop_count, face.bounds.len(), "out_sizes")?;
+        let sizes = rows_or_none(out_sizes, loop_count, face.bounds.len(), 1, "out_sizes")?;
         let needed = self::coedge_count(face);
-        let edges = rows_or_none(out_edges, coedge_count, needed, "out_edges")?;
-        let forward = rows_or_none(out_forward, coedge_count, needed, "out_forward")?;
+        let edges = rows_or_none(out_edges, coedge_count, needed, 1, "out_edges")?;
+        let forward = rows_or_none(out_forward, coedge_count, needed, 1, "out_forward")?;
         let coedges = || face.bounds.iter().flatten();
         sizes.into_iter().flatten().zip(&face.bounds).for_each(|(to, bound)| *to = bound.len());
         edges.into_iter().flatten().zip(coedges()).for_each(|(to, coedge)| *to = coedge.edge.index() as u32);
@@ -590,7 +578,7 @@ pub unsafe extern "C" fn planish_model_copy_shell(
         let model = deref(model, "model")?;
         let shell = &model.core().shells()[model.shell(shell)?.index()];
         let info = ReportOut::new(out_info)?;
-        let faces = rows_or_none(out_faces, count, shell.faces.len(), "out_faces")?;
+        let faces = rows_or_none(out_faces, count, shell.faces.len(), 1, "out_faces")?;
         let (role, void_in) = match shell.role {
             Role::Open => (planish_shell_role::Open, PLANISH_NONE),
             Role::Solid => (planish_shell_role::Solid, PLANISH_NONE),

@@ -184,6 +184,14 @@ impl Carrier {
         points.iter().map(&mut locate).collect()
     }
 
+    /// Turns angles on a cylinder by whole turns, so that places go on where others ended.
+    pub(super) fn go_on(&self, before: Option<DVec2>, places: &mut [DVec2]) {
+        if let (Self::Cylinder(_), Some(before), Some(first)) = (self, before, places.first()) {
+            let turns = ((before.x - first.x) / TAU).round();
+            places.iter_mut().for_each(|uv| uv.x += turns * TAU);
+        }
+    }
+
     /// The rectangle of parameters on which a spline is defined.
     pub fn domain(&self) -> Option<Domain> {
         self.spline().map(Surface::domain)

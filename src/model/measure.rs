@@ -211,7 +211,7 @@ impl Model {
 }
 
 /// All breaks, and `pieces - 1` places between each two of them.
-fn between(breaks: &[f64], pieces: usize) -> Vec<f64> {
+pub(super) fn between(breaks: &[f64], pieces: usize) -> Vec<f64> {
     let inner = breaks.windows(2).flat_map(|span| {
         let (from, to) = (span[0], span[1]);
         (0..pieces).map(move |k| from + (to - from) * k as f64 / pieces as f64)

@@ -14,19 +14,28 @@
 mod as_tensor;
 mod builder;
 mod carrier;
+mod deviation;
 mod error;
+mod euler;
+mod evaluate;
 mod measure;
 mod of_surface;
+mod project;
 #[cfg(test)]
 pub(crate) mod shapes;
+mod tessellate;
 #[cfg(test)]
 mod tests;
 
 pub use builder::Builder;
 pub use carrier::{Carrier, Cylinder, Frame, Plane};
+pub use deviation::ModelDeviation;
 pub use error::ModelError;
+pub use evaluate::{ModelEvalError, ModelValues};
 pub use measure::{Joint, Measure};
 pub use of_surface::{CURVE_TOLERANCE, Form, FormOptions, of_parts, of_surface};
+pub use project::{ModelFeet, ModelProjector};
+pub use tessellate::ModelTessellation;
 
 use crate::curve::Curve;
 use crate::geometry::Domain;

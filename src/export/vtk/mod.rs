@@ -11,6 +11,7 @@ use super::error::{ExportError, write_file};
 use crate::control::Pool;
 use crate::failure::{Classify, ErrorKind};
 use crate::mesh::{Mesh, MeshError};
+use crate::model::{Model, ModelTessellation};
 use crate::query::deviation::{DeviationError, DeviationOptions, deviation};
 use crate::query::tessellate::{TessellateError, TessellateOptions, tessellate};
 use crate::surface::{ControlNet, Surface};
@@ -69,6 +70,16 @@ pub struct PointData<'a> {
 
 /// Writes a mesh with its parameters (as `uv`) and further numbers at its nodes.
 pub fn write_mesh(mesh: &Mesh, data: &[PointData], path: &Path) -> Result<(), ExportError> {
+    write_triangles(mesh, data, &[], path)
+}
+
+/// The same with a number for each triangle, by name.
+fn write_triangles(
+    mesh: &Mesh,
+    data: &[PointData],
+    cells: &[(&str, &[f64])],
+    path: &Path,
+) -> Result<(), ExportError> {
     let count = mesh.points().len();
     for data in data {
         let expected = count * data.dim;
@@ -87,6 +98,11 @@ pub fn write_mesh(mesh: &Mesh, data: &[PointData], path: &Path) -> Result<(), Ex
         }
         data.iter().for_each(|data| grid.doubles(data.name, data.dim, data.values));
     });
+    if !cells.is_empty() {
+        grid.section("CellData", "", |grid| {
+            cells.iter().for_each(|(name, values)| grid.doubles(name, 1, values))
+        });
+    }
     grid.section("Points", "", |grid| grid.doubles("points", 3, &points));
     grid.cells(grid::TRIANGLE, triangles.iter().map(|nodes| nodes.map(i64::from)));
     write_file(path, &grid.finish())
@@ -115,6 +131,26 @@ pub fn write_surface(
     };
     let report = deviation(surface, mesh, &DeviationOptions::default(), pool)?;
     let moved = on_surface(surface, mesh, &report.uv)?;
+    let deviation = PointData { name: "deviation", dim: 1, values: &report.nodes.each };
+    Ok(write_mesh(&moved, &[deviation], path)?)
+}
+
+/// Writes a model as triangles, with the number of the face under each as cell data `face`.
+pub fn write_model(
+    model: &Model,
+    options: &SurfaceOptions,
+    path: &Path,
+    pool: &Pool,
+) -> Result<(), VtkError> {
+    let Some(mesh) = options.deviation_from else {
+        let ModelTessellation { mesh, faces, .. } = model.tessellate(&options.tessellate)?;
+        let faces: Vec<f64> = faces.iter().map(|face| face.index() as f64).collect();
+        return Ok(write_triangles(&mesh, &[], &[("face", &faces)], path)?);
+    };
+    let report = model.deviation(mesh, &DeviationOptions::default(), pool)?;
+    let feet = report.faces.iter().zip(&report.uv);
+    let places = feet.map(|(face, &uv)| face.map_or(DVec3::NAN, |face| model.carrier(face).points(&[uv])[0]));
+    let moved = Mesh::new(places.collect(), mesh.triangles().to_vec())?;
     let deviation = PointData { name: "deviation", dim: 1, values: &report.nodes.each };
     Ok(write_mesh(&moved, &[deviation], path)?)
 }

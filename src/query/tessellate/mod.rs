@@ -19,7 +19,7 @@ use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation, mitigate_underflow};
 use std::collections::HashMap;
 use subdivide::{Fineness, tessellate_facets};
-use tessellation::{distance_to_segment, least_angle};
+pub(crate) use tessellation::{distance_to_segment, least_angle};
 
 pub use subdivide::CHORD_SHARE;
 
@@ -42,6 +42,20 @@ impl Default for TessellateOptions {
     }
 }
 
+impl TessellateOptions {
+    /// Refuses lengths that are none.
+    pub fn check(&self) -> Result<(), TessellateError> {
+        for (option, value) in
+            [("chord_tolerance", self.chord_tolerance), ("max_edge_length", self.max_edge_length)]
+        {
+            if !(value >= 0.0 && value.is_finite()) {
+                return Err(TessellateError::Option { option, value });
+            }
+        }
+        Ok(())
+    }
+}
+
 /// Triangulates the part of a surface inside its trims.
 pub fn tessellate(
     surface: &dyn Surface,
@@ -50,13 +64,7 @@ pub fn tessellate(
     if surface.dim() != 3 {
         return Err(TessellateError::Dimension { dim: surface.dim() });
     }
-    for (option, value) in
-        [("chord_tolerance", options.chord_tolerance), ("max_edge_length", options.max_edge_length)]
-    {
-        if !(value >= 0.0 && value.is_finite()) {
-            return Err(TessellateError::Option { option, value });
-        }
-    }
+    options.check()?;
     if let Some(facets) = surface.facets()
         && (!options.keep_trims || facets.has_own_trims())
     {

@@ -14,13 +14,13 @@ pub struct Tessellation {
     pub chord_error: f64,
 }
 
-pub(super) fn distance_to_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
+pub(crate) fn distance_to_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
     let along = b - a;
     let length_sq = along.length_squared();
     let t = if length_sq > 0.0 { ((p - a).dot(along) / length_sq).clamp(0.0, 1.0) } else { 0.0 };
     p.distance(a + t * along)
 }
 
-pub(super) fn least_angle([a, b, c]: [DVec3; 3]) -> f64 {
+pub(crate) fn least_angle([a, b, c]: [DVec3; 3]) -> f64 {
     (b - a).angle_between(c - a).min((c - b).angle_between(a - b)).min((a - c).angle_between(b - c))
 }

@@ -1,0 +1,363 @@
+//! The places of a model nearest to points: globally, over all faces.
+//!
+//! Faces are taken in the order of the distances of their boxes until none can be nearer. On splines the search is that
+//! of [`query::project`](crate::query::project). On planes and cylinders the foot is exact: it counts if it lies inside
+//! the loops, else the nearest place of an edge does.
+
+use super::{Carrier, Face, FaceId, Model, Use};
+use crate::control::Pool;
+use crate::query::project::{ProjectError, ProjectOptions, Projector};
+use crate::surface::Surface;
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+use std::f64::consts::TAU;
+
+/// Nearest places.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ModelFeet {
+    /// The face of each; none for points farther away than [`ProjectOptions::max_distance`].
+    pub faces: Vec<Option<FaceId>>,
+    /// Their parameters on the surface of the face; NaN for the same points.
+    pub uv: Vec<DVec2>,
+    /// Their distances; NaN for the same points.
+    pub distances: Vec<f64>,
+}
+
+/// Projects points onto one model. It holds all it needs of that.
+#[derive(Debug)]
+pub struct ModelProjector {
+    faces: Vec<FaceFeet>,
+}
+
+/// Points of one piece of work. Pieces do not depend on the number of threads.
+const CHUNK: usize = 64;
+
+/// A face with a box around it.
+#[derive(Debug)]
+struct FaceFeet {
+    min: DVec3,
+    max: DVec3,
+    feet: Feet,
+}
+
+#[derive(Debug)]
+enum Feet {
+    Spline(Projector),
+    Exact { carrier: Carrier, bound: Bound },
+}
+
+/// The loops of a face on a plane or cylinder.
+#[derive(Debug)]
+struct Bound {
+    sides: Vec<Side>,
+    /// Pieces of the loops in the parameter plane.
+    segments: Vec<[DVec2; 2]>,
+    /// How far those are from the edges at most, in space.
+    chord_error: f64,
+    is_periodic: bool,
+}
+
+#[derive(Debug)]
+struct Side {
+    curve: crate::curve::Curve,
+    projector: Projector,
+    /// Whether the face is on its left.
+    is_forward: bool,
+}
+
+impl ModelProjector {
+    /// Builds what searches need: time and memory are proportional to the patches and edges.
+    pub fn new(model: &Model) -> Result<Self, ProjectError> {
+        let faces = model.face_ids().map(|face| face_feet(model, face));
+        Ok(Self { faces: faces.collect::<Result<_, _>>()? })
+    }
+
+    /// The nearest place for each row of `points`. Guesses are not used: the answers are global. The result for a point
+    /// depends on nothing but the point and the options.
+    pub fn project(
+        &self,
+        points: &[DVec3],
+        options: &ProjectOptions,
+        pool: &Pool,
+    ) -> Result<ModelFeet, ProjectError> {
+        if options.max_distance.is_nan() || options.max_distance < 0.0 {
+            return Err(ProjectError::MaxDistance { value: options.max_distance });
+        }
+        if let Some(index) = points.iter().position(|point| !point.is_finite()) {
+            return Err(ProjectError::NotFinite { index });
+        }
+        let of_chunk = |chunk: &[DVec3]| -> Result<Vec<(Option<FaceId>, DVec2, f64)>, ProjectError> {
+            pool.check()?;
+            chunk.iter().map(|&point| self.nearest(point, options.max_distance, pool)).collect()
+        };
+        let chunks: Result<Vec<_>, _> = pool.run(|| points.par_chunks(CHUNK).map(of_chunk).collect());
+        let mut feet = ModelFeet::default();
+        for (face, uv, distance) in chunks?.into_iter().flatten() {
+            feet.faces.push(face);
+            feet.uv.push(uv);
+            feet.distances.push(distance);
+        }
+        Ok(feet)
+    }
+
+    fn nearest(
+        &self,
+        point: DVec3,
+        max_distance: f64,
+        pool: &Pool,
+    ) -> Result<(Option<FaceId>, DVec2, f64), ProjectError> {
+        let below = |of: &FaceFeet| point.distance(point.clamp(of.min, of.max));
+        let mut order: Vec<(f64, usize)> = self.faces.iter().map(below).zip(0..).collect();
+        order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let mut best = (None, DVec2::NAN, f64::NAN);
+        let mut most = max_distance;
+        for (least, face) in order {
+            if least > most {
+                break;
+            }
+            let (uv, distance) = match &self.faces[face].feet {
+                Feet::Exact { carrier, bound } => bound.nearest(carrier, point, pool)?,
+                Feet::Spline(projector) => {
+                    let options = ProjectOptions { max_distance: most, ..ProjectOptions::default() };
+                    let (mut uv, mut distance) = ([DVec2::NAN], [f64::NAN]);
+                    projector.project(&point.to_array(), &options, &mut uv, &mut distance, pool)?;
+                    (uv[0], distance[0])
+                }
+            };
+            if distance < most || (best.0.is_none() && distance <= most) {
+                best = (Some(FaceId(face as u32)), uv, distance);
+                most = distance;
+            }
+        }
+        Ok(best)
+    }
+}
+
+fn face_feet(model: &Model, face: FaceId) -> Result<FaceFeet, ProjectError> {
+    let Face { bounds, .. } = model.face(face);
+    let hull = |rows: &[f64], reach: f64| {
+        let points = rows.chunks_exact(3).map(DVec3::from_slice);
+        let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        points.fold(start, |(min, max), p| (min.min(p - reach), max.max(p + reach)))
+    };
+    let of_edges = || {
+        bounds
+            .iter()
+            .flatten()
+            .flat_map(|coedge| model.edge(coedge.edge).curve.control_points().iter().copied())
+    };
+    let ((min, max), feet) = match model.carrier(face) {
+        Carrier::Spline(surface) => {
+            let mut surface = surface.clone();
+            let whole = surface.domain();
+            let region = surface.region_mut();
+            region.data_box = None;
+            // a loop along the sides of the domain bounds nothing
+            region.trims = match model.trims(face) {
+                Ok(trims) if !encloses_all(trims.loops(), whole.min, whole.max) => trims,
+                _ => crate::surface::Trims::default(),
+            };
+            (hull(surface.control_points(), 0.0), Feet::Spline(Projector::new(&surface)?))
+        }
+        carrier => {
+            // a wall is nowhere farther from its edges than all round the cylinder
+            let reach = if let Carrier::Cylinder(cylinder) = carrier { 2.0 * cylinder.radius() } else { 0.0 };
+            let rows: Vec<f64> = of_edges().collect();
+            (hull(&rows, reach), Feet::Exact { carrier: carrier.clone(), bound: Bound::new(model, face) })
+        }
+    };
+    Ok(FaceFeet { min, max, feet })
+}
+
+/// Whether one loop runs along the sides of a rectangle.
+fn encloses_all(loops: &[Vec<DVec2>], min: DVec2, max: DVec2) -> bool {
+    let on_side = |uv: &DVec2| uv.x == min.x || uv.x == max.x || uv.y == min.y || uv.y == max.y;
+    matches!(loops, [polyline] if polyline.iter().all(on_side)
+        && [min, max, DVec2::new(min.x, max.y), DVec2::new(max.x, min.y)].iter().all(|corner| polyline.contains(corner)))
+}
+
+impl Bound {
+    fn new(model: &Model, face: FaceId) -> Self {
+        let of_face = model.face(face);
+        let carrier = model.carrier(face);
+        let mut bound = Self {
+            sides: Vec::new(),
+            segments: Vec::new(),
+            chord_error: 0.0,
+            is_periodic: matches!(carrier, Carrier::Cylinder(_)),
+        };
+        for (index, coedges) in of_face.bounds.iter().enumerate() {
+            let mut before: Option<DVec2> = None;
+            for (place, coedge) in coedges.iter().enumerate() {
+                let curve = &model.edge(coedge.edge).curve;
+                let breaks = curve.knots().breaks();
+                // pieces with their middles between them
+                let fine = super::measure::between(&breaks, 2 * PIECES);
+                let mut places = model.places(Use { face, bound: index, place }, &fine);
+                if !coedge.is_forward {
+                    places.reverse();
+                }
+                carrier.go_on(before, &mut places);
+                before = places.last().copied();
+                let middles = places.chunks_exact(2).map(|pair| pair[1]).collect::<Vec<_>>();
+                for (k, &middle) in middles.iter().enumerate() {
+                    let ends = [places[2 * k], places[2 * k + 2]];
+                    let [a, b] = [middle, ends[0].midpoint(ends[1])].map(|uv| carrier.points(&[uv])[0]);
+                    bound.chord_error = bound.chord_error.max(a.distance(b));
+                    bound.segments.push(ends);
+                }
+                bound.sides.push(Side {
+                    projector: Projector::of_curve(curve),
+                    curve: curve.clone(),
+                    is_forward: coedge.is_forward == of_face.is_forward,
+                });
+            }
+        }
+        bound
+    }
+
+    /// The nearest place on the part of an exact surface inside the loops.
+    fn nearest(&self, carrier: &Carrier, point: DVec3, pool: &Pool) -> Result<(DVec2, f64), ProjectError> {
+        let foot = carrier.locate_all(&[point])[0];
+        let at_foot = carrier.points(&[foot])[0];
+        let options = ProjectOptions::default();
+        let mut edge = (0, 0.0, f64::INFINITY);
+        let mut beside = (0, 0.0, f64::INFINITY);
+        for (k, side) in self.sides.iter().enumerate() {
+            for (place, best) in [(point, &mut edge), (at_foot, &mut beside)] {
+                let (mut t, mut distance) = ([DVec2::ZERO], [0.0]);
+                side.projector.project(&place.to_array(), &options, &mut t, &mut distance, pool)?;
+                if distance[0] < best.2 {
+                    *best = (k, t[0].x, distance[0]);
+                }
+            }
+        }
+        let is_inside = match beside.2 <= 2.0 * self.chord_error {
+            // too near to an edge for the pieces of the loop to tell
+            true => self.is_left(carrier, beside.0, beside.1, at_foot),
+            false => self.contains(foot),
+        };
+        if is_inside {
+            return Ok((foot, point.distance(at_foot)));
+        }
+        let at_edge = super::points_on(&self.sides[edge.0].curve, &[edge.1])[0];
+        Ok((carrier.locate_all(&[at_edge])[0], edge.2))
+    }
+
+    /// Whether a place of the surface is on the side of an edge on which the face is.
+    fn is_left(&self, carrier: &Carrier, side: usize, t: f64, place: DVec3) -> bool {
+        let mut row = [0.0; 6];
+        self.sides[side].curve.eval_rows(&[t], 1, &mut row);
+        let [at, along] = [0, 3].map(|k| DVec3::from_slice(&row[k..]));
+        let normal = match carrier {
+            Carrier::Plane(plane) => plane.0.z(),
+            Carrier::Cylinder(cylinder) => {
+                let from = at - cylinder.frame().origin();
+                from - from.dot(cylinder.frame().z()) * cylinder.frame().z()
+            }
+            Carrier::Spline(_) => DVec3::ZERO,
+        };
+        let sense = if self.sides[side].is_forward { 1.0 } else { -1.0 };
+        sense * normal.dot(along.cross(place - at)) >= 0.0
+    }
+
+    /// Whether a ray towards larger v crosses the loops an odd number of times.
+    fn contains(&self, uv: DVec2) -> bool {
+        let crosses = |[a, b]: &[DVec2; 2]| {
+            let turns = if self.is_periodic { ((a.midpoint(*b).x - uv.x) / TAU).round() } else { 0.0 };
+            let u = uv.x + turns * TAU;
+            (a.x <= u) != (b.x <= u) && uv.y < a.y + (u - a.x) / (b.x - a.x) * (b.y - a.y)
+        };
+        self.segments.iter().filter(|&segment| crosses(segment)).count() % 2 == 1
+    }
+}
+
+/// Pieces of a span of an edge.
+const PIECES: usize = 8;
+
+#[cfg(test)]
+mod tests {
+    use super::super::shapes::{
+        PIPE_HEIGHT, PIPE_RADIUS, circle, hollow_cube, pipe, rectangle, trimmed, wave,
+    };
+    use super::super::{Frame, of_parts};
+    use super::*;
+    use crate::samples::Random;
+
+    fn random_points(count: usize, center: DVec3, reach: f64) -> Vec<DVec3> {
+        let mut random = Random::new(7);
+        (0..count)
+            .map(|_| center + reach * DVec3::new(random.signed(), random.signed(), random.signed()))
+            .collect()
+    }
+
+    fn project(model: &Model, points: &[DVec3], threads: usize) -> ModelFeet {
+        let projector = ModelProjector::new(model).unwrap();
+        projector.project(points, &ProjectOptions::default(), &Pool::new(threads)).unwrap()
+    }
+
+    #[test]
+    fn distances_to_a_hollow_cube_are_those_of_boxes() {
+        let points = random_points(500, DVec3::splat(0.5), 1.2);
+        let to_skin = |p: DVec3, low: f64, high: f64| {
+            let q = p.clamp(DVec3::splat(low), DVec3::splat(high));
+            let inside = (p - low).min(high - p).min_element();
+            if inside > 0.0 { inside } else { p.distance(q) }
+        };
+        let mut both = Vec::new();
+        for is_flat in [false, true] {
+            let model = hollow_cube(is_flat);
+            let feet = project(&model, &points, 2);
+            assert_eq!(feet, project(&model, &points, 1));
+            for (k, &point) in points.iter().enumerate() {
+                let exact = to_skin(point, 0.0, 1.0).min(to_skin(point, 0.25, 0.75));
+                assert!((feet.distances[k] - exact).abs() < 1e-12, "{point} {exact} {}", feet.distances[k]);
+                let at = model.carrier(feet.faces[k].unwrap()).points(&[feet.uv[k]])[0];
+                assert!((at.distance(point) - exact).abs() < 1e-12);
+            }
+            both.push(feet.distances);
+        }
+    }
+
+    #[test]
+    fn distances_to_a_pipe_are_those_of_a_cylinder() {
+        let model = pipe();
+        let Carrier::Cylinder(cylinder) = &model.surfaces()[0] else { panic!("the wall is a cylinder") };
+        let frame: Frame = *cylinder.frame();
+        let middle = frame.origin() + 0.5 * PIPE_HEIGHT * frame.z();
+        let points = random_points(300, middle, 4.0);
+        let feet = project(&model, &points, 2);
+        for (k, &point) in points.iter().enumerate() {
+            let from = point - frame.origin();
+            let height = from.dot(frame.z());
+            let radius = (from - height * frame.z()).length();
+            let out =
+                DVec2::new((radius - PIPE_RADIUS).max(0.0), (height - PIPE_HEIGHT).max(-height).max(0.0));
+            let inside = (PIPE_RADIUS - radius).min(height).min(PIPE_HEIGHT - height);
+            let exact = if inside > 0.0 { inside } else { out.length() };
+            // the edges are cubics 1e-9 off the circles
+            assert!((feet.distances[k] - exact).abs() < 1e-7, "{point} {exact} {}", feet.distances[k]);
+        }
+    }
+
+    #[test]
+    fn a_model_of_one_face_is_its_surface() {
+        let surface = trimmed(wave(), vec![rectangle(0.1, 0.9), circle([0.4, 0.5], 0.1, 40)]);
+        let model = of_parts(&surface, vec![surface.clone()]).unwrap();
+        let points = random_points(200, DVec3::new(0.5, 0.5, 0.0), 1.0);
+        let feet = project(&model, &points, 1);
+        let rows: Vec<f64> = points.iter().flat_map(|p| p.to_array()).collect();
+        let (mut uv, mut distances) = (vec![DVec2::ZERO; 200], vec![0.0; 200]);
+        let projector = Projector::new(&surface).unwrap();
+        projector.project(&rows, &ProjectOptions::default(), &mut uv, &mut distances, &Pool::new(1)).unwrap();
+        for (a, b) in feet.distances.iter().zip(&distances) {
+            assert!((a - b).abs() < 1e-12, "{a} {b}");
+        }
+        let near = ProjectOptions { max_distance: 0.1, ..ProjectOptions::default() };
+        let feet = ModelProjector::new(&model).unwrap().project(&points, &near, &Pool::new(1)).unwrap();
+        for (k, distance) in distances.iter().enumerate() {
+            assert_eq!(feet.faces[k].is_some(), *distance <= 0.1);
+            assert_eq!(feet.distances[k].is_nan(), *distance > 0.1);
+        }
+    }
+}
