@@ -17,7 +17,7 @@ use planish::mesh::{DecimateOptions, Mesh};
 use planish::parameterize::{ParameterizeOptions, parameterize};
 use planish::query::deviation::{DeviationOptions, deviation};
 use planish::query::project::{ProjectOptions, Projector};
-use planish::query::tessellate::{TessellateOptions, tessellate};
+use planish::query::tessellate::{TessellateOptions, tessellate_watched};
 use planish::samples::{franke, grid};
 use planish::surface::pht::{ConvertOptions, PhtSurface};
 use planish::surface::tensor::TensorSurface;
@@ -69,12 +69,15 @@ fn main() {
         let options = DeviationOptions { measure_back: true, ..DeviationOptions::default() };
         drop(deviation(&surface, &sheet, &options, control.pool()));
     });
-    row("tessellate", &|_| {
+    row("tessellate", &|control| {
         let options = TessellateOptions { chord_tolerance: 1e-6, ..TessellateOptions::default() };
-        drop(tessellate(&surface, &options));
+        drop(tessellate_watched(&surface, &options, control.pool().watch()));
     });
-    row("pht_from", &|_| drop(PhtSurface::from_tensor(&surface, &ConvertOptions::default())));
-    row("pht_simplify", &|_| drop(pht.clone().simplify(1e-3)));
+    row("pht_from", &|control| {
+        let options = ConvertOptions { tolerance: 1e-7, ..ConvertOptions::default() };
+        drop(PhtSurface::from_tensor_watched(&surface, &options, control.pool().watch()));
+    });
+    row("pht_simplify", &|control| drop(pht.clone().simplify_watched(1e-3, control.pool().watch())));
 }
 
 /// A bumpy sheet with about so many nodes over the unit square, their parameters.

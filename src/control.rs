@@ -106,6 +106,11 @@ impl Pool {
         Self { thread_count, threads: OnceLock::new(), watch: Watch::default() }
     }
 
+    /// Whether the call that this pool works for is to end, for work that needs no threads.
+    pub fn watch(&self) -> &Watch {
+        &self.watch
+    }
+
     /// An error once the call that this pool works for is to end: asked between pieces of work.
     pub fn check(&self) -> Result<(), Cancelled> {
         self.watch.check()

@@ -405,7 +405,7 @@ pub unsafe extern "C" fn planish_pht_simplify(
         let mut simplified = pht.clone();
         let result = with_control(1, listener!(given), |control| {
             control.enter(Stage::Convert);
-            simplified.simplify(tolerance)
+            simplified.simplify_watched(tolerance, control.pool().watch())
         })??;
         *pht = simplified;
         if let Some(out) = out_deviation {
@@ -502,7 +502,7 @@ pub unsafe extern "C" fn planish_pht_from_surface(
         // results are the same for any number of threads, and one is enough
         let pht = with_control(1, listener!(given), |control| {
             control.enter(Stage::Convert);
-            PhtSurface::from_tensor(tensor, &options)
+            PhtSurface::from_tensor_watched(tensor, &options, control.pool().watch())
         })??;
         out_surface.write(planish_surface::into_raw(pht));
         Ok(())

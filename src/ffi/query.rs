@@ -13,7 +13,7 @@ use super::surface::planish_surface;
 use crate::control::Stage;
 use crate::query::deviation::{DeviationOptions, DeviationReport, deviation};
 use crate::query::project::{ProjectOptions, Projector};
-use crate::query::tessellate::{TessellateOptions, Tessellation, tessellate};
+use crate::query::tessellate::{TessellateOptions, Tessellation, tessellate_watched};
 use glam::DVec2;
 use std::ffi::c_void;
 
@@ -100,7 +100,7 @@ pub unsafe extern "C" fn planish_surface_tessellate(
         let Tessellation { mesh, smallest_angle, chord_error } =
             with_control(1, listener!(given), |control| {
                 control.enter(Stage::Tessellate);
-                tessellate(surface, &core)
+                tessellate_watched(surface, &core, control.pool().watch())
             })??;
         report.store(planish_tessellate_report { smallest_angle, chord_error, ..Default::default() });
         out_mesh.write(planish_mesh::into_raw(mesh));

@@ -5,8 +5,9 @@
 use crate::control::Pool;
 use crate::failure::{Classify, ErrorKind};
 use crate::mesh::Mesh;
+use crate::query::extent::bounding_box;
 use crate::query::project::{ProjectError, ProjectOptions, Projector};
-use crate::query::tessellate::{TessellateError, TessellateOptions, tessellate};
+use crate::query::tessellate::{TessellateError, TessellateOptions, tessellate_watched};
 use crate::query::triangles::TriangleTree;
 use crate::summary::{DataErrors, summarize};
 use crate::surface::Surface;
@@ -25,7 +26,8 @@ pub struct DeviationOptions {
     pub measure_back: bool,
     /// Chord tolerance of the tessellation that is measured back from; 0 takes 1e-3 of the diagonal.
     pub chord_tolerance: f64,
-    /// Longest edge of that tessellation; 0 takes 1e-2 of the mesh's diagonal. Smaller holes may be missed.
+    /// Longest edge of that tessellation; 0 takes 1e-2 of the mesh's diagonal, and at least 2e-3 of the surface's.
+    /// Smaller holes may be missed.
     pub max_edge_length: f64,
 }
 
@@ -137,7 +139,10 @@ fn measure_back(
 ) -> Result<(f64, DVec2, usize), DeviationError> {
     /// Against the mesh's diagonal.
     const EDGE_LENGTH: f64 = 1e-2;
-    let automatic = EDGE_LENGTH * mesh.diagonal();
+    /// Against the surface's: a mesh may be a small part of it, and then a quarter of a million places are enough.
+    const LEAST_EDGE_LENGTH: f64 = 2e-3;
+    let least = LEAST_EDGE_LENGTH * bounding_box(surface).diagonal();
+    let automatic = (EDGE_LENGTH * mesh.diagonal()).max(least);
     let max_edge_length = if options.max_edge_length > 0.0 { options.max_edge_length } else { automatic };
     let tessellation = TessellateOptions {
         chord_tolerance: options.chord_tolerance,
@@ -145,7 +150,7 @@ fn measure_back(
         keep_trims: options.keep_trims,
         ..TessellateOptions::default()
     };
-    let samples = tessellate(surface, &tessellation)?.mesh;
+    let samples = tessellate_watched(surface, &tessellation, pool.watch())?.mesh;
     let parameters = samples.parameters().unwrap_or(&[]);
     let middles =
         samples.triangles().iter().map(|t| t.map(|n| parameters[n as usize]).iter().sum::<DVec2>() / 3.0);
@@ -153,8 +158,12 @@ fn measure_back(
     let mut rows = vec![0.0; 3 * uv.len()];
     surface.eval_rows(&uv, 0, &mut rows);
     let tree = TriangleTree::new(mesh);
-    let distance = |row: &[f64]| tree.nearest(DVec3::from_slice(row)).map_or(f64::NAN, |near| near.distance);
+    let distance = |row: &[f64]| match pool.check() {
+        Ok(()) => tree.nearest(DVec3::from_slice(row)).map_or(f64::NAN, |near| near.distance),
+        Err(_) => f64::NAN,
+    };
     let errors = summarize(pool.run(|| rows.par_chunks_exact(3).map(distance).collect()));
+    pool.check().map_err(ProjectError::from)?;
     Ok((errors.max, uv[errors.worst_index], uv.len()))
 }
 
@@ -192,6 +201,17 @@ mod tests {
         let guessed = deviation(&square(), &mesh, &DeviationOptions::default(), &Pool::new(2)).unwrap();
         let pairs = report.nodes.each.iter().zip(&guessed.nodes.each);
         assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() <= 1e-12));
+    }
+
+    #[test]
+    fn a_mesh_far_smaller_than_the_surface_is_measured_back() {
+        let mut points = sheet(|_| 0.0).points().to_vec();
+        points.iter_mut().for_each(|p| *p *= 1e-3);
+        let mesh = Mesh::new(points, sheet(|_| 0.0).triangles().to_vec()).unwrap();
+        let options = DeviationOptions { measure_back: true, ..Default::default() };
+        let report = deviation(&square(), &mesh, &options, &Pool::new(2)).unwrap();
+        let farthest = (2.0_f64).sqrt() * (1.0 - 1e-3);
+        assert!((report.max_back_distance - farthest).abs() <= 1e-12, "{}", report.max_back_distance);
     }
 
     #[test]

@@ -11,7 +11,7 @@
 use crate::bezier::BezierPatch;
 use crate::control::Pool;
 use crate::geometry::{Bounds, Domain};
-use crate::query::tessellate::{TessellateError, TessellateOptions, tessellate};
+use crate::query::tessellate::{TessellateError, TessellateOptions, tessellate_watched};
 use crate::surface::{Patches, Surface};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -83,7 +83,7 @@ fn corner_values(patch: &BezierPatch) -> Vec<f64> {
 
 /// The area of the part of a surface in space that is inside its trims.
 pub fn area(surface: &dyn Surface, options: &TessellateOptions, pool: &Pool) -> Result<f64, TessellateError> {
-    let mesh = tessellate(surface, options)?.mesh;
+    let mesh = tessellate_watched(surface, options, pool.watch())?.mesh;
     let uv = mesh.parameters().unwrap_or(&[]);
     let over = |triangle: &[u32; 3]| over_triangle(surface, triangle.map(|node| uv[node as usize]));
     // pieces are added in their order, so that the sum does not depend on the number of threads

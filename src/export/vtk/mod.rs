@@ -13,7 +13,7 @@ use crate::failure::{Classify, ErrorKind};
 use crate::mesh::{Mesh, MeshError};
 use crate::model::{Model, ModelTessellation};
 use crate::query::deviation::{DeviationError, DeviationOptions, deviation};
-use crate::query::tessellate::{TessellateError, TessellateOptions, tessellate};
+use crate::query::tessellate::{TessellateError, TessellateOptions, tessellate_watched};
 use crate::surface::{ControlNet, Surface};
 use glam::{DVec2, DVec3};
 use grid::Grid;
@@ -126,7 +126,7 @@ pub fn write_surface(
     pool: &Pool,
 ) -> Result<(), VtkError> {
     let Some(mesh) = options.deviation_from else {
-        let tessellation = tessellate(surface, &options.tessellate)?;
+        let tessellation = tessellate_watched(surface, &options.tessellate, pool.watch())?;
         return Ok(write_mesh(&tessellation.mesh, &[], path)?);
     };
     let report = deviation(surface, mesh, &DeviationOptions::default(), pool)?;

@@ -1,5 +1,6 @@
 //! Why a surface cannot be tessellated.
 
+use crate::control::Cancelled;
 use crate::failure::{Classify, ErrorKind};
 use crate::mesh::MeshError;
 
@@ -40,6 +41,9 @@ pub enum TessellateError {
     /// The triangles are no mesh.
     #[error(transparent)]
     Mesh(#[from] MeshError),
+    /// The caller asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }
 
 impl Classify for TessellateError {
@@ -50,6 +54,7 @@ impl Classify for TessellateError {
             Self::CrossingTrims { .. } => ErrorKind::Topology,
             Self::Empty => ErrorKind::Degenerate,
             Self::Mesh(error) => error.kind(),
+            Self::Cancelled(_) => ErrorKind::Cancelled,
         }
     }
 }

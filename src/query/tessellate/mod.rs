@@ -12,6 +12,7 @@ mod tessellation;
 pub use error::TessellateError;
 pub use tessellation::Tessellation;
 
+use crate::control::Watch;
 use crate::mesh::Mesh;
 use crate::surface::Surface;
 use glam::{DVec2, DVec3};
@@ -61,6 +62,15 @@ pub fn tessellate(
     surface: &dyn Surface,
     options: &TessellateOptions,
 ) -> Result<Tessellation, TessellateError> {
+    tessellate_watched(surface, options, &Watch::default())
+}
+
+/// The same as a part of a call that may be cancelled.
+pub fn tessellate_watched(
+    surface: &dyn Surface,
+    options: &TessellateOptions,
+    watch: &Watch,
+) -> Result<Tessellation, TessellateError> {
     if surface.dim() != 3 {
         return Err(TessellateError::Dimension { dim: surface.dim() });
     }
@@ -72,9 +82,10 @@ pub fn tessellate(
         return tessellate_facets(
             facets.as_ref(),
             &Fineness { chord_tolerance, max_edge_length, max_points },
+            watch,
         );
     }
-    let mut plane = Plane::new(surface, options)?;
+    let mut plane = Plane::new(surface, options, watch)?;
     plane.add_frame()?;
     plane.add_trims()?;
     plane.add_grid()?;
@@ -91,6 +102,7 @@ const SHORTEST_EDGE: f64 = 1e-7;
 struct Plane<'a> {
     surface: &'a dyn Surface,
     options: &'a TessellateOptions,
+    watch: &'a Watch,
     chord_tolerance: f64,
     /// From (u,v) to the stretched plane of the triangulation.
     stretch: DVec2,
@@ -102,7 +114,11 @@ struct Plane<'a> {
 }
 
 impl<'a> Plane<'a> {
-    fn new(surface: &'a dyn Surface, options: &'a TessellateOptions) -> Result<Self, TessellateError> {
+    fn new(
+        surface: &'a dyn Surface,
+        options: &'a TessellateOptions,
+        watch: &'a Watch,
+    ) -> Result<Self, TessellateError> {
         let probe = Probe::new(surface);
         let chord_tolerance = if options.chord_tolerance > 0.0 {
             options.chord_tolerance
@@ -112,6 +128,7 @@ impl<'a> Plane<'a> {
         Ok(Self {
             surface,
             options,
+            watch,
             chord_tolerance,
             stretch: probe.stretch,
             triangulation: ConstrainedDelaunayTriangulation::new(),
@@ -126,6 +143,7 @@ impl<'a> Plane<'a> {
     }
 
     fn insert(&mut self, uv: DVec2) -> Result<FixedVertexHandle, TessellateError> {
+        self.watch.check()?;
         let place = uv * self.stretch;
         let crossing = TessellateError::CrossingTrims { u: uv.x, v: uv.y };
         let place = mitigate_underflow(Point2::new(place.x, place.y));
@@ -223,6 +241,7 @@ impl<'a> Plane<'a> {
         let mut middles = Vec::new();
         self.chord_error = 0.0;
         for [a, b] in edges {
+            self.watch.check()?;
             let (from, to) = (self.point(a), self.point(b));
             let place = |vertex| self.uv(self.triangulation.vertex(vertex).position());
             let uv = (place(a) + place(b)) / 2.0;
@@ -270,6 +289,7 @@ impl<'a> Plane<'a> {
         let faces: Vec<_> =
             self.triangulation.inner_faces().map(|face| face.vertices().map(|vertex| vertex.fix())).collect();
         for face in faces {
+            self.watch.check()?;
             if face.iter().any(|vertex| self.frame.contains(vertex)) {
                 continue;
             }

@@ -12,6 +12,7 @@
 
 use super::error::TessellateError;
 use super::tessellation::{Tessellation, distance_to_segment, least_angle};
+use crate::control::Watch;
 use crate::mesh::Mesh;
 use crate::surface::Facets;
 use glam::{DVec2, DVec3};
@@ -31,13 +32,17 @@ pub struct Fineness {
 }
 
 /// The coarsest division that is fine enough.
-pub fn tessellate_facets(surface: &dyn Facets, fineness: &Fineness) -> Result<Tessellation, TessellateError> {
-    let mut coarse = Division::new(surface, 1, fineness.max_points)?;
+pub fn tessellate_facets(
+    surface: &dyn Facets,
+    fineness: &Fineness,
+    watch: &Watch,
+) -> Result<Tessellation, TessellateError> {
+    let mut coarse = Division::new(surface, 1, fineness.max_points, watch)?;
     let diagonal = coarse.diagonal();
     let tolerance =
         if fineness.chord_tolerance > 0.0 { fineness.chord_tolerance } else { CHORD_SHARE * diagonal };
     loop {
-        let fine = Division::new(surface, 2 * coarse.parts, fineness.max_points)?;
+        let fine = Division::new(surface, 2 * coarse.parts, fineness.max_points, watch)?;
         let (chord_error, longest) = coarse.measure(&fine);
         let is_short = fineness.max_edge_length == 0.0 || longest <= fineness.max_edge_length;
         if (chord_error <= tolerance && is_short) || coarse.parts == MOST_PARTS {
@@ -49,7 +54,7 @@ pub fn tessellate_facets(surface: &dyn Facets, fineness: &Fineness) -> Result<Te
 
 /// A division into `parts` parts a side, as a mesh.
 pub fn subdivided(surface: &dyn Facets, parts: usize, max_points: usize) -> Result<Mesh, TessellateError> {
-    Ok(Division::new(surface, parts.max(1), max_points)?.finish(0.0)?.mesh)
+    Ok(Division::new(surface, parts.max(1), max_points, &Watch::default())?.finish(0.0)?.mesh)
 }
 
 struct Division {
@@ -67,7 +72,12 @@ fn place_in_face(parts: usize, i: usize, j: usize) -> usize {
 }
 
 impl Division {
-    fn new(surface: &dyn Facets, parts: usize, max_points: usize) -> Result<Self, TessellateError> {
+    fn new(
+        surface: &dyn Facets,
+        parts: usize,
+        max_points: usize,
+        watch: &Watch,
+    ) -> Result<Self, TessellateError> {
         let faces = surface.triangles();
         if faces.is_empty() {
             return Err(TessellateError::Empty);
@@ -90,6 +100,7 @@ impl Division {
             points: vec![DVec3::NAN; count],
         };
         for (number, face) in faces.iter().enumerate() {
+            watch.check()?;
             let mut inner = face_start + number * per_face;
             let first = division.nodes.len();
             for j in 0..=parts {
@@ -276,11 +287,11 @@ mod tests {
         let facets = surface.facets().unwrap();
         for chord_tolerance in [1e-2, 1e-3, 1e-4] {
             let fineness = Fineness { chord_tolerance, max_edge_length: 0.0, max_points: 1_000_000 };
-            let tessellation = tessellate_facets(facets.as_ref(), &fineness).unwrap();
+            let tessellation = tessellate_facets(facets.as_ref(), &fineness, &Watch::default()).unwrap();
             assert!(tessellation.chord_error <= chord_tolerance, "{}", tessellation.chord_error);
         }
         let fineness = Fineness { chord_tolerance: 1e-4, max_edge_length: 0.0, max_points: 100 };
-        let refused = tessellate_facets(facets.as_ref(), &fineness).unwrap_err();
+        let refused = tessellate_facets(facets.as_ref(), &fineness, &Watch::default()).unwrap_err();
         assert_eq!(refused, TessellateError::TooLarge { limit: 100 });
     }
 }

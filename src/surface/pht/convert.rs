@@ -5,6 +5,7 @@
 //! one on until samples agree, and the error falls with the fourth power of their size.
 
 use super::{PhtError, PhtSurface};
+use crate::control::Watch;
 use crate::geometry::Domain;
 use crate::knots::KnotVector;
 use crate::surface::tensor::{Axis, TensorSurface};
@@ -45,6 +46,15 @@ impl PhtSurface {
     /// The PHT-spline of a tensor surface, with its trims. Fails if the surface has a crease, and if the
     /// tolerance cannot be met within the limits.
     pub fn from_tensor(tensor: &TensorSurface, options: &ConvertOptions) -> Result<Self, PhtError> {
+        Self::from_tensor_watched(tensor, options, &Watch::default())
+    }
+
+    /// The same as a part of a call that may be cancelled.
+    pub fn from_tensor_watched(
+        tensor: &TensorSurface,
+        options: &ConvertOptions,
+        watch: &Watch,
+    ) -> Result<Self, PhtError> {
         let ConvertOptions { tolerance, max_level, max_cells } = *options;
         if !(tolerance >= 0.0 && tolerance.is_finite()) {
             return Err(PhtError::Tolerance { value: tolerance, range: "finite and not negative" });
@@ -52,7 +62,7 @@ impl PhtSurface {
         check_smoothness(tensor)?;
         let source = Source::new(tensor)?;
         let mut surface = if tolerance > 0.0 {
-            source.within(tolerance, max_level.min(MAX_LEVEL), max_cells)?
+            source.within(tolerance, max_level.min(MAX_LEVEL), max_cells, watch)?
         } else {
             source.exact(max_cells)?
         };
@@ -131,7 +141,13 @@ impl<'a> Source<'a> {
         PhtSurface::with_any_weights(self.tensor.dim(), self.tensor.weights().is_some(), mesh, &jets)
     }
 
-    fn within(&self, tolerance: f64, max_level: u32, max_cells: usize) -> Result<PhtSurface, PhtError> {
+    fn within(
+        &self,
+        tolerance: f64,
+        max_level: u32,
+        max_cells: usize,
+        watch: &Watch,
+    ) -> Result<PhtSurface, PhtError> {
         let Domain { min, max } = self.tensor.domain();
         let mut mesh = TMesh::new(&[min.x, max.x], &[min.y, max.y])?;
         let mut known = BTreeMap::new();
@@ -143,6 +159,10 @@ impl<'a> Source<'a> {
             // a coarse patch may follow the surface so badly that its weights are not positive
             let mut is_rough = |&(leaf, cell): &(usize, Cell)| {
                 let ordinates = surface.view().leaf_ordinates(leaf);
+                // what a cancelled call decides is thrown away
+                if watch.check().is_err() {
+                    return false;
+                }
                 if settled.get(&cell).is_some_and(|before| before == ordinates) {
                     return false;
                 }
@@ -154,6 +174,7 @@ impl<'a> Source<'a> {
                 is_rough
             };
             let rough: Vec<Cell> = leaves.filter(&mut is_rough).map(|(_, cell)| cell).collect();
+            watch.check()?;
             if rough.is_empty() {
                 return Ok(surface);
             }

@@ -1,5 +1,6 @@
 //! What can be wrong with a PHT-spline.
 
+use crate::control::Cancelled;
 use crate::failure::{Classify, ErrorKind};
 use crate::geometry::Axis;
 use crate::tmesh::TMeshError;
@@ -71,6 +72,9 @@ pub enum PhtError {
         /// How many are allowed.
         limit: usize,
     },
+    /// The caller asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
     /// Two surfaces cannot be stitched.
     #[error("the surfaces cannot be stitched: {reason}")]
     Stitch {
@@ -87,6 +91,7 @@ impl Classify for PhtError {
             Self::Weight { weight, .. } if !weight.is_finite() => ErrorKind::NotFinite,
             Self::NoSuchVertex { .. } => ErrorKind::Index,
             Self::TooLarge { .. } => ErrorKind::TooLarge,
+            Self::Cancelled(_) => ErrorKind::Cancelled,
             _ => ErrorKind::InvalidArgument,
         }
     }

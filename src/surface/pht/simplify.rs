@@ -9,6 +9,7 @@
 
 use super::{PhtError, PhtSurface, jet};
 use crate::bezier::BezierPatch;
+use crate::control::Watch;
 use crate::surface::Patches;
 use crate::surface::tensor::Axis;
 use crate::tmesh::{Cell, EDGES, Edge, NodeId, QUADRANTS, Vertex};
@@ -25,6 +26,11 @@ pub struct Simplification {
 impl PhtSurface {
     /// Removes as many crosses as it finds while no point moves by more than `tolerance`.
     pub fn simplify(&mut self, tolerance: f64) -> Result<Simplification, PhtError> {
+        self.simplify_watched(tolerance, &Watch::default())
+    }
+
+    /// The same as a part of a call that may be cancelled: the surface is then somewhere in between.
+    pub fn simplify_watched(&mut self, tolerance: f64, watch: &Watch) -> Result<Simplification, PhtError> {
         if !(tolerance >= 0.0 && tolerance.is_finite()) {
             return Err(PhtError::Tolerance { value: tolerance, range: "finite and not negative" });
         }
@@ -34,6 +40,7 @@ impl PhtSurface {
         for level in (0..deepest).rev() {
             let mut candidates: Vec<(f64, Cell)> = Vec::new();
             for cell in self.mergeable_cells(level) {
+                watch.check()?;
                 if let Some(removed) = self.remove_cross(cell, &original, tolerance) {
                     candidates.push((removed.deviation, cell));
                     self.restore_cross(cell, removed);
@@ -41,6 +48,7 @@ impl PhtSurface {
             }
             candidates.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
             for (_, cell) in candidates {
+                watch.check()?;
                 if let Some(removed) = self.remove_cross(cell, &original, tolerance) {
                     result.merged += 1;
                     result.deviation = result.deviation.max(removed.deviation);
