@@ -3,6 +3,7 @@
 use crate::failure::{Classify, ErrorKind};
 use rayon::{ThreadBuilder, ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::cell::Cell;
+use std::io;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicI32, AtomicU32, Ordering};
@@ -50,14 +51,16 @@ pub enum Stage {
     Write = 8,
 }
 
-/// Threads that share work: exactly as many as asked for, started when first needed.
+/// Threads that share work: as many as asked for, started when first needed; where the system has no more to give, as
+/// many as it has, and in the end the calling thread alone.
 ///
 /// Results never depend on their number: work is cut into pieces of fixed size, and pieces are combined in
 /// their order.
 #[derive(Debug)]
 pub struct Pool {
     thread_count: usize,
-    threads: OnceLock<Threads>,
+    /// None where the system has no thread to give.
+    threads: OnceLock<Option<Threads>>,
     watch: Watch,
 }
 
@@ -69,18 +72,39 @@ struct Threads {
     handles: Vec<JoinHandle<()>>,
 }
 
+/// Starts a thread of a pool.
+type Spawn = fn(ThreadBuilder) -> io::Result<JoinHandle<()>>;
+
+fn spawn(thread: ThreadBuilder) -> io::Result<JoinHandle<()>> {
+    std::thread::Builder::new().spawn(|| {
+        IS_POOL_THREAD.set(true);
+        thread.run();
+    })
+}
+
 impl Threads {
-    fn start(count: usize) -> Result<Self, ThreadPoolBuildError> {
+    /// As many as asked for, or half as often as it takes; None if there is not one.
+    fn start(mut count: usize, spawn: Spawn) -> Option<Self> {
+        loop {
+            match Self::start_all(count, spawn) {
+                Ok(threads) => return Some(threads),
+                Err(_) if count > 1 => count /= 2,
+                Err(_) => return None,
+            }
+        }
+    }
+
+    fn start_all(count: usize, spawn: Spawn) -> Result<Self, ThreadPoolBuildError> {
         let mut handles = Vec::with_capacity(count);
-        let spawn = |thread: ThreadBuilder| {
-            handles.push(std::thread::Builder::new().spawn(|| {
-                IS_POOL_THREAD.set(true);
-                thread.run();
-            })?);
-            Ok(())
-        };
-        let pool = ThreadPoolBuilder::new().num_threads(count).spawn_handler(spawn).build()?;
-        Ok(Self { pool: Some(pool), handles })
+        let keep = |thread: ThreadBuilder| spawn(thread).map(|handle| handles.push(handle));
+        match ThreadPoolBuilder::new().num_threads(count).spawn_handler(keep).build() {
+            Ok(pool) => Ok(Self { pool: Some(pool), handles }),
+            Err(error) => {
+                // those that have started are told to end, and panics are none here
+                handles.into_iter().for_each(|handle| drop(handle.join()));
+                Err(error)
+            }
+        }
     }
 
     fn pool(&self) -> &ThreadPool {
@@ -101,14 +125,24 @@ impl Drop for Threads {
 impl Pool {
     /// `thread_count` 0 means all cores.
     pub fn new(thread_count: usize) -> Self {
-        let all = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
-        let thread_count = if thread_count == 0 { all() } else { thread_count };
+        let thread_count = if thread_count == 0 { core_count() } else { thread_count };
         Self { thread_count, threads: OnceLock::new(), watch: Watch::default() }
     }
 
     /// Whether the call that this pool works for is to end, for work that needs no threads.
     pub fn watch(&self) -> &Watch {
         &self.watch
+    }
+
+    /// The same for so many pieces of work: more threads than pieces would only be started and ended.
+    pub fn for_pieces(thread_count: usize, pieces: usize) -> Self {
+        let most = pieces.max(1);
+        // a single piece need not know how many cores there are
+        Self::new(if most == 1 || thread_count == 1 {
+            1
+        } else {
+            Self::new(thread_count).thread_count.min(most)
+        })
     }
 
     /// An error once the call that this pool works for is to end: asked between pieces of work.
@@ -123,14 +157,32 @@ impl Pool {
 
     /// Runs `work` so that rayon's parallel iterators and joins inside it use this pool.
     pub fn run<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
-        self.threads().install(work)
+        match self.threads() {
+            Some(threads) => threads.install(work),
+            None => on_this_thread(work),
+        }
     }
 
-    fn threads(&self) -> &ThreadPool {
-        let start =
-            || Threads::start(self.thread_count).expect("the system has a thread for each core it reports");
-        self.threads.get_or_init(start).pool()
+    /// None where the system has no thread to give.
+    fn threads(&self) -> Option<&ThreadPool> {
+        self.threads.get_or_init(|| Threads::start(self.thread_count, spawn)).as_ref().map(Threads::pool)
     }
+}
+
+/// Cores that this process may use, asked for once: the system reads files to answer.
+fn core_count() -> usize {
+    static COUNT: OnceLock<usize> = OnceLock::new();
+    *COUNT.get_or_init(|| std::thread::available_parallelism().map_or(1, NonZeroUsize::get))
+}
+
+/// Runs work where the system has no thread to give.
+fn on_this_thread<R>(work: impl FnOnce() -> R) -> R {
+    if rayon::current_thread_index().is_none() {
+        let alone = ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
+        // rayon knows no end of such a pool: it lives as long as the thread
+        alone.into_iter().for_each(std::mem::forget);
+    }
+    work()
 }
 
 thread_local! {
@@ -307,7 +359,9 @@ impl<'a> Control<'a> {
         let (shown_stage, part, stage, last, hides_error) =
             (self.shown_stage, self.part, self.stage, self.last, self.hides_error);
         let result = Mutex::new(None);
-        pool.threads().in_place_scope(|scope| {
+        // where there is no thread to give this one works, and asks only when the call reports
+        let Some(threads) = pool.threads() else { return Ok(call(self)) };
+        threads.in_place_scope(|scope| {
             scope.spawn(|_| {
                 // its sender is dropped at the end of this closure even when `call` panics, which ends the waiting
                 let mut inner = Control {
@@ -401,6 +455,36 @@ mod tests {
         };
         assert_eq!(control.watch(work), Err(Cancelled));
         assert_eq!(calls, 3);
+    }
+
+    #[test]
+    fn work_is_done_with_fewer_threads_than_asked_for() {
+        use rayon::prelude::*;
+        let none: Spawn = |_| Err(io::Error::other("no thread to be had"));
+        let one: Spawn = |thread| match thread.index() {
+            0 => spawn(thread),
+            _ => Err(io::Error::other("no other thread to be had")),
+        };
+        for (spawn, found) in [(none, None), (one, Some(1))] {
+            // a thread of its own, which rayon then knows for the rest of its life
+            let (threads, sum) = std::thread::spawn(move || {
+                let pool = Pool::new(8);
+                let threads = pool.threads.get_or_init(|| Threads::start(8, spawn)).as_ref();
+                let threads = threads.map(|threads| threads.handles.len());
+                (threads, [0, 1].map(|_| pool.run(|| (0..1000_u64).into_par_iter().sum::<u64>())))
+            })
+            .join()
+            .unwrap();
+            assert_eq!((threads, sum), (found, [499_500; 2]));
+        }
+    }
+
+    #[test]
+    fn pools_are_no_larger_than_the_pieces_of_work() {
+        assert_eq!(Pool::for_pieces(64, 2).thread_count(), 2);
+        assert_eq!(Pool::for_pieces(2, 64).thread_count(), 2);
+        assert_eq!(Pool::for_pieces(0, 1).thread_count(), 1);
+        assert_eq!(Pool::for_pieces(3, 0).thread_count(), 1);
     }
 
     #[test]

@@ -10,7 +10,7 @@ use super::{planish_project_options, planish_status};
 use crate::control::Pool;
 use crate::curve::Curve;
 use crate::export::native;
-use crate::query::project::{ProjectOptions, Projector};
+use crate::query::project::{ProjectOptions, Projector, piece_count};
 use glam::DVec2;
 use std::ffi::{c_char, c_void};
 use std::path::Path;
@@ -81,7 +81,7 @@ pub unsafe extern "C" fn planish_curve_project(
         };
         let max_distance = given.max_distance;
         let core = ProjectOptions { guesses: guesses.as_deref(), max_distance, keep_trims: false };
-        let pool = Pool::new(thread_count(given.thread_count)?);
+        let pool = Pool::for_pieces(thread_count(given.thread_count)?, piece_count(count));
         let out_u = slice_mut_or_none(out_u, count, "out_u")?;
         let out_distances = slice_mut_or_none(out_distances, count, "out_distances")?;
         let (mut uv, mut distances) = (vec![DVec2::ZERO; count], vec![0.0; count]);

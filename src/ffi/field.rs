@@ -19,7 +19,7 @@ use crate::fit::field::{FieldError, FieldFitter, FieldGrid, FieldNodes, FieldOpt
 use crate::fit::found_grid::{self, SampleField};
 use crate::fit::report::{Tolerance, ToleranceScale};
 use crate::mesh::Mesh;
-use crate::query::gradient::field_gradient;
+use crate::query::gradient::{field_gradient, piece_count};
 use crate::surface::tensor::TensorSurface;
 use glam::DVec2;
 use std::ffi::c_void;
@@ -443,7 +443,7 @@ pub unsafe extern "C" fn planish_surface_field_gradient(
         let rows = array_len::<f64>(count, field.dim(), "out_gradients")?;
         let len = array_len::<f64>(rows, 3, "out_gradients")?;
         let out_gradients = slice_mut(out_gradients, len, "out_gradients")?;
-        let pool = Pool::new(thread_count(given.thread_count)?);
+        let pool = Pool::for_pieces(thread_count(given.thread_count)?, piece_count(count));
         Ok(field_gradient(shape, field, &uv, out_gradients, &pool)?)
     })
 }

@@ -13,7 +13,7 @@ use crate::control::Pool;
 use crate::surface::d1rc::D1rcSurface;
 use crate::surface::evaluate::{
     FLAG_IN_BUFFER, FLAG_NO_NORMAL, FLAG_OUTSIDE_DOMAIN, FLAG_OUTSIDE_TRIMS, Output, OutsideRule, Points,
-    Quantity, evaluate,
+    Quantity, evaluate, piece_count,
 };
 use crate::surface::pht::PhtSurface;
 use crate::surface::tensor::TensorSurface;
@@ -241,7 +241,7 @@ unsafe fn eval(
     let rule = choice(options.outside, &rules, "outside")?;
     let width = quantity.width(surface.dim());
     let stride = stride(options.out_stride, width, "out_stride")?;
-    let pool = Pool::new(thread_count(options.thread_count)?);
+    let pool = Pool::for_pieces(thread_count(options.thread_count)?, piece_count(count));
     let len = strided_len::<f64>(count, stride, width, name)?;
     // SAFETY: the caller's promise.
     let (rows, flags) =

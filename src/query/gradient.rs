@@ -56,6 +56,11 @@ impl Classify for GradientError {
 /// Points of one piece of work. Pieces do not depend on the number of threads.
 const CHUNK: usize = 1024;
 
+/// The pieces of work that so many places are: no more threads are of use.
+pub fn piece_count(count: usize) -> usize {
+    count.div_ceil(CHUNK)
+}
+
 /// The gradients of each component of a field, as vectors in space tangential to the shape: for each of `uv` as many
 /// rows of three numbers as the field has components. NaN where the shape has no tangent plane.
 pub fn field_gradient(
@@ -71,21 +76,24 @@ pub fn field_gradient(
     check(shape, field, uv)?;
     let dim = field.dim();
     assert_eq!(out.len(), 3 * dim * uv.len(), "three numbers for each component of each point");
-    pool.run(|| {
-        uv.par_chunks(CHUNK).zip(out.par_chunks_mut(3 * dim * CHUNK)).for_each(|(uv, out)| {
-            let (mut places, mut values) = (vec![0.0; 9 * uv.len()], vec![0.0; 3 * dim * uv.len()]);
-            shape.eval_rows(uv, 1, &mut places);
-            field.eval_rows(uv, 1, &mut values);
-            let rows = places.chunks_exact(9).zip(values.chunks_exact(3 * dim));
-            for ((place, value), out) in rows.zip(out.chunks_exact_mut(3 * dim)) {
-                let (su, sv) = (DVec3::from_slice(&place[3..]), DVec3::from_slice(&place[6..]));
-                for (k, out) in out.chunks_exact_mut(3).enumerate() {
-                    let gradient = surface_gradient(su, sv, value[dim + k], value[2 * dim + k]);
-                    out.copy_from_slice(&gradient.to_array());
-                }
+    let piece = |(uv, out): (&[DVec2], &mut [f64])| {
+        let (mut places, mut values) = (vec![0.0; 9 * uv.len()], vec![0.0; 3 * dim * uv.len()]);
+        shape.eval_rows(uv, 1, &mut places);
+        field.eval_rows(uv, 1, &mut values);
+        let rows = places.chunks_exact(9).zip(values.chunks_exact(3 * dim));
+        for ((place, value), out) in rows.zip(out.chunks_exact_mut(3 * dim)) {
+            let (su, sv) = (DVec3::from_slice(&place[3..]), DVec3::from_slice(&place[6..]));
+            for (k, out) in out.chunks_exact_mut(3).enumerate() {
+                let gradient = surface_gradient(su, sv, value[dim + k], value[2 * dim + k]);
+                out.copy_from_slice(&gradient.to_array());
             }
-        });
-    });
+        }
+    };
+    if pool.thread_count() == 1 || uv.len() <= CHUNK {
+        uv.chunks(CHUNK).zip(out.chunks_mut(3 * dim * CHUNK)).for_each(piece);
+    } else {
+        pool.run(|| uv.par_chunks(CHUNK).zip(out.par_chunks_mut(3 * dim * CHUNK)).for_each(piece));
+    }
     Ok(())
 }
 

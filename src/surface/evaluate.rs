@@ -156,6 +156,11 @@ impl<'a> Points<'a> {
 /// Points of one piece of work. Pieces do not depend on the number of threads.
 const CHUNK: usize = 1024;
 
+/// The pieces of work that so many points are: no more threads are of use.
+pub fn piece_count(count: usize) -> usize {
+    count.div_ceil(CHUNK)
+}
+
 /// Where results go.
 #[derive(Debug)]
 pub struct Output<'a> {

@@ -137,6 +137,11 @@ const DISTANCE_TOLERANCE: f64 = 1e-12;
 /// Points of one piece of work. Pieces do not depend on the number of threads.
 const CHUNK: usize = 256;
 
+/// The pieces of work that so many points are: no more threads are of use.
+pub fn piece_count(count: usize) -> usize {
+    count.div_ceil(CHUNK)
+}
+
 impl Projector {
     /// Builds the hierarchy: time and memory are proportional to the number of patches.
     pub fn new(surface: &dyn Surface) -> Result<Self, ProjectError> {
