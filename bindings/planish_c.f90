@@ -705,7 +705,8 @@ module planish_records
     !> Chord tolerance of the tessellation that is measured back from, in model units; 0 (default) takes 1e-3 of the
     !> surface's diagonal
     real(c_double) :: chord_tolerance = 0
-    !> Longest edge of that tessellation in model units; 0 (default) takes 1e-2 of the mesh's diagonal
+    !> Longest edge of that tessellation in model units; 0 (default) takes 1e-2 of the mesh's diagonal, and at least
+    !> 2e-3 of the surface's
     real(c_double) :: max_edge_length = 0
     type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
     type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
@@ -785,7 +786,7 @@ module planish_records
 
   !> What a STEP file says beside the shape.
   type, bind(c), public :: planish_step_options
-    integer(c_size_t) :: struct_size = 11 * word + 24
+    integer(c_size_t) :: struct_size = 11 * word + 32
     type(c_ptr) :: product = c_null_ptr !! Name of the product; NULL (default) for "surface"
     type(c_ptr) :: author = c_null_ptr !! Who made it; NULL (default) for nobody
     type(c_ptr) :: organization = c_null_ptr !! For whom; NULL (default) for nobody
@@ -812,6 +813,8 @@ module planish_records
     !> A D1RC-spline is written as a tensor surface fitted within this, in model units, at the nodes of a fine
     !> tessellation; 0 (default) takes 1e-3 of the diagonal
     real(c_double) :: tolerance = 0
+    integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 (default) for all cores
+    integer(c_int32_t) :: reserved = 0
   end type
 
   !> What a report says beside what it measures.

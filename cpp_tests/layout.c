@@ -355,7 +355,9 @@ FOLLOWS(planish_step_options, unit, max_coefficients);
 FOLLOWS(planish_step_options, max_coefficients, form);
 FOLLOWS(planish_step_options, form, level_spread);
 FOLLOWS(planish_step_options, level_spread, tolerance);
-LAST(planish_step_options, tolerance);
+FOLLOWS(planish_step_options, tolerance, thread_count);
+FOLLOWS(planish_step_options, thread_count, reserved);
+LAST(planish_step_options, reserved);
 
 FIRST(planish_report_options);
 FOLLOWS(planish_report_options, struct_size, title);

@@ -1960,7 +1960,8 @@ typedef struct planish_deviation_options {
      */
     double chord_tolerance;
     /**
-     * Longest edge of that tessellation in model units; 0 (default) takes 1e-2 of the mesh's diagonal.
+     * Longest edge of that tessellation in model units; 0 (default) takes 1e-2 of the mesh's diagonal,
+     * and at least 2e-3 of the surface's.
      * Smaller holes may be missed.
      */
     double max_edge_length;
@@ -2249,6 +2250,14 @@ typedef struct planish_step_options {
      * tessellation; 0 (default) takes 1e-3 of the diagonal.
      */
     double tolerance;
+    /**
+     * Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+     */
+    uint32_t thread_count;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
 } planish_step_options;
 
 /**

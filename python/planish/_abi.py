@@ -804,6 +804,8 @@ class planish_step_options(Structure):
         ("form", c_uint32),
         ("level_spread", c_uint32),
         ("tolerance", c_double),
+        ("thread_count", c_uint32),
+        ("reserved", c_uint32),
     ]
     choices = {
         "out_stage": "planish_stage",
@@ -1235,7 +1237,7 @@ SIZES = {
     planish_sample_rows_options: 72,
     planish_vtk_options: 64,
     planish_step_report: 64,
-    planish_step_options: 112,
+    planish_step_options: 120,
     planish_report_options: 80,
     planish_edge_info: 48,
     planish_face_info: 120,

@@ -9,6 +9,7 @@ use super::planish_status;
 use super::status::query;
 use super::step::planish_step_options;
 use super::surface::planish_surface;
+use crate::Control;
 use crate::export::{native, step};
 use crate::fit::conversion::{ConversionOptions, to_model};
 use crate::model::{Carrier, EdgeId, Face, FaceId, Form, FormOptions, Measure, Model, Role, ShellId, Use};
@@ -228,7 +229,8 @@ pub unsafe extern "C" fn planish_model_from_surface(
             AnySurface::Tensor(_) | AnySurface::D1rc(_) => Form::Tensor,
         };
         let form = FormOptions { form, ..FormOptions::default() };
-        let model = to_model(surface, &ConversionOptions { form, ..ConversionOptions::default() })?;
+        let options = ConversionOptions { form, ..ConversionOptions::default() };
+        let model = to_model(surface, &options, &mut Control::default())?;
         out_model.write(planish_model::into_raw(model));
         Ok(())
     })

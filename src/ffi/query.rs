@@ -196,7 +196,8 @@ record! {
         /// Chord tolerance of the tessellation that is measured back from, in model units; 0 (default) takes 1e-3
         /// of the surface's diagonal.
         pub chord_tolerance: f64 = core.chord_tolerance,
-        /// Longest edge of that tessellation in model units; 0 (default) takes 1e-2 of the mesh's diagonal.
+        /// Longest edge of that tessellation in model units; 0 (default) takes 1e-2 of the mesh's diagonal,
+        /// and at least 2e-3 of the surface's.
         /// Smaller holes may be missed.
         pub max_edge_length: f64 = core.max_edge_length,
         /// Hears of the progress and may cancel; NULL (default) for nobody.

@@ -1,6 +1,6 @@
 //! STEP files.
 
-use super::arguments::{ArgumentError, ReportOut, choice, deref, options, text};
+use super::arguments::{ArgumentError, Record, ReportOut, choice, deref, options, text};
 use super::guard::guard;
 use super::planish_status;
 use super::progress::{planish_progress, with_control};
@@ -123,6 +123,10 @@ record! {
         /// A D1RC-spline is written as a tensor surface fitted within this, in model units, at the nodes of a fine
         /// tessellation; 0 (default) takes 1e-3 of the diagonal.
         pub tolerance: f64,
+        /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+        pub thread_count: u32,
+        /// 0.
+        pub reserved: u32,
     }
 }
 
@@ -130,6 +134,9 @@ impl planish_step_options {
     /// # Safety
     /// The texts are NULL or end with a NUL, and nobody changes them for `'a`.
     pub(super) unsafe fn core<'a>(&self) -> Result<StepOptions<'a>, ArgumentError> {
+        if self.reserved != 0 {
+            return Err(ArgumentError::Reserved { record: Self::NAME, given: self.reserved });
+        }
         let defaults = StepOptions::default();
         let or = |at: *const c_char, name, default| match at.is_null() {
             true => Ok(default),
@@ -187,10 +194,9 @@ pub unsafe extern "C" fn planish_surface_write_step(
         let given = self::options(options)?;
         let (core, conversion) = (given.core()?, given.conversion()?);
         let report = ReportOut::new(given.out_report)?;
-        // results are the same for any number of threads, and one is enough
-        let written = with_control(1, listener!(given), |control| -> Result<_, Error> {
+        let written = with_control(given.thread_count, listener!(given), |control| -> Result<_, Error> {
             control.enter(Stage::Convert);
-            let model = to_model(surface, &conversion)?;
+            let model = to_model(surface, &conversion, control)?;
             control.enter(Stage::Write);
             Ok(write(&model, &core, Path::new(path))?)
         })??;

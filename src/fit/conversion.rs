@@ -5,9 +5,10 @@ use super::common::{FitError, Regularize};
 use super::report::{Tolerance, ToleranceScale};
 use super::tensor::{TensorOptions, fit_mesh};
 use crate::Control;
+use crate::control::Stage;
 use crate::failure::{Classify, ErrorKind};
 use crate::model::{FormOptions, Model, ModelError, of_surface};
-use crate::query::tessellate::{TessellateError, TessellateOptions, tessellate};
+use crate::query::tessellate::{TessellateError, TessellateOptions, tessellate_watched};
 use crate::surface::AnySurface;
 use crate::surface::d1rc::D1rcSurface;
 use crate::surface::tensor::TensorSurface;
@@ -66,17 +67,26 @@ impl Classify for ConversionError {
 }
 
 /// The part of a surface inside its trims as an open shell: see [`of_surface`].
-pub fn to_model(surface: &AnySurface, options: &ConversionOptions) -> Result<Model, ConversionError> {
+pub fn to_model(
+    surface: &AnySurface,
+    options: &ConversionOptions,
+    control: &mut Control,
+) -> Result<Model, ConversionError> {
     match surface {
-        AnySurface::D1rc(d1rc) => Ok(of_surface(&fitted(d1rc, options)?.into(), &options.form)?),
+        AnySurface::D1rc(d1rc) => Ok(of_surface(&fitted(d1rc, options, control)?.into(), &options.form)?),
         _ => Ok(of_surface(surface, &options.form)?),
     }
 }
 
 /// A tensor surface near a spline over triangles, with its trims.
-fn fitted(surface: &D1rcSurface, options: &ConversionOptions) -> Result<TensorSurface, ConversionError> {
-    let mesh =
-        tessellate(surface, &TessellateOptions { keep_trims: true, ..TessellateOptions::default() })?.mesh;
+fn fitted(
+    surface: &D1rcSurface,
+    options: &ConversionOptions,
+    control: &mut Control,
+) -> Result<TensorSurface, ConversionError> {
+    control.enter(Stage::Tessellate);
+    let whole = TessellateOptions { keep_trims: true, ..TessellateOptions::default() };
+    let mesh = tessellate_watched(surface, &whole, control.pool().watch())?.mesh;
     let value = if options.tolerance == 0.0 {
         Tolerance::default().value * mesh.diagonal()
     } else {
@@ -84,14 +94,14 @@ fn fitted(surface: &D1rcSurface, options: &ConversionOptions) -> Result<TensorSu
     };
     // nodes lie on the surface; between them the fit is as free as the chords are off
     let fine = TessellateOptions { chord_tolerance: value / 4.0, ..TessellateOptions::default() };
-    let mesh = tessellate(surface, &fine)?.mesh;
+    let mesh = tessellate_watched(surface, &fine, control.pool().watch())?.mesh;
     let fit = TensorOptions {
         tolerance: Tolerance { value, scale: ToleranceScale::Absolute },
         max_coefficients: options.form.max_coefficients.min(TensorOptions::default().max_coefficients),
         regularize: Regularize::Never,
         ..TensorOptions::default()
     };
-    let fit = fit_mesh(&mesh, &fit, &mut Control::default())?;
+    let fit = fit_mesh(&mesh, &fit, control)?;
     let (error, tolerance) = (fit.report.max_error, value);
     if error <= tolerance { Ok(fit.surface) } else { Err(ConversionError::Tolerance { error, tolerance }) }
 }

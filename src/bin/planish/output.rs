@@ -105,7 +105,7 @@ pub fn write_fit(mesh: &Mesh, fit: &Fit, path: &Path, step: &Step) -> Result<(),
 pub fn write_surface(surface: &AnySurface, path: &Path, step: &Step) -> Result<(), Failure> {
     match extension(path).as_str() {
         "step" | "stp" => {
-            step::write(&to_model(surface, &step.conversion)?, &step.text, path)?;
+            step::write(&to_model(surface, &step.conversion, &mut Control::default())?, &step.text, path)?;
         }
         "vtu" => match surface.as_surface().patches() {
             Some(patches) => vtk::write_patches(patches, path)?,
