@@ -22,6 +22,7 @@
 //! * [`geometry`]: boxes, exact predicates.
 //! * [`knots`], [`basis`], [`refinement`], [`bezier`], [`hermite`]: one-dimensional building blocks, and patches
 //!   made of them.
+//! * [`lists`]: many short lists in two arrays.
 //! * [`linalg`]: banded and sparse systems.
 //! * [`mesh`]: triangle meshes, their topology and files.
 //! * [`parameterize`]: where a mesh gets its (u,v) from.
@@ -52,6 +53,7 @@ pub mod hermite;
 pub mod knots;
 pub mod layout;
 pub mod linalg;
+pub mod lists;
 pub mod mesh;
 pub mod model;
 mod options;

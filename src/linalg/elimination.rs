@@ -9,6 +9,7 @@
 //! when few zeros come in. Supernodes are numbered children before parents, heaviest child first.
 
 use super::ordering::Graph;
+use crate::lists::Lists;
 use std::ops::Range;
 
 /// A block of pivots with the same rows below.
@@ -106,39 +107,15 @@ fn elimination_parents(graph: &Graph, order: &[u32]) -> Vec<u32> {
     parents
 }
 
-/// Lists by owner in one array: children by parent, members by block.
-struct Lists {
-    starts: Vec<u32>,
-    items: Vec<u32>,
-}
-
-impl Lists {
-    /// Items are the indices of `owners`, ascending in each list; owner [`NONE`] is list `count`.
-    fn by_owner(owners: &[u32], count: usize) -> Self {
-        let list = |owner: u32| if owner == NONE { count } else { owner as usize };
-        let mut starts = vec![0_u32; count + 2];
-        owners.iter().for_each(|&owner| starts[list(owner) + 1] += 1);
-        for i in 0..=count {
-            starts[i + 1] += starts[i];
-        }
-        let mut next = starts.clone();
-        let mut items = vec![0; owners.len()];
-        for (item, &owner) in owners.iter().enumerate() {
-            let place = &mut next[list(owner)];
-            items[*place as usize] = item as u32;
-            *place += 1;
-        }
-        Self { starts, items }
-    }
-
-    fn of(&self, owner: usize) -> &[u32] {
-        &self.items[self.starts[owner] as usize..self.starts[owner + 1] as usize]
-    }
+/// The indices of `owners` by owner, ascending in each list; owner [`NONE`] is list `count`.
+fn by_owner(owners: &[u32], count: usize) -> Lists {
+    let list = move |&owner: &u32| if owner == NONE { count as u32 } else { owner };
+    Lists::new(count + 1, owners.iter().map(list).zip(0..))
 }
 
 /// Children before parents; of siblings the heaviest first, then the smaller index.
 fn postorder(parents: &[u32], weight: impl Fn(u32) -> f64) -> Vec<u32> {
-    let children = Lists::by_owner(parents, parents.len());
+    let children = by_owner(parents, parents.len());
     let mut post = Vec::with_capacity(parents.len());
     // visited parents first and last child first, then turned round
     let mut stack = Vec::new();
@@ -281,7 +258,7 @@ fn assemble(order: &[u32], blocks: &[Block], block_rows: &[u32], merged_into: &[
     for id in (0..blocks.len()).rev() {
         top[id] = top[top[id] as usize];
     }
-    let members = Lists::by_owner(&top, blocks.len());
+    let members = by_owner(&top, blocks.len());
     let tops: Vec<u32> = (0..blocks.len() as u32).filter(|&id| top[id as usize] == id).collect();
     let mut index_of = vec![NONE; blocks.len()];
     tops.iter().enumerate().for_each(|(index, &id)| index_of[id as usize] = index as u32);

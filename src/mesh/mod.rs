@@ -280,6 +280,24 @@ impl Mesh {
         (0..self.points.len() as u32).filter(|&node| !self.is_used(node)).collect()
     }
 
+    /// All edges, each by that of its half-edges with the smaller number.
+    pub fn edges(&self) -> impl Iterator<Item = HalfEdge> + '_ {
+        let half_edges =
+            (0..self.triangles.len()).flat_map(|t| [0, 1, 2].map(|corner| HalfEdge::new(t, corner)));
+        half_edges.filter(|&edge| self.topology.twin(edge).is_none_or(|twin| edge < twin))
+    }
+
+    /// The normals of the nodes: sums of the area vectors of their triangles, not of length 1.
+    pub fn node_normals(&self) -> Vec<DVec3> {
+        let mut normals = vec![DVec3::ZERO; self.points.len()];
+        for triangle in &self.triangles {
+            let [a, b, c] = triangle.map(|node| self.points[node as usize]);
+            let area = (b - a).cross(c - a);
+            triangle.iter().for_each(|&node| normals[node as usize] += area);
+        }
+        normals
+    }
+
     /// The half-edges that leave a node, counter-clockwise. If the node lies on the boundary they begin there
     /// and the last neighbour has none: see [`Mesh::neighbours`]. Pinched nodes: fan after fan.
     pub fn outgoing(&self, node: u32) -> impl Iterator<Item = HalfEdge> + '_ {

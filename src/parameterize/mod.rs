@@ -340,7 +340,7 @@ fn next_map(
     let patch = system.patch();
     let divisors: Vec<f64> = s.iter().map(|s| s.powf(eta)).collect();
     let mut weights = map.weights.clone();
-    for (weight, &neighbour) in weights.iter_mut().zip(&patch.neighbours.nodes) {
+    for (weight, &neighbour) in weights.iter_mut().zip(patch.neighbours.nodes()) {
         *weight /= divisors[neighbour as usize];
     }
     weights::scale_rows(patch, &mut weights)?;

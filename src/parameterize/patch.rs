@@ -4,51 +4,38 @@
 //! triangles. Weights and stretch use the fans; they are never returned.
 
 use super::ParameterizeError;
+use crate::lists::Lists;
 use crate::mesh::Mesh;
 use glam::DVec3;
 
 /// No unknown: the node is fixed.
 pub(super) const FIXED: u32 = u32::MAX;
 
-/// Who is next to whom; the neighbours of each node ascend. A *slot* is an index into `nodes`.
+/// Who is next to whom; the neighbours of each node ascend. A *slot* is an index into all of them.
 #[derive(Debug, Clone)]
-pub(super) struct Neighbours {
-    pub starts: Vec<u32>,
-    pub nodes: Vec<u32>,
-}
+pub(super) struct Neighbours(Lists);
 
 impl Neighbours {
     /// From half-edges and the reverses of those without a partner.
     fn new(node_count: usize, triangles: &[[u32; 3]], open_edges: &[(u32, u32)]) -> Self {
-        let half_edges = || {
-            let inner = triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
-            inner.chain(open_edges.iter().map(|&(a, b)| (b, a)))
-        };
-        let mut starts = vec![0_u32; node_count + 1];
-        half_edges().for_each(|(a, _)| starts[a as usize + 1] += 1);
-        for i in 0..node_count {
-            starts[i + 1] += starts[i];
-        }
-        let mut next = starts.clone();
-        let mut nodes = vec![0; starts[node_count] as usize];
-        for (a, b) in half_edges() {
-            nodes[next[a as usize] as usize] = b;
-            next[a as usize] += 1;
-        }
-        let mut neighbours = Self { starts, nodes };
-        (0..node_count).for_each(|i| {
-            let slots = neighbours.slots(i);
-            neighbours.nodes[slots].sort_unstable();
-        });
-        neighbours
+        let inner = triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
+        let half_edges = inner.chain(open_edges.iter().map(|&(a, b)| (b, a)));
+        let mut lists = Lists::new(node_count, half_edges);
+        (0..node_count).for_each(|node| lists.of_mut(node).sort_unstable());
+        Self(lists)
     }
 
     pub fn slots(&self, node: usize) -> std::ops::Range<usize> {
-        self.starts[node] as usize..self.starts[node + 1] as usize
+        self.0.range(node)
     }
 
     pub fn of(&self, node: usize) -> &[u32] {
-        &self.nodes[self.slots(node)]
+        self.0.of(node)
+    }
+
+    /// The neighbour in each slot.
+    pub fn nodes(&self) -> &[u32] {
+        self.0.items()
     }
 
     /// The slot of `to` in the list of `from`; they are neighbours.
@@ -58,7 +45,7 @@ impl Neighbours {
             0..=16 => list.iter().position(|&node| node == to).unwrap_or(0),
             _ => list.partition_point(|&node| node < to),
         };
-        self.starts[from as usize] as usize + place
+        self.slots(from as usize).start + place
     }
 }
 

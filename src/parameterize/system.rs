@@ -65,7 +65,7 @@ impl<'p> MapSystem<'p> {
         let mut rhs = vec![[0.0; 2]; self.patch.nodes.len()];
         for (sum, &node) in rhs.iter_mut().zip(&self.patch.nodes) {
             for slot in self.patch.neighbours.slots(node as usize) {
-                let other = self.patch.neighbours.nodes[slot];
+                let other = self.patch.neighbours.nodes()[slot];
                 if self.patch.is_fixed(other) {
                     let term = uv[other as usize] * self.weights[slot];
                     *sum = [sum[0] + term.x, sum[1] + term.y];
@@ -86,7 +86,7 @@ fn pattern(patch: &Patch) -> (CsMat<f64>, Vec<u32>) {
     for (row, &node) in patch.nodes.iter().enumerate() {
         let mut diagonal_done = false;
         for slot in patch.neighbours.slots(node as usize) {
-            let column = patch.unknown[patch.neighbours.nodes[slot] as usize];
+            let column = patch.unknown[patch.neighbours.nodes()[slot] as usize];
             if !diagonal_done && column as usize > row && column != FIXED {
                 columns.push(row);
                 slots.push(DIAGONAL);

@@ -15,7 +15,7 @@ use glam::DVec3;
 
 /// The weights by slot, rows of unknowns scaled to sum 1.
 pub(super) fn weights(patch: &Patch, method: Method) -> Result<Vec<f64>, ParameterizeError> {
-    let mut weights = vec![0.0; patch.neighbours.nodes.len()];
+    let mut weights = vec![0.0; patch.neighbours.nodes().len()];
     for &[a, b, c] in &patch.triangles {
         for [n, next, last] in [[a, b, c], [b, c, a], [c, a, b]] {
             let corner = [n, next, last].map(|node| patch.points[node as usize]);

@@ -94,7 +94,7 @@ fn interior_samples(mesh: &Mesh, uv: &[DVec2], values: &[f64], dim: usize) -> (V
 /// the middle of its edges. Normals are rough at borders and on uneven triangles, so each facet takes the
 /// largest height among the edges at its nodes.
 pub fn triangle_sagittas(mesh: &Mesh) -> Vec<f64> {
-    let normals = node_normals(mesh);
+    let normals = mesh.node_normals();
     let mut heights = vec![0.0_f64; normals.len()];
     let mut is_border = vec![false; normals.len()];
     mesh.loops().iter().flatten().for_each(|&node| is_border[node as usize] = true);
@@ -130,16 +130,4 @@ fn triangle_spreads(mesh: &Mesh, values: &[f64], dim: usize) -> Vec<f64> {
     }
     let largest = |nodes: &[u32; 3]| nodes.iter().map(|&n| spreads[n as usize]).fold(0.0, f64::max);
     mesh.triangles().iter().map(largest).collect()
-}
-
-/// Sums of the area vectors of the triangles at each node.
-pub fn node_normals(mesh: &Mesh) -> Vec<DVec3> {
-    let points = mesh.points();
-    let mut normals = vec![DVec3::ZERO; points.len()];
-    for triangle in mesh.triangles() {
-        let [a, b, c] = triangle.map(|node| points[node as usize]);
-        let area = (b - a).cross(c - a);
-        triangle.iter().for_each(|&node| normals[node as usize] += area);
-    }
-    normals
 }

@@ -10,7 +10,7 @@
 
 use crate::control::{Cancelled, Pool, Watch};
 use crate::linalg::SymbolicCholesky;
-use crate::mesh::{HalfEdge, Mesh};
+use crate::mesh::Mesh;
 use crate::surface::d1rc::D1rcSurface;
 use glam::DVec2;
 use rayon::prelude::*;
@@ -76,8 +76,7 @@ impl Energy {
         let ordered = |&[a, b]: &[u32; 2]| [a.min(b), a.max(b)];
         let mut sharp: Vec<[u32; 2]> = sharp_edges.iter().map(ordered).collect();
         sharp.sort_unstable();
-        let half_edges = (0..triangles.len()).flat_map(|t| [0, 1, 2].map(|c| HalfEdge::new(t, c)));
-        let inner = half_edges.filter_map(|edge| Some((edge, topology.twin(edge)?))).filter(|(e, f)| e < f);
+        let inner = mesh.edges().filter_map(|edge| Some((edge, topology.twin(edge)?)));
         let rows = inner.map(|(edge, twin)| {
             let ends = [edge.origin(triangles), edge.target(triangles)];
             let tips = [edge, twin].map(|side| side.previous().origin(triangles));

@@ -6,7 +6,7 @@
 
 use crate::control::Pool;
 use crate::fit::common::samples::{InteriorPlace, interior_weight};
-use crate::fit::common::uniform::normal_equations::{ByCell, TensorBasis};
+use crate::fit::common::uniform::normal_equations::{TensorBasis, by_cell};
 use crate::linalg::SolveMemory;
 use glam::DVec2;
 use rayon::prelude::*;
@@ -175,7 +175,7 @@ impl RightSide {
             }
         };
         let (rows, starts) = pool.run(|| {
-            let ByCell { starts, order } = ByCell::sort(basis, &data.uv);
+            let (starts, order) = by_cell(basis, &data.uv).into_parts();
             (order.par_iter().map(row).collect(), starts)
         });
         Self { rows, starts, nodes: data.nodes, places: data.places }

@@ -7,6 +7,7 @@
 use super::least_squares::CellPlace;
 use crate::control::Pool;
 use crate::layout::{Layout, Place, cube_place};
+use crate::lists::Lists;
 use crate::mesh::Mesh;
 use crate::surface::g1::Space;
 use glam::{DVec2, DVec3};
@@ -162,10 +163,7 @@ fn grid_rows(mesh: &Mesh) -> Vec<usize> {
 }
 
 /// Samples sorted by the cells of all patches.
-pub struct ByCell {
-    starts: Vec<u32>,
-    order: Vec<u32>,
-}
+pub struct ByCell(Lists);
 
 impl ByCell {
     /// Sorts places by the cells of a space, patch after patch and leaf after leaf.
@@ -180,28 +178,17 @@ impl ByCell {
             first_cells[quad] + leaf as u32
         };
         let cells: Vec<u32> = pool.run(|| places.par_iter().with_min_len(4096).map(cell).collect());
-        let mut starts = vec![0u32; first_cells[first_cells.len() - 1] as usize + 1];
-        cells.iter().for_each(|&cell| starts[cell as usize + 1] += 1);
-        for cell in 1..starts.len() {
-            starts[cell] += starts[cell - 1];
-        }
-        let mut next = starts.clone();
-        let mut order = vec![0; places.len()];
-        for (sample, &cell) in (0..).zip(&cells) {
-            order[next[cell as usize] as usize] = sample;
-            next[cell as usize] += 1;
-        }
-        Self { starts, order }
+        Self(Lists::by_key(first_cells[first_cells.len() - 1] as usize, &cells))
     }
 
     /// The samples of a cell.
     pub fn of(&self, cell: usize) -> &[u32] {
-        &self.order[self.starts[cell] as usize..self.starts[cell + 1] as usize]
+        self.0.of(cell)
     }
 
     /// Number of cells.
     pub fn cell_count(&self) -> usize {
-        self.starts.len() - 1
+        self.0.count()
     }
 }
 

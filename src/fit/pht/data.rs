@@ -5,7 +5,7 @@
 
 use crate::control::Pool;
 use crate::fit::common::Frame;
-use crate::fit::common::interior::{MeshData, heights_over, node_normals, triangle_sagittas};
+use crate::fit::common::interior::{MeshData, heights_over, triangle_sagittas};
 use crate::fit::common::samples::bulge;
 use crate::geometry::{Bounds, Domain};
 use crate::mesh::Mesh;
@@ -129,7 +129,7 @@ impl<'a> Data<'a> {
 }
 
 fn bulged_middles(mesh: &Mesh, data: &Data) -> Vec<f64> {
-    let normals = node_normals(mesh);
+    let normals = mesh.node_normals();
     let middle = |nodes: &[u32; 3]| {
         let nodes = nodes.map(|node| node as usize);
         let corners = nodes.map(|n| DVec3::from_slice(&data.sample_values[3 * n..]));

@@ -12,6 +12,7 @@ use crate::control::{Pool, Watch};
 use crate::fit::common::FitError;
 use crate::fit::common::hermite_cell::{CellMatrix, CellSums, weights};
 use crate::linalg::SymbolicCholesky;
+use crate::lists::Lists;
 use crate::surface::pht::{Matrix, expansions};
 use crate::tmesh::{Cell, TMesh, Topology};
 use glam::DVec2;
@@ -19,12 +20,11 @@ use rayon::prelude::*;
 use sprs::CsMat;
 use std::collections::BTreeMap;
 
-/// Samples sorted by leaf: `order[starts[leaf]..starts[leaf + 1]]` lie in a leaf.
+/// Samples sorted by leaf.
 pub struct ByLeaf {
     /// Parameters of all samples.
     pub uv: Vec<DVec2>,
-    starts: Vec<u32>,
-    order: Vec<u32>,
+    by_leaf: Lists,
 }
 
 impl ByLeaf {
@@ -32,22 +32,11 @@ impl ByLeaf {
         let uv = data.sample_uv();
         let leaf = |&uv: &DVec2| topology.leaf_of(mesh.locate(uv)) as u32;
         let leaves: Vec<u32> = pool.run(|| uv.par_iter().with_min_len(4096).map(leaf).collect());
-        let mut starts = vec![0u32; topology.leaves.len() + 1];
-        leaves.iter().for_each(|&leaf| starts[leaf as usize + 1] += 1);
-        for leaf in 1..starts.len() {
-            starts[leaf] += starts[leaf - 1];
-        }
-        let mut next = starts.clone();
-        let mut order = vec![0; uv.len()];
-        for (sample, &leaf) in leaves.iter().enumerate() {
-            order[next[leaf as usize] as usize] = sample as u32;
-            next[leaf as usize] += 1;
-        }
-        Self { uv, starts, order }
+        Self { uv, by_leaf: Lists::by_key(topology.leaves.len(), &leaves) }
     }
 
     pub fn of(&self, leaf: usize) -> &[u32] {
-        &self.order[self.starts[leaf] as usize..self.starts[leaf + 1] as usize]
+        self.by_leaf.of(leaf)
     }
 }
 
@@ -80,9 +69,8 @@ pub struct System<'a> {
     expansions: Vec<Vec<(u32, Matrix)>>,
     /// Size of the largest cell at each basis vertex.
     sizes: Vec<DVec2>,
-    /// Blocks of the lower triangle by columns: the rows of column `c` are `rows[starts[c]..starts[c + 1]]`.
-    starts: Vec<u32>,
-    rows: Vec<u32>,
+    /// The rows of the blocks of the lower triangle by columns.
+    rows: Lists,
     symbolic: SymbolicCholesky,
 }
 
@@ -111,15 +99,10 @@ impl<'a> System<'a> {
         }
         pairs.sort_unstable();
         pairs.dedup();
-        let mut starts = vec![0u32; topology.basis.len() + 1];
-        pairs.iter().for_each(|&(column, _)| starts[column as usize + 1] += 1);
-        for column in 1..starts.len() {
-            starts[column] += starts[column - 1];
-        }
-        let rows: Vec<u32> = pairs.into_iter().map(|(_, row)| row).collect();
-        let zeros = vec![[[0.0; 4]; 4]; rows.len()];
-        let symbolic = SymbolicCholesky::new(&lower_triangle(&starts, &rows, &zeros).view(), None);
-        Self { mesh, topology, expansions, sizes, starts, rows, symbolic }
+        let rows = Lists::new(topology.basis.len(), pairs.into_iter());
+        let zeros = vec![[[0.0; 4]; 4]; rows.items().len()];
+        let symbolic = SymbolicCholesky::new(&lower_triangle(&rows, &zeros).view(), None);
+        Self { mesh, topology, expansions, sizes, rows, symbolic }
     }
 
     /// The jets in the frame of the data: for each basis vertex four rows of `dim` numbers.
@@ -133,7 +116,7 @@ impl<'a> System<'a> {
         watch: &Watch,
     ) -> Result<Vec<f64>, FitError> {
         let (dim, n) = (data.dim, 4 * self.topology.basis.len());
-        let mut blocks = vec![[[0.0; 4]; 4]; self.rows.len()];
+        let mut blocks = vec![[[0.0; 4]; 4]; self.rows.items().len()];
         let mut right = vec![0.0; n * dim];
         let leaves: Vec<usize> = (0..self.topology.leaves.len()).collect();
         let mut kept = KnownSums::default();
@@ -168,7 +151,7 @@ impl<'a> System<'a> {
         }
         known.sums = kept.sums;
         watch.check()?;
-        let matrix = lower_triangle(&self.starts, &self.rows, &blocks);
+        let matrix = lower_triangle(&self.rows, &blocks);
         let factor = self.symbolic.factor(&matrix.view()).map_err(|_| FitError::Singular)?;
         factor.solve(&mut right, dim);
         watch.check()?;
@@ -265,8 +248,8 @@ impl<'a> System<'a> {
 
     /// The number of a block of the lower triangle.
     fn place(&self, row: u32, column: u32) -> u32 {
-        let [from, to] = [0, 1].map(|k| self.starts[column as usize + k] as usize);
-        let found = self.rows[from..to].binary_search(&row);
+        let found = self.rows.of(column as usize).binary_search(&row);
+        let from = self.rows.range(column as usize).start;
         (from + found.expect("the pattern holds all pairs of a leaf")) as u32
     }
 }
@@ -299,16 +282,15 @@ fn congruence(matrix: &CellMatrix, corner_a: usize, a: &Block, corner_b: usize, 
 }
 
 /// The scalar matrix: its lower triangle in columns.
-fn lower_triangle(starts: &[u32], rows: &[u32], blocks: &[Block]) -> CsMat<f64> {
-    let n = 4 * (starts.len() - 1);
+fn lower_triangle(rows: &Lists, blocks: &[Block]) -> CsMat<f64> {
+    let n = 4 * rows.count();
     let mut pointers = Vec::with_capacity(n + 1);
     let (mut indices, mut values) =
-        (Vec::with_capacity(16 * rows.len()), Vec::with_capacity(16 * rows.len()));
+        (Vec::with_capacity(16 * blocks.len()), Vec::with_capacity(16 * blocks.len()));
     pointers.push(0);
-    for column in 0..starts.len() - 1 {
-        let range = starts[column] as usize..starts[column + 1] as usize;
+    for column in 0..rows.count() {
         for c in 0..4 {
-            for (row, block) in rows[range.clone()].iter().zip(&blocks[range.clone()]) {
+            for (row, block) in rows.of(column).iter().zip(&blocks[rows.range(column)]) {
                 let first = if *row as usize == column { c } else { 0 };
                 for r in first..4 {
                     indices.push(4 * *row as usize + r);

@@ -7,6 +7,7 @@
 use super::data::Data;
 use crate::control::Pool;
 use crate::fit::common::FitError;
+use crate::lists::Lists;
 use crate::tmesh::{TMesh, Topology, VertexKind};
 use glam::DVec2;
 use nalgebra::{Const, Dyn, OMatrix, SMatrix};
@@ -156,8 +157,7 @@ struct Buckets {
     uv: Vec<DVec2>,
     /// Buckets along each direction.
     count: usize,
-    starts: Vec<u32>,
-    order: Vec<u32>,
+    data: Lists,
 }
 
 /// Data of a bucket, on average.
@@ -168,19 +168,9 @@ impl Buckets {
         let (min, size) = (data.data_box.min, data.data_box.size());
         let uv: Vec<DVec2> = data.uv.iter().map(|&uv| (uv - min) / size).collect();
         let count = ((uv.len() / BUCKET) as f64).sqrt().ceil().max(1.0) as usize;
-        let mut buckets =
-            Self { min, size, count, starts: vec![0; count * count + 1], order: Vec::new(), uv };
-        let places: Vec<usize> = buckets.uv.iter().map(|&uv| buckets.bucket(uv)).collect();
-        places.iter().for_each(|&place| buckets.starts[place + 1] += 1);
-        for place in 1..buckets.starts.len() {
-            buckets.starts[place] += buckets.starts[place - 1];
-        }
-        let mut next = buckets.starts.clone();
-        buckets.order = vec![0; places.len()];
-        for (datum, place) in places.into_iter().enumerate() {
-            buckets.order[next[place] as usize] = datum as u32;
-            next[place] += 1;
-        }
+        let mut buckets = Self { min, size, count, data: Lists::default(), uv };
+        let places: Vec<u32> = buckets.uv.iter().map(|&uv| buckets.bucket(uv) as u32).collect();
+        buckets.data = Lists::by_key(count * count, &places);
         buckets
     }
 
@@ -234,7 +224,7 @@ impl Buckets {
         for i in range(center.x) {
             for j in range(center.y) {
                 let place = i * self.count + j;
-                for &datum in &self.order[self.starts[place] as usize..self.starts[place + 1] as usize] {
+                for &datum in self.data.of(place) {
                     let distance = self.uv[datum as usize].distance(center);
                     if distance <= reach {
                         data.push((distance, datum as usize));

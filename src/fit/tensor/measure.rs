@@ -2,7 +2,7 @@
 
 use super::Problem;
 use crate::control::Pool;
-use crate::fit::common::interior::{InteriorErrors, MeshData, node_normals};
+use crate::fit::common::interior::{InteriorErrors, MeshData};
 use crate::fit::common::samples::{bulge, interior_places};
 use crate::fit::common::uniform::grid::UniformGrid;
 use crate::surface::Trims;
@@ -56,7 +56,7 @@ impl Problem<'_> {
             data.uv.push(place.mean(|n| self.uv[n]));
             data.weights.push(place.weight);
             if self.is_shape {
-                let normals = shape_normals.get_or_insert_with(|| node_normals(mesh));
+                let normals = shape_normals.get_or_insert_with(|| mesh.node_normals());
                 let corners = place.nodes.map(|n| DVec3::from_slice(&values[3 * n..]));
                 let normals = place.nodes.map(|n| normals[n].normalize_or_zero());
                 data.values.extend(bulge(corners, normals, place.shares).to_array());

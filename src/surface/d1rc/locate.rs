@@ -2,6 +2,7 @@
 
 use super::simplex::Site;
 use crate::geometry::{Domain, Orientation, orientation, signed_area};
+use crate::lists::Lists;
 use glam::DVec2;
 
 /// Cells of the grid for each face: a cell then meets some four faces.
@@ -20,9 +21,8 @@ pub struct Locator {
     domain: Domain,
     counts: [usize; 2],
     cells_per_unit: DVec2,
-    /// The faces of cell c are `entries[starts[c]..starts[c + 1]]`, in increasing order.
-    starts: Vec<u32>,
-    entries: Vec<u32>,
+    /// The faces of each cell, in increasing order.
+    by_cell: Lists,
     border: Vec<(u32, [u32; 2])>,
 }
 
@@ -37,18 +37,14 @@ impl Locator {
         let counts = [size.x, size.y].map(|length| (length / cell).ceil().clamp(1.0, most) as usize);
         let cells_per_unit = DVec2::new(counts[0] as f64, counts[1] as f64) / size;
         let border = border(&faces);
-        let (starts, entries) = (Vec::new(), Vec::new());
-        let mut locator = Self { places, faces, domain, counts, cells_per_unit, starts, entries, border };
+        let mut locator =
+            Self { places, faces, domain, counts, cells_per_unit, by_cell: Lists::default(), border };
         let mut pairs = Vec::new();
         for face in 0..locator.faces.len() {
             let around = Domain::around(locator.corners(face as u32));
             pairs.extend(locator.cells(&around).map(|cell| (cell as u32, face as u32)));
         }
-        pairs.sort_unstable();
-        let cell_count = counts[0] * counts[1];
-        locator.starts =
-            (0..=cell_count).map(|c| pairs.partition_point(|p| (p.0 as usize) < c) as u32).collect();
-        locator.entries = pairs.into_iter().map(|(_, face)| face).collect();
+        locator.by_cell = Lists::new(counts[0] * counts[1], pairs.into_iter());
         locator
     }
 
@@ -84,7 +80,7 @@ impl Locator {
     }
 
     fn entries(&self, cell: usize) -> &[u32] {
-        &self.entries[self.starts[cell] as usize..self.starts[cell + 1] as usize]
+        self.by_cell.of(cell)
     }
 
     /// The faces that a box may meet, in increasing order.

@@ -40,10 +40,10 @@ pub use sharp::sharp_edges;
 pub use space::{Recipe, Space};
 
 use super::{ControlNet, Domain, Facets, Kind, Region, Surface};
+use crate::lists::Lists;
 use crate::mesh::Mesh;
 use crate::surface::Trims;
 use glam::{DVec2, DVec3};
-use regions::Lists;
 use std::sync::Arc;
 
 /// A D1RC-spline surface.
@@ -104,7 +104,7 @@ impl D1rcSurface {
             dim,
             control_points,
             coefficients: vec![0.0; dim * space.configurations.len()],
-            dependents: Arc::new(Lists::new(space.vertex_count(), &pairs)),
+            dependents: Arc::new(Lists::new(space.vertex_count(), pairs.iter().copied())),
             region: Region { data_box: None, trims: trims(&space) },
             space: Arc::new(space),
         };
@@ -136,7 +136,7 @@ impl D1rcSurface {
         }
         let dependents = self.dependents.clone();
         let mut functions: Vec<u32> =
-            vertices.iter().flat_map(|&vertex| dependents.get(vertex as usize)).copied().collect();
+            vertices.iter().flat_map(|&vertex| dependents.of(vertex as usize)).copied().collect();
         functions.sort_unstable();
         functions.dedup();
         functions.into_iter().for_each(|function| self.update(function as usize));
@@ -176,7 +176,7 @@ impl D1rcSurface {
 
     fn functions_of(&self, vertex: u32) -> Result<&[u32], D1rcError> {
         check_vertices("vertex", &[vertex], self.space.vertex_count())?;
-        Ok(self.dependents.get(vertex as usize))
+        Ok(self.dependents.of(vertex as usize))
     }
 
     /// The blending weights of the control vertices at a point, by vertex; they sum to one. Empty outside the domain.

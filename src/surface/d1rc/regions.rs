@@ -3,27 +3,8 @@
 use super::configuration::Configuration;
 use super::locate::Locator;
 use crate::geometry::{Domain, Orientation, orientation};
+use crate::lists::Lists;
 use glam::DVec2;
-
-/// Lists of numbers, one after the other.
-#[derive(Debug, Clone, Default)]
-pub struct Lists {
-    starts: Vec<u32>,
-    entries: Vec<u32>,
-}
-
-impl Lists {
-    /// From pairs (list, entry) in order.
-    pub fn new(count: usize, pairs: &[(u32, u32)]) -> Self {
-        let start = |list: usize| pairs.partition_point(|pair| (pair.0 as usize) < list) as u32;
-        Self { starts: (0..=count).map(start).collect(), entries: pairs.iter().map(|pair| pair.1).collect() }
-    }
-
-    /// The entries of a list.
-    pub fn get(&self, list: usize) -> &[u32] {
-        &self.entries[self.starts[list] as usize..self.starts[list + 1] as usize]
-    }
-}
 
 /// Where functions are not zero.
 #[derive(Debug, Clone)]
@@ -40,20 +21,19 @@ impl Regions {
             let knots = configuration.all_knots().map(|knot| places[knot as usize]).collect();
             faces_under(knots, locator, &mut |face| pairs.push((function as u32, face)));
         }
-        Self::from_pairs(pairs, configurations.len(), locator.faces().len())
+        Self::from_pairs(&pairs, configurations.len(), locator.faces().len())
     }
 
-    fn from_pairs(mut pairs: Vec<(u32, u32)>, function_count: usize, face_count: usize) -> Self {
-        let by_function = Lists::new(function_count, &pairs);
-        pairs.iter_mut().for_each(|pair| *pair = (pair.1, pair.0));
-        pairs.sort_unstable();
-        Self { by_function, by_face: Lists::new(face_count, &pairs) }
+    fn from_pairs(pairs: &[(u32, u32)], function_count: usize, face_count: usize) -> Self {
+        let by_function = Lists::new(function_count, pairs.iter().copied());
+        let by_face = Lists::new(face_count, pairs.iter().map(|&(function, face)| (face, function)));
+        Self { by_function, by_face }
     }
 
     /// Leaves out the functions that no face sees.
     pub fn without_unseen(self, configurations: Vec<Configuration>) -> (Vec<Configuration>, Self) {
-        let face_count = self.by_face.starts.len() - 1;
-        let mut pairs = Vec::with_capacity(self.by_face.entries.len());
+        let face_count = self.by_face.count();
+        let mut pairs = Vec::with_capacity(self.by_face.items().len());
         let mut kept = Vec::with_capacity(configurations.len());
         for (function, configuration) in configurations.into_iter().enumerate() {
             let faces = self.faces(function as u32);
@@ -62,18 +42,18 @@ impl Regions {
                 kept.push(configuration);
             }
         }
-        let regions = Self::from_pairs(pairs, kept.len(), face_count);
+        let regions = Self::from_pairs(&pairs, kept.len(), face_count);
         (kept, regions)
     }
 
     /// The functions that may not be zero on a face, in increasing order.
     pub fn functions(&self, face: u32) -> &[u32] {
-        self.by_face.get(face as usize)
+        self.by_face.of(face as usize)
     }
 
     /// The faces on which a function may not be zero, in increasing order.
     pub fn faces(&self, function: u32) -> &[u32] {
-        self.by_function.get(function as usize)
+        self.by_function.of(function as usize)
     }
 }
 

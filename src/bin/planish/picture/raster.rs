@@ -111,7 +111,7 @@ impl Picture {
 
     /// Draws a mesh; `values` at the nodes, from `range.0` to `range.1`, choose the colours.
     pub fn draw_mesh(&mut self, mesh: &Mesh, values: Option<&[f64]>, range: (f64, f64)) {
-        let normals = node_normals(mesh);
+        let normals = mesh.node_normals();
         let span = (range.1 - range.0).max(f64::MIN_POSITIVE);
         for triangle in mesh.triangles() {
             let corners = triangle.map(|node| {
@@ -271,16 +271,6 @@ fn scale_color(share: f64) -> [f64; 3] {
     let k = (place as usize).min(SCALE.len() - 2);
     let t = place - k as f64;
     std::array::from_fn(|c| SCALE[k][c] * (1.0 - t) + SCALE[k + 1][c] * t)
-}
-
-fn node_normals(mesh: &Mesh) -> Vec<DVec3> {
-    let mut normals = vec![DVec3::ZERO; mesh.points().len()];
-    for triangle in mesh.triangles() {
-        let [a, b, c] = triangle.map(|node| mesh.points()[node as usize]);
-        let area = (b - a).cross(c - a);
-        triangle.iter().for_each(|&node| normals[node as usize] += area);
-    }
-    normals
 }
 
 fn text_width(text: &str, size: usize) -> usize {

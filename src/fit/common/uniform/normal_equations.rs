@@ -8,6 +8,7 @@ use super::grid::UniformBasis;
 use crate::control::Pool;
 use crate::linalg::dissection::grid_order;
 use crate::linalg::{Cholesky, NotPositiveDefinite, SymbolicCholesky};
+use crate::lists::Lists;
 use glam::DVec2;
 use rayon::prelude::*;
 use sprs::CsMat;
@@ -63,35 +64,11 @@ pub struct NormalEquations {
     dim: usize,
 }
 
-/// Data sorted by cell: `order[starts[c]..starts[c + 1]]` lie in cell `c`.
-pub struct ByCell {
-    pub starts: Vec<u32>,
-    pub order: Vec<u32>,
-}
-
-impl ByCell {
-    /// Sorts; to be called within a pool.
-    pub fn sort(basis: &TensorBasis, uv: &[DVec2]) -> Self {
-        let [cells_u, cells_v] = basis.cells();
-        let cells: Vec<u32> = uv.par_iter().map(|&uv| basis.cell(uv) as u32).collect();
-        let mut starts = vec![0u32; cells_u * cells_v + 1];
-        cells.iter().for_each(|&c| starts[c as usize + 1] += 1);
-        for c in 1..starts.len() {
-            starts[c] += starts[c - 1];
-        }
-        let mut next = starts.clone();
-        let mut order = vec![0; uv.len()];
-        for (datum, &c) in cells.iter().enumerate() {
-            order[next[c as usize] as usize] = datum as u32;
-            next[c as usize] += 1;
-        }
-        Self { starts, order }
-    }
-
-    /// The data of a cell.
-    pub fn of(&self, cell: usize) -> &[u32] {
-        &self.order[self.starts[cell] as usize..self.starts[cell + 1] as usize]
-    }
+/// The data of each cell; to be called within a pool.
+pub fn by_cell(basis: &TensorBasis, uv: &[DVec2]) -> Lists {
+    let [cells_u, cells_v] = basis.cells();
+    let cells: Vec<u32> = uv.par_iter().map(|&uv| basis.cell(uv) as u32).collect();
+    Lists::by_key(cells_u * cells_v, &cells)
 }
 
 /// What one row of cells adds: four rows of unknowns.
@@ -107,7 +84,7 @@ impl NormalEquations {
         let (rows, n, dim) = (basis.v.len(), basis.len(), samples.dim);
         let mut equations = Self { basis, matrix: vec![0.0; n * STENCIL], right: vec![0.0; n * dim], dim };
         pool.run(|| {
-            let by_cell = ByCell::sort(&basis, samples.uv);
+            let by_cell = by_cell(&basis, samples.uv);
             // strips of a block are kept at once: the block bounds the memory, and is fixed
             const BLOCK: usize = 16;
             for block in (0..cells_u).step_by(BLOCK) {
@@ -203,7 +180,7 @@ fn neighbours(j: usize, a: usize, count: usize) -> Range<usize> {
     begin..(j + REACH + 1).min(count)
 }
 
-fn assemble_strip(basis: &TensorBasis, samples: &Samples, by_cell: &ByCell, cell_u: usize) -> Strip {
+fn assemble_strip(basis: &TensorBasis, samples: &Samples, by_cell: &Lists, cell_u: usize) -> Strip {
     let (width_u, width_v, rows) = (basis.u.width(), basis.v.width(), basis.v.len());
     let (cells_v, dim) = (basis.cells()[1], samples.dim);
     let mut strip =
