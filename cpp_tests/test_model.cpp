@@ -82,6 +82,30 @@ TEST(Model, IsSavedAndWritten) {
   std::remove("test_model.step");
 }
 
+TEST(Model, AnswersAsItsSurfaceDoes) {
+  const planish::model model(model_of(wave(true)).release());
+  const planish::surface face = model.face(0);
+  const std::vector<planish::point2> uv = {{0.2, 0.3}, {0.8, 0.75}};
+  const std::vector<std::uint32_t> faces(2, 0);
+  CHECK(model.eval(faces, uv, 2) == face.eval_derivatives(uv, 2));
+  CHECK(model.normals(faces, uv) == face.normals(uv));
+  CHECK(model.curvatures(faces, uv) == face.curvatures(uv));
+  const std::vector<planish::point3> points = {{0.5, 0.5, 1}, {0.3, 0.2, 0}};
+  const planish::model::feet feet = model.project(points);
+  const auto own = face.project(points);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    CHECK_EQUAL(feet.faces[k], 0u);
+    CHECK_NEAR(feet.distances[k], own.distances[k], 1e-12);
+  }
+  auto options = planish::defaults<planish_tessellate_options>();
+  options.chord_tolerance = 1e-4;
+  const planish::mesh mesh = model.tessellate(options);
+  CHECK_EQUAL(mesh.loop_count(), 2u);
+  CHECK(model.deviation(mesh).report.max_distance < 1e-12);
+  model.write_vtk("test_model.vtu");
+  std::remove("test_model.vtu");
+}
+
 TEST(Model, RefusesByName) {
   const Model model = model_of(wave(false));
   planish_surface *surface = sentinel<planish_surface>();

@@ -3,8 +3,10 @@
 use crate::output::{self, Table};
 use crate::{Failure, Outcome};
 use clap::Args;
-use planish::export::native;
+use planish::curve::Curve;
+use planish::export::native::{Saved, load_any_file};
 use planish::mesh::{MeshOptions, read};
+use planish::model::{Model, Role};
 use planish::surface::d1rc::D1rcSurface;
 use planish::surface::pht::PhtSurface;
 use planish::surface::tensor::{Axis, TensorSurface};
@@ -14,7 +16,7 @@ use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub struct InfoArguments {
-    /// Mesh file (OFF, OBJ, PLY, STL) or saved surface (.planish).
+    /// Mesh file (OFF, OBJ, PLY, STL) or what was saved (.planish): a surface, model or curve.
     file: PathBuf,
     /// Join nodes closer than this.
     #[arg(long, default_value_t = 0.0, value_name = "DISTANCE")]
@@ -25,9 +27,13 @@ pub struct InfoArguments {
 }
 
 pub fn run(arguments: &InfoArguments) -> Result<Outcome, Failure> {
-    let is_surface = arguments.file.extension().is_some_and(|extension| extension == "planish");
-    let table = if is_surface {
-        surface_table(&arguments.file, &native::load_file(&arguments.file)?)
+    let is_saved = arguments.file.extension().is_some_and(|extension| extension == "planish");
+    let table = if is_saved {
+        match load_any_file(&arguments.file)? {
+            Saved::Surface(surface) => surface_table(&arguments.file, &surface),
+            Saved::Model(model) => model_table(&arguments.file, &model),
+            Saved::Curve(curve) => curve_table(&arguments.file, &curve),
+        }
     } else {
         mesh_table(arguments)?
     };
@@ -69,6 +75,41 @@ fn mesh_table(arguments: &InfoArguments) -> Result<Table, Failure> {
         table.row("repaired", output::repairs(&repairs));
     }
     Ok(table)
+}
+
+fn curve_table(path: &Path, curve: &Curve) -> Table {
+    let mut table = Table::default();
+    table.row("curve", path.display().to_string());
+    table.row("degree", curve.knots().degree().to_string());
+    table.row("control points", curve.knots().basis_count().to_string());
+    table.row("dimension", curve.dim().to_string());
+    let (from, to) = curve.knots().domain();
+    table.row("domain", format!("u {from} to {to}"));
+    table
+}
+
+fn model_table(path: &Path, model: &Model) -> Table {
+    let measure = model.measure();
+    let mut table = Table::default();
+    table.row("model", path.display().to_string());
+    let count = |role: fn(&Role) -> bool| model.shells().iter().filter(|shell| role(&shell.role)).count();
+    let solids = count(|role| *role == Role::Solid);
+    let voids = count(|role| matches!(role, Role::VoidIn(_)));
+    table.row("shells", format!("{solids} solid, {voids} void, {} open", count(|role| *role == Role::Open)));
+    table.row("faces", model.faces().len().to_string());
+    let (free, sharp) = (measure.free_edge_count, measure.sharp_edge_count);
+    table.row("edges", format!("{}, {free} free, {sharp} sharp", model.edges().len()));
+    table.row("vertices", model.vertices().len().to_string());
+    table.row("control points", model.pole_count().to_string());
+    let sides = (measure.max - measure.min).to_array().map(|side| format!("{side:.6}"));
+    table.row("bounding box", format!("{}, diagonal {:.6}", sides.join(" x "), model.diagonal()));
+    table.row("area", format!("{:.9}", measure.area));
+    if solids > 0 {
+        table.row("volume", format!("{:.9}", measure.volume));
+    }
+    table.row("largest gap", format!("{:.1e}", measure.max_gap));
+    table.row("normal jump", format!("{:.1e} rad across edges that are not sharp", measure.max_normal_jump));
+    table
 }
 
 fn surface_table(path: &Path, surface: &AnySurface) -> Table {

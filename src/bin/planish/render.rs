@@ -2,17 +2,17 @@
 
 use crate::output::write_png;
 use crate::picture::View;
-use crate::picture::{RenderOptions, render};
+use crate::picture::{RenderOptions, render, render_model};
 use crate::{Failure, Outcome};
 use clap::Args;
 use planish::Control;
-use planish::export::native;
+use planish::export::native::{self, Saved};
 use planish::mesh::{MeshOptions, read};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub struct RenderArguments {
-    /// Saved surface (.planish).
+    /// Saved surface or model (.planish).
     surface: PathBuf,
     /// The picture to write.
     #[arg(long, value_name = "PNG")]
@@ -23,7 +23,7 @@ pub struct RenderArguments {
     /// Draw the parameter plane instead of the surface.
     #[arg(long)]
     plane: bool,
-    /// Draw the knot lines.
+    /// Draw the knot lines, or the edges of a model.
     #[arg(long)]
     knots: bool,
     /// Draw the trims.
@@ -41,7 +41,7 @@ pub struct RenderArguments {
 }
 
 pub fn run(arguments: &RenderArguments) -> Result<Outcome, Failure> {
-    let surface = native::load_file(&arguments.surface)?;
+    let saved = native::load_any_file(&arguments.surface)?;
     let mesh = match &arguments.deviation {
         Some(path) => Some(read(path, &MeshOptions::default())?.0),
         None => None,
@@ -57,7 +57,15 @@ pub fn run(arguments: &RenderArguments) -> Result<Outcome, Failure> {
         trims: arguments.trims,
         control_net: arguments.net,
     };
-    let picture = render(surface.as_surface(), &options, Control::default().pool())?;
+    let control = Control::default();
+    let picture = match &saved {
+        Saved::Surface(surface) => render(surface.as_surface(), &options, control.pool())?,
+        Saved::Model(_) if options.plane => {
+            return Err(Failure::new("a model has no parameter plane: leave out --plane"));
+        }
+        Saved::Model(model) => render_model(model, &options, control.pool())?,
+        Saved::Curve(_) => return Err(Failure::new("a curve cannot be drawn, only surfaces and models")),
+    };
     write_png(&picture, &arguments.out)?;
     Ok(Outcome::Done)
 }

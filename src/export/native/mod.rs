@@ -151,6 +151,33 @@ pub fn load_curve(bytes: &[u8]) -> Result<Curve, LoadError> {
     Ok(curve)
 }
 
+/// What a file of the format holds.
+#[derive(Debug, Clone)]
+#[allow(clippy::large_enum_variant, reason = "one is alive at once")]
+pub enum Saved {
+    /// A surface.
+    Surface(AnySurface),
+    /// A curve.
+    Curve(Curve),
+    /// A model.
+    Model(Model),
+}
+
+/// Whatever bytes of [`save`] hold.
+pub fn load_any(bytes: &[u8]) -> Result<Saved, LoadError> {
+    let (kind, _) = Reader::open(bytes)?;
+    match kind {
+        MODEL => load_model(bytes).map(Saved::Model),
+        CURVE => load_curve(bytes).map(Saved::Curve),
+        _ => load(bytes).map(Saved::Surface),
+    }
+}
+
+/// Whatever a file holds.
+pub fn load_any_file(path: &Path) -> Result<Saved, LoadError> {
+    load_any(&read_file(path)?)
+}
+
 /// The model that bytes of [`save`] hold.
 pub fn load_model(bytes: &[u8]) -> Result<Model, LoadError> {
     let (kind, mut reader) = Reader::open(bytes)?;

@@ -175,3 +175,96 @@ fn refusals_leave_outputs_alone() {
         assert_untouched(&out);
     }
 }
+
+#[test]
+fn models_answer_questions_as_their_surface_does() {
+    let saddle = SurfaceHandle::saddle();
+    let model = model_of(saddle.0);
+    let (points, faces, uv) = ([0.3, 0.6, 0.5, 2.0, 0.5, 1.0], [0_u32, 0], [0.25, 0.5, 0.75, 0.125]);
+    // SAFETY: live handles, and arrays of these lengths.
+    unsafe {
+        let (mut of_model, mut of_surface) = ([0.0; 36], [1.0; 36]);
+        let out = of_model.as_mut_ptr();
+        ok(planish_model_eval(model.0, faces.as_ptr(), uv.as_ptr(), 2, 2, null(), out));
+        ok(planish_surface_eval_derivatives(saddle.0, uv.as_ptr(), 2, 2, null(), of_surface.as_mut_ptr()));
+        assert_eq!(of_model, of_surface);
+        ok(planish_model_normals(model.0, faces.as_ptr(), uv.as_ptr(), 2, null(), of_model.as_mut_ptr()));
+        ok(planish_surface_normals(saddle.0, uv.as_ptr(), 2, null(), of_surface.as_mut_ptr()));
+        assert_eq!(of_model[..6], of_surface[..6]);
+        ok(planish_model_curvatures(model.0, faces.as_ptr(), uv.as_ptr(), 2, null(), of_model.as_mut_ptr()));
+        ok(planish_surface_curvatures(saddle.0, uv.as_ptr(), 2, null(), of_surface.as_mut_ptr()));
+        assert_eq!(of_model[..16], of_surface[..16]);
+
+        let (mut found, mut feet, mut distances) = ([9_u32; 2], [0.0; 4], [0.0; 2]);
+        let to = (found.as_mut_ptr(), feet.as_mut_ptr(), distances.as_mut_ptr());
+        ok(planish_model_project(model.0, points.as_ptr(), 2, null(), to.0, to.1, to.2));
+        let (mut own_feet, mut own) = ([1.0; 4], [1.0; 2]);
+        ok(planish_surface_project(
+            saddle.0,
+            points.as_ptr(),
+            2,
+            null(),
+            own_feet.as_mut_ptr(),
+            own.as_mut_ptr(),
+        ));
+        assert_eq!(found, [0, 0]);
+        assert!(distances.iter().zip(own).all(|(a, b)| (a - b).abs() < 1e-12), "{distances:?} {own:?}");
+        let near = planish_project_options { max_distance: 0.5, ..record() };
+        let status = planish_model_project(model.0, points.as_ptr(), 2, &near, to.0, to.1, to.2);
+        assert_eq!(status, planish_status::PointsOutside);
+        assert_eq!(found, [0, PLANISH_NONE]);
+        assert!(distances[1].is_nan() && feet[2].is_nan());
+
+        let mut mesh = null_mut();
+        let fine = planish_tessellate_options { chord_tolerance: 1e-3, ..record() };
+        ok(planish_model_tessellate(model.0, &fine, &mut mesh));
+        let mesh = MeshHandle(mesh);
+        assert_eq!(planish_mesh_loop_count(mesh.0), 1);
+        let mut report = planish_deviation_report::default();
+        let back = planish_deviation_options { measure_back: 1, ..record() };
+        ok(planish_model_deviation(model.0, mesh.0, &back, null_mut(), 0, &mut report));
+        assert!(report.max_distance < 1e-12 && report.max_back_distance < 2e-3, "{report:?}");
+        let path = std::env::temp_dir().join(format!("planish_model_{}.vtu", std::process::id()));
+        let text = CString::new(path.to_str().unwrap()).unwrap();
+        ok(planish_model_write_vtk(model.0, text.as_ptr(), null()));
+        let content = std::fs::read(&path).unwrap();
+        std::fs::remove_file(path).unwrap();
+        assert!(content.windows(11).any(|part| part == b"Name=\"face\""));
+    }
+}
+
+#[test]
+fn questions_are_refused_by_name() {
+    let model = holed();
+    let (uv, mut out) = ([0.5, 0.5, 1.5, 0.5], [7.0; 6]);
+    // SAFETY: live handles, and arrays of these lengths.
+    unsafe {
+        null_refused(
+            planish_model_eval(null(), [0].as_ptr(), uv.as_ptr(), 1, 0, null(), out.as_mut_ptr()),
+            "model",
+        );
+        null_refused(
+            planish_model_eval(model.0, null(), uv.as_ptr(), 1, 0, null(), out.as_mut_ptr()),
+            "faces",
+        );
+        let status =
+            planish_model_eval(model.0, [0, 1].as_ptr(), uv.as_ptr(), 2, 0, null(), out.as_mut_ptr());
+        refused(status, planish_status::Index, 1, &["face 1"]);
+        let status =
+            planish_model_eval(model.0, [0, 0].as_ptr(), uv.as_ptr(), 2, 0, null(), out.as_mut_ptr());
+        refused(status, planish_status::Outside, 1, &["point 1"]);
+        let status = planish_model_eval(model.0, [0].as_ptr(), uv.as_ptr(), 1, 3, null(), out.as_mut_ptr());
+        refused(status, planish_status::InvalidArgument, -1, &["max_derivative"]);
+        assert_eq!(out, [7.0; 6]);
+        let points = [0.0, f64::NAN, 0.0];
+        let nowhere = null_mut();
+        let status =
+            planish_model_project(model.0, points.as_ptr(), 1, null(), null_mut(), nowhere, null_mut());
+        refused(status, planish_status::NotFinite, 0, &["point 0"]);
+        let mut mesh: *mut planish_mesh = canary();
+        let few = planish_tessellate_options { chord_tolerance: 1e-5, max_point_count: 50, ..record() };
+        let status = planish_model_tessellate(model.0, &few, &mut mesh);
+        refused(status, planish_status::TooLarge, -1, &["50"]);
+        assert_untouched(&mesh);
+    }
+}

@@ -4,4 +4,4 @@ mod raster;
 mod scene;
 
 pub use raster::{Picture, View};
-pub use scene::{RenderOptions, render};
+pub use scene::{RenderOptions, render, render_model};

@@ -7,6 +7,7 @@ use planish::control::Pool;
 use planish::error::Error;
 use planish::export::vtk::on_surface;
 use planish::mesh::Mesh;
+use planish::model::{FaceId, Model};
 use planish::query::deviation::{DeviationOptions, deviation};
 use planish::query::tessellate::{TessellateOptions, tessellate};
 use planish::surface::Surface;
@@ -71,6 +72,41 @@ pub fn render(surface: &dyn Surface, options: &RenderOptions, pool: &Pool) -> Re
     }
     if options.control_net && !options.plane {
         draw_control_net(surface, &mut picture);
+    }
+    if distances.is_some() {
+        picture.draw_scale("deviation", range);
+    }
+    Ok(picture)
+}
+
+/// Draws a model: its faces, or a mesh moved on to it; its edges where knot lines are asked for, free ones where trims
+/// are.
+pub fn render_model(model: &Model, options: &RenderOptions, pool: &Pool) -> Result<Picture, Error> {
+    let tessellation = model.tessellate(&TessellateOptions::default())?;
+    let (mesh, distances) = match options.deviation_from {
+        None => (tessellation.mesh.clone(), None),
+        Some(mesh) => {
+            let report = model.deviation(mesh, &DeviationOptions::default(), pool)?;
+            let feet = report.faces.iter().zip(&report.uv);
+            let place = |(face, &uv): (&Option<FaceId>, &DVec2)| {
+                face.map_or(DVec3::ZERO, |face| model.carrier(face).points(&[uv])[0])
+            };
+            let moved = Mesh::new(feet.map(place).collect(), mesh.triangles().to_vec())?;
+            (moved, Some(report.nodes.each))
+        }
+    };
+    let view = options.view.unwrap_or_else(|| View::facing(&mesh));
+    let mut picture = Picture::new(options.width, options.height, &view, &mesh);
+    let range = (0.0, distances.iter().flatten().copied().fold(0.0, f64::max));
+    picture.draw_mesh(&mesh, distances.as_deref(), range);
+    for (edge, nodes) in model.edge_ids().zip(&tessellation.edges) {
+        let line: Vec<DVec3> = nodes.iter().map(|&node| tessellation.mesh.points()[node as usize]).collect();
+        if options.knot_lines {
+            picture.draw_line(&line, KNOT_INK);
+        }
+        if options.trims && model.is_free(edge) {
+            picture.draw_line(&line, TRIM_INK);
+        }
     }
     if distances.is_some() {
         picture.draw_scale("deviation", range);
