@@ -3,7 +3,8 @@
 use super::failure::Failure;
 use super::planish_status;
 use crate::surface::Kind;
-use std::ffi::{CStr, c_char};
+use libc::c_char;
+use std::ffi::CStr;
 use std::mem::MaybeUninit;
 
 /// An argument is not what it must be.

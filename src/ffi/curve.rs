@@ -16,7 +16,7 @@ use crate::fit::curve::{CurveOptions, fit_curve};
 use crate::fit::report::{Tolerance, ToleranceScale};
 use crate::knots::KnotVector;
 use crate::surface::evaluate::OutsideRule;
-use std::ffi::c_void;
+use libc::c_void;
 
 /// A B-spline curve: a map from an interval of parameters u to R^dim. Made by planish_curve_fit(),
 /// planish_curve_interpolate(), planish_curve_new() or planish_curve_load(), destroyed by planish_curve_free().

@@ -12,7 +12,7 @@ use crate::curve::Curve;
 use crate::export::native;
 use crate::query::project::{ProjectOptions, Projector, piece_count};
 use glam::DVec2;
-use std::ffi::{c_char, c_void};
+use libc::{c_char, c_void};
 use std::path::Path;
 
 /// Length of a curve, but for 1e-12 of it and the roundoff of its coordinates; 0 for NULL.

@@ -16,7 +16,7 @@ use crate::fit::d1rc::D1rcFitOptions;
 use crate::parameterize::{ParameterizeOptions, parameterize};
 use crate::surface::d1rc::{Boundary, D1rcMode, D1rcOptions, D1rcSurface, SharpRule, sharp_edges};
 use glam::DVec2;
-use std::ffi::c_void;
+use libc::c_void;
 
 /// Which functions a D1RC-spline has.
 #[repr(C)]

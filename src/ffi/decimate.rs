@@ -8,7 +8,7 @@ use super::mesh::planish_mesh;
 use super::planish_status;
 use super::progress::{planish_progress, with_control};
 use crate::mesh::{DecimateOptions, Decimation};
-use std::ffi::c_void;
+use libc::c_void;
 
 record! {
     /// How coarse a mesh becomes, and what stays. Fill with planish_decimate_options_init(), then change what you need.

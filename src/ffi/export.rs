@@ -9,7 +9,7 @@ use super::query::planish_tessellate_options;
 use super::surface::{planish_surface, query_surface};
 use crate::control::Stage;
 use crate::export::{ExportError, native, vtk};
-use std::ffi::{c_char, c_void};
+use libc::{c_char, c_void};
 use std::path::Path;
 
 /// What a VTK file holds of a surface.

@@ -22,7 +22,7 @@ use crate::mesh::Mesh;
 use crate::query::gradient::{field_gradient, piece_count};
 use crate::surface::tensor::TensorSurface;
 use glam::DVec2;
-use std::ffi::c_void;
+use libc::c_void;
 
 /// Fits fields on the nodes of one mesh, or at the same parameters, again and again: grid, factorization and threads
 /// are kept. Made by planish_field_fitter_new(), destroyed by planish_field_fitter_free().

@@ -10,7 +10,7 @@ use super::report::write_pairs;
 use super::status::query;
 use crate::mesh::{Mesh, MeshOptions, MeshRepairs, Piece};
 use glam::{DVec2, DVec3};
-use std::ffi::c_char;
+use libc::c_char;
 use std::mem::MaybeUninit;
 use std::path::Path;
 

@@ -14,7 +14,7 @@ use crate::export::{native, step};
 use crate::fit::conversion::{ConversionOptions, to_model};
 use crate::model::{Carrier, EdgeId, Face, FaceId, Form, FormOptions, Measure, Model, Role, ShellId, Use};
 use crate::surface::AnySurface;
-use std::ffi::{c_char, c_void};
+use libc::{c_char, c_void};
 use std::path::Path;
 
 /// A model: faces, each a bounded part of a surface, that share edges and vertices. Made by

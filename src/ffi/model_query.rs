@@ -24,7 +24,7 @@ use crate::query::project::ProjectOptions;
 use crate::surface::MAX_DERIVATIVE;
 use crate::surface::evaluate::{OutsideRule, Quantity};
 use glam::{DVec2, DVec3};
-use std::ffi::c_char;
+use libc::c_char;
 use std::path::Path;
 
 /// Evaluates at parameters on faces.

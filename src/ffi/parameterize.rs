@@ -9,7 +9,7 @@ use super::{planish_progress, planish_status};
 use crate::parameterize::{
     Border, Method, ParameterizeOptions, ParameterizeReport, Remarks, parameterize_weighted,
 };
-use std::ffi::c_void;
+use libc::c_void;
 
 /// Which weights an interior node gives its neighbours.
 #[repr(C)]

@@ -9,7 +9,7 @@ use crate::bezier::BezierPatch;
 use crate::control::Stage;
 use crate::surface::Patches;
 use glam::DVec2;
-use std::ffi::c_void;
+use libc::c_void;
 
 record! {
     /// A Bezier patch: the polynomial or rational piece of a surface over a rectangle of parameters. Set struct_size

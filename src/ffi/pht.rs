@@ -19,7 +19,7 @@ use crate::surface::Domain;
 use crate::surface::pht::{BorderSide, ConvertOptions, PhtSurface, stitch};
 use crate::tmesh::{Cell, TMesh};
 use glam::DVec2;
-use std::ffi::c_void;
+use libc::c_void;
 
 /// What determines a PHT-spline at its vertices.
 #[repr(C)]

@@ -4,7 +4,7 @@ use super::arguments::{ArgumentError, check};
 use super::guard::Failure;
 use crate::Control;
 use crate::control::Stage;
-use std::ffi::c_void;
+use libc::c_void;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicI32, AtomicU32};
 

@@ -15,7 +15,7 @@ use crate::query::deviation::{DeviationOptions, DeviationReport, deviation};
 use crate::query::project::{ProjectOptions, Projector};
 use crate::query::tessellate::{TessellateOptions, Tessellation, tessellate_watched};
 use glam::DVec2;
-use std::ffi::c_void;
+use libc::c_void;
 
 record! {
     /// How fine a tessellation is. Fill with planish_tessellate_options_init(), then change what you need.

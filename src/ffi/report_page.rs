@@ -8,7 +8,7 @@ use super::progress::{planish_progress, with_control};
 use super::surface::planish_surface;
 use crate::export::html::{ReportOptions, write_report};
 use crate::fit::common::report::{Remarks, ToleranceScale};
-use std::ffi::{c_char, c_void};
+use libc::{c_char, c_void};
 use std::path::Path;
 
 record! {

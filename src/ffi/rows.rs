@@ -6,7 +6,7 @@ use super::mesh::planish_mesh;
 use super::planish_status;
 use super::progress::{planish_progress, with_control};
 use crate::query::rows::{SampleRowsOptions, Source, sample_rows};
-use std::ffi::c_void;
+use libc::c_void;
 
 /// What the rows of planish_mesh_sample_rows() lie between.
 #[repr(C)]

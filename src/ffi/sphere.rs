@@ -6,7 +6,7 @@ use super::mesh::planish_mesh;
 use super::planish_status;
 use super::progress::{planish_progress, with_control};
 use crate::parameterize::sphere::{SphereOptions, SphereReport, map_to_sphere};
-use std::ffi::c_void;
+use libc::c_void;
 
 record! {
     /// How a mesh is mapped on to the sphere. Fill with planish_sphere_options_init(), then change what you need.

@@ -3,7 +3,8 @@
 use super::arguments::ArgumentError;
 use super::guard::{guard, guard_value, last_failure};
 use crate::failure::ErrorKind;
-use std::ffi::{CStr, c_char};
+use libc::c_char;
+use std::ffi::CStr;
 
 /// What a call came to: 0 or positive is success, negative is an error. Test with `status < 0`.
 ///

@@ -10,7 +10,7 @@ use crate::control::Stage;
 use crate::export::step::{Schema, StepOptions, StepReport, Unit, write};
 use crate::fit::conversion::{ConversionOptions, to_model};
 use crate::model::{Form, FormOptions};
-use std::ffi::{c_char, c_void};
+use libc::{c_char, c_void};
 use std::path::Path;
 
 /// The application protocol of a STEP file.

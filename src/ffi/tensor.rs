@@ -17,7 +17,7 @@ use crate::fit::tensor::{Ends, Energy, Method, TensorFit, TensorOptions, fit_fie
 use crate::knots::KnotVector;
 use crate::surface::tensor::{Axis, TensorError, TensorSurface};
 use glam::DVec2;
-use std::ffi::c_void;
+use libc::c_void;
 
 /// A parameter direction.
 #[repr(C)]

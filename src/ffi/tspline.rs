@@ -17,7 +17,7 @@ use crate::fit::skin::{
 };
 use crate::knots::KnotVector;
 use crate::surface::tspline::{DEGREE, TSplineError, TSplineSurface};
-use std::ffi::c_void;
+use libc::c_void;
 
 /// Which knots the control curves of a skin get.
 #[repr(C)]

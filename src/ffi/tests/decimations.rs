@@ -1,5 +1,5 @@
 use super::*;
-use std::ffi::c_void;
+use libc::c_void;
 
 fn decimate(mesh: &MeshHandle, options: &planish_decimate_options) -> (MeshHandle, planish_decimate_report) {
     let mut out = null_mut();

@@ -162,7 +162,7 @@ fn a_field_on_a_closed_mesh_is_refused_with_what_to_do() {
 
 #[test]
 fn progress_is_heard_with_any_grid_and_cancels() {
-    unsafe extern "C-unwind" fn listen(fraction: f64, _: f64, user: *mut std::ffi::c_void) -> i32 {
+    unsafe extern "C-unwind" fn listen(fraction: f64, _: f64, user: *mut libc::c_void) -> i32 {
         // SAFETY: the vector given as user.
         let told = unsafe { &mut *user.cast::<Vec<f64>>() };
         told.push(fraction);

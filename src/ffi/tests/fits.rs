@@ -1,6 +1,6 @@
 use super::super::report::gravest;
 use super::*;
-use std::ffi::c_void;
+use libc::c_void;
 
 fn tensor() -> planish_tensor_options {
     record()

@@ -1,5 +1,5 @@
 use super::*;
-use std::ffi::c_void;
+use libc::c_void;
 
 #[test]
 fn an_octahedron_becomes_a_sphere() {

@@ -1,7 +1,7 @@
 //! Skins and T-splines: results, refusals, parts in and out.
 
 use super::*;
-use std::ffi::c_void;
+use libc::c_void;
 
 /// A curve that frees itself.
 struct CurveHandle(*mut planish_curve);
