@@ -112,6 +112,10 @@ fn segments(loops: &[Vec<DVec2>]) -> impl Iterator<Item = (DVec2, DVec2)> + '_ {
 }
 
 /// Trim segments sorted into horizontal bands, so that a point is tested against the few in its own.
+///
+/// A band for each segment makes bands and entries linear for loops of even pace. Of long segments, as in a comb, each
+/// would be in most of the bands: there are fewer then, so that entries stay linear, and a band has no more of them than
+/// a line across the loops meets on the average.
 #[derive(Debug, Clone)]
 struct Bands {
     start: f64,
@@ -119,14 +123,22 @@ struct Bands {
     segments: Vec<Vec<(DVec2, DVec2)>>,
 }
 
+/// How often a segment may be in a band beyond the first, on the average: loops of even pace meet a line twice, and keep
+/// a band for each segment.
+const ENTRIES_PER_SEGMENT: f64 = 3.0;
+
 impl Bands {
     fn new(loops: &[Vec<DVec2>]) -> Self {
         let domain = Domain::around(loops.iter().flatten().copied());
         let count: usize = loops.iter().map(Vec::len).sum();
         let start = domain.min.y;
-        // a band per segment keeps both the bands and the entries linear for loops of even pace
-        let bands_per_unit = count as f64 / domain.size().y.max(f64::MIN_POSITIVE);
-        let mut bands = Self { start, bands_per_unit, segments: vec![Vec::new(); count + 1] };
+        let height = domain.size().y.max(f64::MIN_POSITIVE);
+        let met = segments(loops).map(|(a, b)| (b.y - a.y).abs()).sum::<f64>() / height;
+        // each segment is in one band, and in one more for each border between bands that it meets
+        let bearable = ENTRIES_PER_SEGMENT * count as f64 / met.max(1.0);
+        let band_count = (bearable.ceil() as usize).clamp(1, count.max(1));
+        let bands_per_unit = band_count as f64 / height;
+        let mut bands = Self { start, bands_per_unit, segments: vec![Vec::new(); band_count + 1] };
         for (a, b) in segments(loops) {
             if a.y != b.y {
                 let (low, high) = (bands.band(a.y.min(b.y)), bands.band(a.y.max(b.y)));
@@ -198,6 +210,31 @@ mod tests {
         [(-1., -1.), (1., -1.), (1., 1.), (-1., 1.)]
             .map(|(x, y)| DVec2::splat(center) + half * DVec2::new(x, y))
             .to_vec()
+    }
+
+    #[test]
+    fn a_comb_takes_memory_in_proportion_to_its_points() {
+        let domain = Domain { min: DVec2::ZERO, max: DVec2::ONE };
+        let teeth = 25_000;
+        let x = |k: usize| k as f64 / (2 * teeth) as f64;
+        // up, across, down, across, and back below
+        let tooth = |k: usize| {
+            let (left, right) = (x(2 * k), x(2 * k + 1));
+            [(left, 0.1), (left, 0.9), (right, 0.9), (right, 0.1)].map(|(u, v)| DVec2::new(u, v))
+        };
+        let mut comb: Vec<DVec2> = (0..teeth).flat_map(tooth).collect();
+        comb.extend([DVec2::new(1.0, 0.1), DVec2::new(1.0, 0.05), DVec2::new(0.0, 0.05)]);
+        let count = comb.len();
+        let trims = Trims::new(vec![comb], &domain).unwrap();
+        for k in (0..teeth).step_by(997) {
+            for v in [0.11, 0.5, 0.89] {
+                let middle = |k: usize| DVec2::new((x(k) + x(k + 1)) / 2.0, v);
+                assert!(trims.contains(middle(2 * k)), "tooth {k} at {v}");
+                assert!(!trims.contains(middle(2 * k + 1)), "gap {k} at {v}");
+            }
+        }
+        let entries: usize = trims.bands.get().unwrap().segments.iter().map(Vec::len).sum();
+        assert!(entries <= 6 * count, "{entries} entries of {count} segments");
     }
 
     #[test]
