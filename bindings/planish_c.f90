@@ -238,6 +238,20 @@ module planish_records
   integer(c_int32_t), parameter, public :: PLANISH_SHELL_ROLE_SOLID = 1 !! A solid, from outside
   integer(c_int32_t), parameter, public :: PLANISH_SHELL_ROLE_VOID = 2 !! A void inside a solid
 
+  !> Which way a mesh becomes a model.
+  !> One chart for a mesh with a boundary, patches for a closed one
+  integer(c_int32_t), parameter, public :: PLANISH_MODEL_FAMILY_AUTO = 0
+  integer(c_int32_t), parameter, public :: PLANISH_MODEL_FAMILY_CHART = 1 !! One chart: a PHT-spline inside its trims
+  integer(c_int32_t), parameter, public :: PLANISH_MODEL_FAMILY_PATCHES = 2 !! Patches over a layout of quadrilaterals
+
+  !> Which layout the patches have.
+  !> The cube for genus 0, a base complex with handles, or where the cube misses the tolerance and the complex does
+  !> better
+  integer(c_int32_t), parameter, public :: PLANISH_MODEL_LAYOUT_AUTO = 0
+  integer(c_int32_t), parameter, public :: PLANISH_MODEL_LAYOUT_CUBE = 1 !! The six faces of a cube; genus 0 only
+  !> A base complex: patches that follow the shape
+  integer(c_int32_t), parameter, public :: PLANISH_MODEL_LAYOUT_COMPLEX = 2
+
   !> Which knots the control curves of a skin get.
   !> Each its own, as few as the tolerance allows
   integer(c_int32_t), parameter, public :: PLANISH_SKIN_METHOD_CONTROL_CURVES = 0
@@ -900,6 +914,84 @@ module planish_records
     !> Vertices - edges + the sum of 2 - loops over all faces: for each shell 2, less 2 for each handle and 1 for each
     !> hole in it
     integer(c_int64_t) :: euler_characteristic = 0
+  end type
+
+  !> How a mesh becomes a model.
+  type, bind(c), public :: planish_model_options
+    integer(c_size_t) :: struct_size = 11 * word + 64
+    type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
+    type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag
+    type(c_ptr) :: cancel = c_null_ptr
+    !> Shows what the call is doing, before progress hears of it: a planish_stage
+    type(c_ptr) :: out_stage = c_null_ptr
+    !> Receives the face on which each node lies, PLANISH_NONE for a node without triangles; NULL (default) for nobody
+    type(c_ptr) :: out_faces = c_null_ptr
+    type(c_ptr) :: out_uv = c_null_ptr !! Receives (u,v) of each node on its face; NULL (default) for nobody
+    !> Receives the error of each node, NaN for a node without triangles; NULL (default) for nobody
+    type(c_ptr) :: out_errors = c_null_ptr
+    real(c_double) :: tolerance = 1e-3_c_double !! Largest error allowed at the nodes
+    !> Weight of the plate energy of each cell of a patch, mapped to the unit cell
+    real(c_double) :: smoothing = 1e-4_c_double
+    integer(c_size_t) :: max_cells = 200000 !! Most cells of all patches of a component
+    integer(c_size_t) :: min_samples = 6 !! A cell with fewer samples is not split
+    integer(c_size_t) :: patches = 40 !! About how many patches a base complex has
+    !> What tolerance is measured in: 0 (default) the diagonal of the mesh's box, 1 model units
+    integer(c_int32_t) :: tolerance_scale = 0
+    integer(c_int32_t) :: family = PLANISH_MODEL_FAMILY_AUTO !! A planish_model_family
+    integer(c_int32_t) :: layout = PLANISH_MODEL_LAYOUT_AUTO !! A planish_model_layout, for patches
+    !> Level of the cells to start from, 1 to 8; 0 (default) takes 3 over a cube and 2 over a base complex
+    integer(c_int32_t) :: start_level = 0
+    integer(c_int32_t) :: max_level = 12 !! Deepest level of a cell, at most 20
+    integer(c_int32_t) :: grade = 1 !! Levels by which neighbours in a patch may differ; 0 for any number
+    integer(c_int32_t) :: foot_steps = 1 !! Steps of the samples towards their foot points in each round
+    !> Whether cells with few samples are held to the mesh between them: 0 or 1 (default)
+    integer(c_int32_t) :: guard = 1
+    integer(c_int32_t) :: max_rounds = 14 !! Most rounds of fitting and refining
+    integer(c_int32_t) :: sweeps = 300 !! Most sweeps over all nodes while a base complex is laid
+    integer(c_int32_t) :: level_spread = 1 !! By how much the levels of the cells in one face may differ
+    integer(c_int32_t) :: thread_count = 0 !! Threads that share the work; 0 (default) for all cores
+  end type
+
+  !> What a fit of a model did and how good it is, of all components together.
+  type, bind(c), public :: planish_model_report
+    integer(c_size_t) :: struct_size = 12 * word + 152
+    !> Largest distance between a node and the model at the node's place: what the tolerance bounds
+    real(c_double) :: max_error = 0
+    real(c_double) :: rms_error = 0 !! Square root of the mean of its square
+    real(c_double) :: mean_error = 0 !! Its mean
+    real(c_double) :: tolerance = 0 !! The tolerance that was kept or missed
+    real(c_double) :: diagonal = 0 !! Diagonal of the mesh's box: an error divided by it is relative
+    !> Largest distance of a centroid of a facet or a middle of an edge from the model
+    real(c_double) :: max_interior_error = 0
+    real(c_double) :: facet_sagitta = 0 !! The part of that which flat facets on a curved shape explain
+    !> Largest distance from places all over the model to the mesh; NaN for a chart
+    real(c_double) :: max_back_distance = 0
+    real(c_double) :: normal_jump = 0 !! Largest difference of unit normals across edges of patches
+    real(c_double) :: gap = 0 !! Largest distance between the two sides of an edge
+    real(c_double) :: volume = 0 !! Volume that the model encloses; NaN for a chart
+    real(c_double) :: mesh_volume = 0 !! Volume that the mesh encloses; NaN for a chart
+    !> Largest symmetric Dirichlet energy of a component's map, by area: 4 if all lengths are kept; NaN for a chart
+    real(c_double) :: map_energy = 0
+    real(c_double) :: map_seconds = 0 !! Seconds for layouts and maps
+    real(c_double) :: fit_seconds = 0 !! Seconds for fits
+    real(c_double) :: seconds = 0 !! Seconds in all
+    integer(c_size_t) :: worst_node = 0 !! The node with the largest error
+    integer(c_size_t) :: component_count = 0 !! Components of the mesh: shells of the model
+    integer(c_size_t) :: void_count = 0 !! Components that are voids in others
+    integer(c_size_t) :: turned_count = 0 !! Components that were inside out and have been turned
+    integer(c_size_t) :: genus = 0 !! Handles of all components
+    integer(c_size_t) :: patch_count = 0 !! Patches of all components; 0 for a chart
+    integer(c_size_t) :: coefficient_count = 0 !! Control points, four a vertex of the cells of each patch
+    integer(c_size_t) :: free_count = 0 !! Unknowns a coordinate that remain when patches meet smoothly
+    integer(c_size_t) :: cell_count = 0 !! Cells of all patches
+    integer(c_size_t) :: fold_count = 0 !! Nodes or triangles that the maps fold
+    integer(c_size_t) :: dropped_count = 0 !! Samples left out because their facets are spread over too many patches
+    integer(c_int64_t) :: remarks = 0 !! Everything worth knowing: bits of planish_remark
+    integer(c_int32_t) :: deepest_level = 0 !! The deepest level of a cell
+    integer(c_int32_t) :: pass_count = 0 !! Rounds of fitting and measuring of the component that took most
+    integer(c_int32_t) :: stop_reason = 0 !! A planish_stop_reason, why the fit ended
+    integer(c_int32_t) :: is_chart = 0 !! 1 for one chart, 0 for patches
   end type
 
   !> Options of curve fits.
@@ -2408,6 +2500,22 @@ module planish_calls
       type(c_ptr), intent(inout) :: out_model
     end function
 
+    integer(c_int) function c_model_options_init(options, struct_size) bind(c, name="planish_model_options_init")
+      import
+      implicit none
+      type(planish_model_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_model_fit(mesh, options, out_model, out_report) bind(c, name="planish_model_fit")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      type(planish_model_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_model
+      type(planish_model_report), intent(inout), optional :: out_report
+    end function
+
     integer(c_int) function c_model_eval( &
         model, faces, uv, count, max_derivative, options, out) &
         bind(c, name="planish_model_eval")
@@ -3240,6 +3348,7 @@ module planish_calls
     module procedure init_vtk_options
     module procedure init_step_options
     module procedure init_report_options
+    module procedure init_model_options
     module procedure init_curve_options
     module procedure init_interpolate_options
     module procedure init_skin_options
@@ -3266,6 +3375,7 @@ module planish_calls
   private :: init_vtk_options
   private :: init_step_options
   private :: init_report_options
+  private :: init_model_options
   private :: init_curve_options
   private :: init_interpolate_options
   private :: init_skin_options
@@ -3377,6 +3487,12 @@ contains
     type(planish_report_options), intent(inout) :: options
     integer(c_int) :: status
     status = c_report_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_model_options(options)
+    type(planish_model_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_model_options_init(options, c_sizeof(options)) ! which cannot fail
   end subroutine
 
   subroutine init_curve_options(options)

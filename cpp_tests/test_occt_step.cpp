@@ -560,4 +560,60 @@ TEST(OcctModel, IsRebuiltFromArrays) {
   }
 }
 
+// A torus of radii 2 and 0.7, its triangles counterclockwise seen from outside; with bumps.
+planish::mesh torus_mesh(int around, int across, double bumps) {
+  std::vector<double> points;
+  std::vector<std::uint32_t> triangles;
+  for (int i = 0; i < around; ++i) {
+    for (int j = 0; j < across; ++j) {
+      const double a = 2 * M_PI * i / around, b = 2 * M_PI * j / across;
+      const double tube = 0.7 * (1 + bumps * std::sin(3 * a) * std::cos(2 * b)), ring = 2 + tube * std::cos(b);
+      points.insert(points.end(), {ring * std::cos(a), ring * std::sin(a), tube * std::sin(b)});
+      const auto node = [&](int k, int l) {
+        return static_cast<std::uint32_t>((i + k) % around * across + (j + l) % across);
+      };
+      triangles.insert(triangles.end(), {node(0, 0), node(1, 0), node(1, 1), node(0, 0), node(1, 1), node(0, 1)});
+    }
+  }
+  planish_mesh *made = nullptr;
+  CHECK_EQUAL(planish_mesh_new(points.data(), points.size() / 3, triangles.data(), triangles.size() / 3, nullptr, &made),
+              PLANISH_STATUS_OK);
+  return planish::mesh(made);
+}
+
+TEST(OcctModel, ClosedMeshesBecomeSolids) {
+  for (const double bumps : {0.0, 0.2}) {
+    const planish::mesh mesh = torus_mesh(64, 32, bumps);
+    auto options = planish::defaults<planish_model_options>();
+    options.thread_count = 2;
+    const planish::fitted_model fit = planish::model_fit(mesh, options);
+    CHECK_EQUAL(fit.status, PLANISH_STATUS_OK);
+    CHECK(fit.report.max_error <= fit.report.tolerance);
+    CHECK_EQUAL(fit.report.genus, std::size_t{1});
+    CHECK(fit.report.normal_jump <= 1e-10);
+    fit.model.write_step("occt_solid.step");
+    const TopoDS_Shape shape = read("occt_solid.step");
+    CHECK(!shape.IsNull());
+    if (shape.IsNull()) return;
+    CHECK(BRepCheck_Analyzer(shape).IsValid());
+    CHECK_EQUAL(count(shape, TopAbs_SOLID), 1);
+    CHECK_EQUAL(static_cast<std::size_t>(count(shape, TopAbs_FACE)), fit.model.face_count());
+    TopTools_IndexedDataMapOfShapeListOfShape faces_of_edges;
+    TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of_edges);
+    CHECK_EQUAL(static_cast<std::size_t>(faces_of_edges.Extent()), fit.model.edge_count());
+    double tolerance = 0;
+    for (int k = 1; k <= faces_of_edges.Extent(); ++k) {
+      CHECK_EQUAL(faces_of_edges(k).Extent(), 2);
+      tolerance = std::fmax(tolerance, BRep_Tool::Tolerance(TopoDS::Edge(faces_of_edges.FindKey(k))));
+    }
+    GProp_GProps properties;
+    BRepGProp::VolumeProperties(shape, properties);
+    CHECK_NEAR(properties.Mass() / fit.report.volume, 1.0, 1e-6);
+    CHECK_NEAR(properties.Mass() / fit.report.mesh_volume, 1.0, 1e-2); // flat facets cut off some of the tube
+    CHECK(tolerance <= 2e-7 * fit.report.diagonal);
+    std::printf("solid: %zu faces, volume %.9g (own %.9g, mesh %.9g), largest edge tolerance %.2e\n",
+                fit.model.face_count(), properties.Mass(), fit.report.volume, fit.report.mesh_volume, tolerance);
+  }
+}
+
 int main() { return check::run(); }

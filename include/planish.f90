@@ -346,6 +346,7 @@ module planish_types
   public :: planish_tspline_knot_count, planish_tspline_copy_knots
   public :: planish_tspline_insert_knot_u, planish_tspline_insert_knot_v, planish_tspline_remove_knot_u
   public :: planish_d1rc_fit
+  public :: planish_model_fit
   public :: planish_pht_fit, planish_pht_fit_points, planish_pht_fit_field, planish_pht_new
   public :: planish_pht_split, planish_pht_merge, planish_pht_simplify, planish_pht_refine_region
   public :: planish_pht_from_surface, planish_pht_to_tensor_patches, planish_pht_stitch
@@ -3061,6 +3062,43 @@ contains
     status = c_d1rc_fit(mesh%get(), call_options, handle, report)
     if (status >= 0) call surface%take(handle)
     call conclude_fit(status, report, stat, errmsg)
+  end subroutine
+
+  ! ---------------------------------------------------------------------------------------------------------
+  ! Models of meshes
+  ! ---------------------------------------------------------------------------------------------------------
+
+  !> Makes a model of any mesh: smooth patches and a solid of a closed one, one chart of a mesh with a boundary.
+  !>
+  !> report: receives what the fit did; worst_node counts from 1.
+  !> errors: receives the error of each node.
+  subroutine planish_model_fit(mesh, model, options, report, errors, progress, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: mesh
+    class(planish_model_t), intent(inout) :: model
+    type(planish_model_options), intent(in), optional :: options
+    type(planish_model_report), intent(inout), optional :: report
+    real(c_double), intent(inout), optional, target, contiguous :: errors(:)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_model_options) :: call_options
+    type(listener), target :: user
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    if (present(options)) call_options = options
+    if (present(errors)) then
+      if (refuse_extent(size(errors, 1, c_size_t), mesh%point_count(), "the length of errors", stat, errmsg)) return
+      call_options%out_errors = c_loc(errors)
+    end if
+    if (present(progress)) then
+      user%hear => progress
+      call_options%progress = c_funloc(relay)
+      call_options%user = c_loc(user)
+    end if
+    status = c_model_fit(mesh%get(), call_options, handle, report)
+    if (status >= 0) call model%take(handle)
+    if (status >= 0 .and. present(report)) report%worst_node = report%worst_node + 1
+    call conclude(status, stat, errmsg)
   end subroutine
 
   ! ---------------------------------------------------------------------------------------------------------

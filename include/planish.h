@@ -633,6 +633,43 @@ typedef enum planish_shell_role {
 } planish_shell_role;
 
 /**
+ * Which way a mesh becomes a model.
+ */
+typedef enum planish_model_family {
+    /**
+     * One chart for a mesh with a boundary, patches for a closed one.
+     */
+    PLANISH_MODEL_FAMILY_AUTO = 0,
+    /**
+     * One chart: a PHT-spline inside its trims.
+     */
+    PLANISH_MODEL_FAMILY_CHART = 1,
+    /**
+     * Patches over a layout of quadrilaterals.
+     */
+    PLANISH_MODEL_FAMILY_PATCHES = 2,
+} planish_model_family;
+
+/**
+ * Which layout the patches have.
+ */
+typedef enum planish_model_layout {
+    /**
+     * The cube for genus 0, a base complex with handles, or where the cube misses the tolerance and the complex does
+     * better.
+     */
+    PLANISH_MODEL_LAYOUT_AUTO = 0,
+    /**
+     * The six faces of a cube; genus 0 only.
+     */
+    PLANISH_MODEL_LAYOUT_CUBE = 1,
+    /**
+     * A base complex: patches that follow the shape.
+     */
+    PLANISH_MODEL_LAYOUT_COMPLEX = 2,
+} planish_model_layout;
+
+/**
  * Which knots the control curves of a skin get.
  */
 typedef enum planish_skin_method {
@@ -2490,6 +2527,257 @@ typedef struct planish_measure_report {
      */
     int64_t euler_characteristic;
 } planish_measure_report;
+
+/**
+ * How a mesh becomes a model. Fill with planish_model_options_init(), then change what you need.
+ */
+typedef struct planish_model_options {
+    /**
+     * Set by planish_model_options_init().
+     */
+    size_t struct_size;
+    /**
+     * Hears of the progress and may cancel; NULL (default) for nobody.
+     */
+    planish_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *user;
+    /**
+     * Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+     */
+    const volatile int32_t *cancel;
+    /**
+     * Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+     * Array: [1].
+     */
+    uint32_t *out_stage;
+    /**
+     * Receives the face on which each node lies, PLANISH_NONE for a node without triangles; NULL (default) for
+     * nobody.
+     * Array: [mesh_point_count].
+     */
+    uint32_t *out_faces;
+    /**
+     * Receives (u,v) of each node on its face; NULL (default) for nobody.
+     * Array: [mesh_point_count, 2].
+     */
+    double *out_uv;
+    /**
+     * Receives the error of each node, NaN for a node without triangles; NULL (default) for nobody.
+     * Array: [mesh_point_count].
+     */
+    double *out_errors;
+    /**
+     * Largest error allowed at the nodes. Default 1e-3.
+     */
+    double tolerance;
+    /**
+     * Weight of the plate energy of each cell of a patch, mapped to the unit cell. Default 1e-4.
+     */
+    double smoothing;
+    /**
+     * Most cells of all patches of a component. Default 200000.
+     */
+    size_t max_cells;
+    /**
+     * A cell with fewer samples is not split. Default 6.
+     */
+    size_t min_samples;
+    /**
+     * About how many patches a base complex has. Default 40.
+     */
+    size_t patches;
+    /**
+     * What tolerance is measured in: 0 (default) the diagonal of the mesh's box, 1 model units.
+     */
+    uint32_t tolerance_scale;
+    /**
+     * A planish_model_family. Default PLANISH_MODEL_FAMILY_AUTO.
+     */
+    uint32_t family;
+    /**
+     * A planish_model_layout, for patches. Default PLANISH_MODEL_LAYOUT_AUTO.
+     */
+    uint32_t layout;
+    /**
+     * Level of the cells to start from, 1 to 8; 0 (default) takes 3 over a cube and 2 over a base complex.
+     */
+    uint32_t start_level;
+    /**
+     * Deepest level of a cell, at most 20. Default 12.
+     */
+    uint32_t max_level;
+    /**
+     * Levels by which neighbours in a patch may differ; 0 for any number. Default 1.
+     */
+    uint32_t grade;
+    /**
+     * Steps of the samples towards their foot points in each round. Default 1.
+     */
+    uint32_t foot_steps;
+    /**
+     * Whether cells with few samples are held to the mesh between them: 0 or 1 (default).
+     */
+    uint32_t guard;
+    /**
+     * Most rounds of fitting and refining. Default 14.
+     */
+    uint32_t max_rounds;
+    /**
+     * Most sweeps over all nodes while a base complex is laid. Default 300.
+     */
+    uint32_t sweeps;
+    /**
+     * By how much the levels of the cells in one face may differ. Default 1.
+     */
+    uint32_t level_spread;
+    /**
+     * Threads that share the work; 0 (default) for all cores. The result does not depend on it.
+     */
+    uint32_t thread_count;
+} planish_model_options;
+
+/**
+ * What a fit of a model did and how good it is, of all components together. Set struct_size to
+ * sizeof(planish_model_report) before the call; the report is filled as far as that goes, on success only.
+ * Errors and lengths are in model units and measured on the finished surfaces.
+ */
+typedef struct planish_model_report {
+    /**
+     * sizeof(planish_model_report) as the caller sees it.
+     */
+    size_t struct_size;
+    /**
+     * Largest distance between a node and the model at the node's place: what the tolerance bounds.
+     */
+    double max_error;
+    /**
+     * Square root of the mean of its square.
+     */
+    double rms_error;
+    /**
+     * Its mean.
+     */
+    double mean_error;
+    /**
+     * The tolerance that was kept or missed.
+     */
+    double tolerance;
+    /**
+     * Diagonal of the mesh's box: an error divided by it is relative.
+     */
+    double diagonal;
+    /**
+     * Largest distance of a centroid of a facet or a middle of an edge from the model.
+     */
+    double max_interior_error;
+    /**
+     * The part of that which flat facets on a curved shape explain.
+     */
+    double facet_sagitta;
+    /**
+     * Largest distance from places all over the model to the mesh; NaN for a chart.
+     */
+    double max_back_distance;
+    /**
+     * Largest difference of unit normals across edges of patches.
+     */
+    double normal_jump;
+    /**
+     * Largest distance between the two sides of an edge.
+     */
+    double gap;
+    /**
+     * Volume that the model encloses; NaN for a chart.
+     */
+    double volume;
+    /**
+     * Volume that the mesh encloses; NaN for a chart.
+     */
+    double mesh_volume;
+    /**
+     * Largest symmetric Dirichlet energy of a component's map, by area: 4 if all lengths are kept; NaN for a chart.
+     */
+    double map_energy;
+    /**
+     * Seconds for layouts and maps.
+     */
+    double map_seconds;
+    /**
+     * Seconds for fits.
+     */
+    double fit_seconds;
+    /**
+     * Seconds in all.
+     */
+    double seconds;
+    /**
+     * The node with the largest error.
+     */
+    size_t worst_node;
+    /**
+     * Components of the mesh: shells of the model.
+     */
+    size_t component_count;
+    /**
+     * Components that are voids in others.
+     */
+    size_t void_count;
+    /**
+     * Components that were inside out and have been turned.
+     */
+    size_t turned_count;
+    /**
+     * Handles of all components.
+     */
+    size_t genus;
+    /**
+     * Patches of all components; 0 for a chart.
+     */
+    size_t patch_count;
+    /**
+     * Control points, four a vertex of the cells of each patch.
+     */
+    size_t coefficient_count;
+    /**
+     * Unknowns a coordinate that remain when patches meet smoothly.
+     */
+    size_t free_count;
+    /**
+     * Cells of all patches.
+     */
+    size_t cell_count;
+    /**
+     * Nodes or triangles that the maps fold.
+     */
+    size_t fold_count;
+    /**
+     * Samples left out because their facets are spread over too many patches.
+     */
+    size_t dropped_count;
+    /**
+     * Everything worth knowing: bits of planish_remark.
+     */
+    uint64_t remarks;
+    /**
+     * The deepest level of a cell.
+     */
+    uint32_t deepest_level;
+    /**
+     * Rounds of fitting and measuring of the component that took most.
+     */
+    uint32_t pass_count;
+    /**
+     * A planish_stop_reason, why the fit ended.
+     */
+    uint32_t stop_reason;
+    /**
+     * 1 for one chart, 0 for patches.
+     */
+    uint32_t is_chart;
+} planish_model_report;
 
 /**
  * Options of curve fits. Fill with planish_curve_options_init(), then change what you need.
@@ -5172,6 +5460,43 @@ PLANISH_API
 PLANISH_NODISCARD
 enum planish_status planish_model_load_file(const char *path,
                                             struct planish_model **out_model);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_model_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+ */
+PLANISH_API
+enum planish_status planish_model_options_init(struct planish_model_options *options,
+                                               size_t struct_size);
+
+/**
+ * Makes a model of any mesh within a tolerance. A closed mesh becomes smooth patches that share position and tangent
+ * plane along all their edges to rounding: a solid of B-spline faces, one inside another its void, several components
+ * several shells. A mesh with a boundary becomes one PHT-spline inside its trims. Components that are inside out are
+ * turned.
+ *
+ * mesh:       not NULL; stays as it is.
+ * options:    NULL for the defaults.
+ * out_model:  receives a new model; destroy with planish_model_free().
+ * out_report: receives what the fit did and how good it is; NULL for no report.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_INPUT_REPAIRED (a component was turned), PLANISH_STATUS_FOLDED_PARAMETERS,
+ * PLANISH_STATUS_TOLERANCE_NOT_MET or PLANISH_STATUS_STAGNATED (the best model found is there), or an error:
+ * PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option; a start_level that the layout does not
+ * allow), PLANISH_STATUS_TOPOLOGY (patches for a mesh with a boundary, one of whose nodes is the index; a cube for a mesh
+ * with handles; a node where the surface touches itself), PLANISH_STATUS_DEGENERATE (a component encloses no volume, one
+ * of its nodes is the index; no layout), PLANISH_STATUS_TOO_LARGE (more than 1000 components), PLANISH_STATUS_SINGULAR,
+ * PLANISH_STATUS_VERSION, PLANISH_STATUS_CANCELLED, or for a chart what planish_pht_fit() and
+ * planish_model_from_surface() return.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_model_fit(const struct planish_mesh *mesh,
+                                      const struct planish_model_options *options,
+                                      struct planish_model **out_model,
+                                      struct planish_model_report *out_report);
 
 /**
  * Evaluates a model and its derivatives at parameters on its faces. On a spline u and v are those of the surface of

@@ -126,6 +126,9 @@ inline planish_status init(planish_parameterize_options &options) {
 inline planish_status init(planish_sphere_options &options) {
   return planish_sphere_options_init(&options, sizeof options);
 }
+inline planish_status init(planish_model_options &options) {
+  return planish_model_options_init(&options, sizeof options);
+}
 inline planish_status init(planish_decimate_options &options) {
   return planish_decimate_options_init(&options, sizeof options);
 }
@@ -1389,6 +1392,42 @@ inline fitted pht_fit(const mesh &mesh, const planish_pht_options &options = def
   return detail::fit(options, hear, [&](const planish_pht_options *given, auto out, auto report) {
     return planish_pht_fit(mesh.get(), given, out, report);
   });
+}
+
+/// What came of making a model of a mesh.
+struct fitted_model {
+  /// The best model found.
+  planish::model model;
+  /// What the fit did and how good it is.
+  planish_model_report report;
+  /// PLANISH_STATUS_OK, or the gravest remark, such as PLANISH_STATUS_TOLERANCE_NOT_MET.
+  planish_status status;
+  /// The face on which each node lies; PLANISH_NONE for a node without triangles.
+  std::vector<std::uint32_t> faces;
+  /// (u,v) of each node on its face.
+  std::vector<point2> uv;
+  /// The error of each node.
+  std::vector<double> errors;
+};
+
+/// Makes a model of any mesh: smooth patches and a solid of a closed one, one chart of a mesh with a boundary.
+inline fitted_model model_fit(const mesh &mesh, planish_model_options options = defaults<planish_model_options>(),
+                              const progress &hear = {}) {
+  detail::listener listener(hear);
+  listener.attach(options);
+  const std::size_t count = mesh.point_count();
+  std::vector<std::uint32_t> faces(count);
+  std::vector<point2> uv(count);
+  std::vector<double> errors(count);
+  options.out_faces = faces.data();
+  options.out_uv = detail::flat(uv);
+  options.out_errors = errors.data();
+  auto report = detail::sized<planish_model_report>();
+  planish_model *made = nullptr;
+  const planish_status status = planish_model_fit(mesh.get(), &options, &made, &report);
+  model owner(made); // freed even if the callback's last call has thrown
+  listener.checked(status);
+  return {std::move(owner), report, status, std::move(faces), std::move(uv), std::move(errors)};
 }
 
 /// Fits a PHT-spline to rows of `dim` numbers at scattered parameters.

@@ -3,6 +3,7 @@
 //! Each is a tessellation with exact places; those with natural parameters carry them. The same seed gives the
 //! same bits on every machine.
 
+pub mod closed;
 pub mod layouts;
 mod parts;
 pub mod rows;

@@ -165,6 +165,16 @@ ENUMERATIONS = {
         "solid": 1,
         "void": 2,
     },
+    "planish_model_family": {
+        "auto": 0,
+        "chart": 1,
+        "patches": 2,
+    },
+    "planish_model_layout": {
+        "auto": 0,
+        "cube": 1,
+        "complex": 2,
+    },
     "planish_skin_method": {
         "control_curves": 0,
         "common_knots": 1,
@@ -914,6 +924,97 @@ class planish_measure_report(Structure):
     ]
 
 
+class planish_model_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("progress", planish_progress),
+        ("user", c_void_p),
+        ("cancel", c_void_p),
+        ("out_stage", c_void_p),
+        ("out_faces", c_void_p),
+        ("out_uv", c_void_p),
+        ("out_errors", c_void_p),
+        ("tolerance", c_double),
+        ("smoothing", c_double),
+        ("max_cells", c_size_t),
+        ("min_samples", c_size_t),
+        ("patches", c_size_t),
+        ("tolerance_scale", c_uint32),
+        ("family", c_uint32),
+        ("layout", c_uint32),
+        ("start_level", c_uint32),
+        ("max_level", c_uint32),
+        ("grade", c_uint32),
+        ("foot_steps", c_uint32),
+        ("guard", c_uint32),
+        ("max_rounds", c_uint32),
+        ("sweeps", c_uint32),
+        ("level_spread", c_uint32),
+        ("thread_count", c_uint32),
+    ]
+    choices = {
+        "out_stage": "planish_stage",
+        "family": "planish_model_family",
+        "layout": "planish_model_layout",
+    }
+    elements = {
+        "out_stage": c_uint32,
+        "out_faces": c_uint32,
+        "out_uv": c_double,
+        "out_errors": c_double,
+    }
+    arrays = {
+        "out_stage": ("1",),
+        "out_faces": ("mesh_point_count",),
+        "out_uv": ("mesh_point_count", "2",),
+        "out_errors": ("mesh_point_count",),
+    }
+
+
+class planish_model_report(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("max_error", c_double),
+        ("rms_error", c_double),
+        ("mean_error", c_double),
+        ("tolerance", c_double),
+        ("diagonal", c_double),
+        ("max_interior_error", c_double),
+        ("facet_sagitta", c_double),
+        ("max_back_distance", c_double),
+        ("normal_jump", c_double),
+        ("gap", c_double),
+        ("volume", c_double),
+        ("mesh_volume", c_double),
+        ("map_energy", c_double),
+        ("map_seconds", c_double),
+        ("fit_seconds", c_double),
+        ("seconds", c_double),
+        ("worst_node", c_size_t),
+        ("component_count", c_size_t),
+        ("void_count", c_size_t),
+        ("turned_count", c_size_t),
+        ("genus", c_size_t),
+        ("patch_count", c_size_t),
+        ("coefficient_count", c_size_t),
+        ("free_count", c_size_t),
+        ("cell_count", c_size_t),
+        ("fold_count", c_size_t),
+        ("dropped_count", c_size_t),
+        ("remarks", c_uint64),
+        ("deepest_level", c_uint32),
+        ("pass_count", c_uint32),
+        ("stop_reason", c_uint32),
+        ("is_chart", c_uint32),
+    ]
+    choices = {
+        "stop_reason": "planish_stop_reason",
+    }
+    bits = {
+        "remarks": "planish_remark",
+    }
+
+
 class planish_curve_options(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -1243,6 +1344,8 @@ SIZES = {
     planish_face_info: 120,
     planish_shell_info: 24,
     planish_measure_report: 144,
+    planish_model_options: 152,
+    planish_model_report: 248,
     planish_curve_options: 104,
     planish_interpolate_options: 24,
     planish_skin_report: 112,
@@ -1403,6 +1506,8 @@ FUNCTIONS = {
     "planish_model_load": (c_int32, c_void_p, c_size_t, c_void_p),
     "planish_model_save_file": (c_int32, c_void_p, c_char_p),
     "planish_model_load_file": (c_int32, c_char_p, c_void_p),
+    "planish_model_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_model_fit": (c_int32, c_void_p, c_void_p, c_void_p, c_void_p),
     "planish_model_eval": (c_int32, c_void_p, c_void_p, c_void_p, c_size_t, c_uint32, c_void_p, c_void_p),
     "planish_model_normals": (c_int32, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p, c_void_p),
     "planish_model_curvatures": (c_int32, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p, c_void_p),

@@ -19,6 +19,7 @@ mod error;
 mod euler;
 mod evaluate;
 mod measure;
+mod of_patches;
 mod of_surface;
 mod project;
 #[cfg(test)]
@@ -33,6 +34,7 @@ pub use deviation::ModelDeviation;
 pub use error::ModelError;
 pub use evaluate::{ModelEvalError, ModelValues};
 pub use measure::{Joint, Measure};
+pub use of_patches::{PatchModel, Patchwork, of_patches};
 pub use of_surface::{CURVE_TOLERANCE, Form, FormOptions, of_parts, of_surface};
 pub use project::{ModelFeet, ModelProjector};
 pub use tessellate::ModelTessellation;

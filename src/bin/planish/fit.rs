@@ -1,5 +1,6 @@
 //! `planish fit`.
 
+use crate::model;
 use crate::output::{self, Fit, Step, Table};
 use crate::{Failure, Outcome};
 use clap::{Args, ValueEnum};
@@ -23,10 +24,16 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 pub struct FitArguments {
     /// Mesh file: OFF, OBJ, PLY or STL.
-    mesh: PathBuf,
+    pub mesh: PathBuf,
     /// Family of the surface.
-    #[arg(long, value_enum, default_value_t = FamilyName::Tensor)]
+    #[arg(long, value_enum, default_value_t = FamilyName::Auto)]
     family: FamilyName,
+    /// Patches of a model, about so many; a layout of its own for the shape.
+    #[arg(long, value_name = "N")]
+    pub patches: Option<usize>,
+    /// Layout of the patches of a model.
+    #[arg(long, value_enum, default_value_t = LayoutName::Auto)]
+    pub layout: LayoutName,
     /// Largest error allowed at the nodes, as a fraction of the bounding box's diagonal.
     #[arg(long, default_value_t = 1e-3, value_name = "T")]
     tolerance: f64,
@@ -36,7 +43,7 @@ pub struct FitArguments {
     /// Write a file: .step or .stp (the trimmed surface), .vtu (the mesh on the surface with its
     /// deviation), .obj (a tessellation), .planish (the surface itself); may be given several times.
     #[arg(long, value_name = "FILE")]
-    out: Vec<PathBuf>,
+    pub out: Vec<PathBuf>,
     /// What one model unit is, for STEP files.
     #[arg(long, value_enum, default_value_t = UnitName::Mm)]
     unit: UnitName,
@@ -45,13 +52,13 @@ pub struct FitArguments {
     step_form: FormName,
     /// Most levels that cells in one face of --step-form patches differ by: more gives fewer faces.
     #[arg(long, default_value_t = 1, value_name = "N")]
-    level_spread: u32,
+    pub level_spread: u32,
     /// Name of the product in STEP files; that of the mesh file if it is left out.
     #[arg(long, value_name = "NAME")]
-    product: Option<String>,
+    pub product: Option<String>,
     /// Write a picture of the surface coloured by deviation.
     #[arg(long, value_name = "PNG")]
-    picture: Option<PathBuf>,
+    pub picture: Option<PathBuf>,
     /// Border of the map for meshes without parameters.
     #[arg(long, value_enum, default_value_t = BorderName::Auto)]
     border: BorderName,
@@ -63,7 +70,7 @@ pub struct FitArguments {
     max_grid: usize,
     /// Weight of the bending energy; 0 finds one.
     #[arg(long, default_value_t = 0.0, value_name = "MU")]
-    smoothing: f64,
+    pub smoothing: f64,
     /// Leave the ends of the knots free instead of straight.
     #[arg(long)]
     free_ends: bool,
@@ -78,7 +85,7 @@ pub struct FitArguments {
     control: Option<usize>,
     /// Sweeps of parameter correction on each grid, or in each round; the default depends on the family.
     #[arg(long, value_name = "N")]
-    sweeps: Option<usize>,
+    pub sweeps: Option<usize>,
     /// Join nodes closer than this.
     #[arg(long, default_value_t = 0.0, value_name = "DISTANCE")]
     weld: f64,
@@ -87,10 +94,10 @@ pub struct FitArguments {
     orient: bool,
     /// Threads; 0 for all cores.
     #[arg(long, default_value_t = 0, value_name = "N")]
-    threads: usize,
+    pub threads: usize,
     /// Print the report as JSON.
     #[arg(long)]
-    json: bool,
+    pub json: bool,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -106,12 +113,26 @@ enum BorderName {
 
 #[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
 enum FamilyName {
+    /// A model for a closed mesh, a tensor surface for one with a boundary.
+    Auto,
+    /// Patches that meet smoothly, a solid: for closed meshes of any shape.
+    Model,
     /// One grid of knots: what every CAD system edits.
     Tensor,
     /// Cells as small as the shape asks, place by place.
     Pht,
     /// A triangular control mesh, which may have sharp edges.
     D1rc,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum LayoutName {
+    /// The cube where there is one and it serves, else a base complex.
+    Auto,
+    /// The six faces of a cube: for meshes without handles.
+    Cube,
+    /// Patches that follow the shape.
+    Complex,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -137,14 +158,17 @@ pub fn run(arguments: &FitArguments) -> Result<Outcome, Failure> {
     if arguments.ignore_parameters {
         mesh.clear_parameters();
     }
-    let fit = fit_with_bar(&mesh, arguments)?;
+    let is_model = match arguments.family {
+        FamilyName::Auto => mesh.loops().is_empty(),
+        family => family == FamilyName::Model,
+    };
+    if is_model {
+        return model::run(&mesh, &repairs, arguments);
+    }
+    let fit = with_bar(arguments.threads, |control| fit_by_family(&mesh, arguments, control))?;
     let stem = arguments.mesh.file_stem().unwrap_or_default().to_string_lossy();
     let text = StepOptions {
-        unit: match arguments.unit {
-            UnitName::Mm => Unit::Millimetre,
-            UnitName::M => Unit::Metre,
-            UnitName::Inch => Unit::Inch,
-        },
+        unit: unit(arguments),
         product: arguments.product.as_deref().unwrap_or(&stem),
         ..StepOptions::default()
     };
@@ -172,9 +196,17 @@ pub fn run(arguments: &FitArguments) -> Result<Outcome, Failure> {
     Ok(if is_met { Outcome::Done } else { Outcome::ToleranceNotMet })
 }
 
+pub fn unit(arguments: &FitArguments) -> Unit {
+    match arguments.unit {
+        UnitName::Mm => Unit::Millimetre,
+        UnitName::M => Unit::Metre,
+        UnitName::Inch => Unit::Inch,
+    }
+}
+
 fn fit_by_family(mesh: &Mesh, arguments: &FitArguments, control: &mut Control) -> Result<Fit, Error> {
     match arguments.family {
-        FamilyName::Tensor => {
+        FamilyName::Auto | FamilyName::Model | FamilyName::Tensor => {
             let fit = tensor::fit_mesh(mesh, &tensor_options(arguments), control)?;
             let (report, parameters, errors) = (fit.report, fit.parameters, fit.errors);
             Ok(Fit { surface: fit.surface.into(), report, parameters, errors })
@@ -192,7 +224,7 @@ fn fit_by_family(mesh: &Mesh, arguments: &FitArguments, control: &mut Control) -
     }
 }
 
-fn tolerance(arguments: &FitArguments) -> Tolerance {
+pub fn tolerance(arguments: &FitArguments) -> Tolerance {
     let scale = if arguments.absolute { ToleranceScale::Absolute } else { ToleranceScale::Relative };
     Tolerance { value: arguments.tolerance, scale }
 }
@@ -250,10 +282,10 @@ fn d1rc_options(arguments: &FitArguments) -> D1rcFitOptions<'static> {
 }
 
 /// Fits with a bar on a terminal, silently elsewhere.
-fn fit_with_bar(mesh: &Mesh, arguments: &FitArguments) -> Result<Fit, Failure> {
+pub fn with_bar<R>(threads: usize, fit: impl FnOnce(&mut Control) -> R) -> R {
     const STEPS: f64 = 1000.0;
     if !std::io::stderr().is_terminal() {
-        return Ok(fit_by_family(mesh, arguments, &mut Control::new(arguments.threads))?);
+        return fit(&mut Control::new(threads));
     }
     let bar = ProgressBar::new(STEPS as u64);
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent:>3} %  {msg}") {
@@ -266,10 +298,9 @@ fn fit_with_bar(mesh: &Mesh, arguments: &FitArguments) -> Result<Fit, Failure> {
         }
         ControlFlow::Continue(())
     };
-    let mut control = Control::new(arguments.threads).with_progress(&mut progress);
-    let fit = fit_by_family(mesh, arguments, &mut control);
+    let fitted = fit(&mut Control::new(threads).with_progress(&mut progress));
     bar.finish_and_clear();
-    Ok(fit?)
+    fitted
 }
 
 fn table(arguments: &FitArguments, mesh: &Mesh, repairs: &MeshRepairs, report: &FitReport) -> String {
@@ -297,28 +328,28 @@ fn table(arguments: &FitArguments, mesh: &Mesh, repairs: &MeshRepairs, report: &
     );
     let (map, all) = (report.parameterize_seconds, report.seconds);
     table.row("seconds", format!("{map:.2} map, {:.2} fit, {} passes", all - map, report.passes));
-    table.row("result", verdict(report));
+    table.row("result", verdict(report.remarks, report.stop));
     for remark in remarks(report.remarks) {
         table.row("remark", remark.to_owned());
     }
     table.to_string()
 }
 
-fn verdict(report: &FitReport) -> String {
-    let reason = match report.stop {
+pub fn verdict(remarks: Remarks, stop: StopReason) -> String {
+    let reason = match stop {
         StopReason::ToleranceMet => "tolerance met",
         StopReason::FixedGrid => "grid as asked",
         StopReason::Limit => "limit on grid or cells reached",
         StopReason::DataExhausted => "more coefficients than data",
         StopReason::Stagnated => "refinement no longer helps",
     };
-    match report.remarks.has(Remarks::TOLERANCE_NOT_MET) {
+    match remarks.has(Remarks::TOLERANCE_NOT_MET) {
         true => format!("TOLERANCE NOT MET: {reason}"),
         false => reason.to_owned(),
     }
 }
 
-fn remarks(remarks: Remarks) -> impl Iterator<Item = &'static str> {
+pub fn remarks(remarks: Remarks) -> impl Iterator<Item = &'static str> {
     [
         (Remarks::FOLDED_PARAMETERS, "the map folds: the surface may overlap itself"),
         (Remarks::PARAMETERIZED, "the mesh had no parameters and was parameterized"),
@@ -354,7 +385,7 @@ fn json_report(mesh: &Mesh, report: &FitReport) -> serde_json::Value {
         "smoothing": report.smoothing,
         "empty_cell_count": report.empty_cell_count,
         "passes": report.passes,
-        "stop": verdict(report),
+        "stop": verdict(report.remarks, report.stop),
         "stretch": report.stretch,
         "flipped_count": report.flipped_count,
         "parameterize_seconds": report.parameterize_seconds,

@@ -7,6 +7,7 @@ mod decimate;
 mod eval;
 mod fit;
 mod info;
+mod model;
 mod morph;
 mod output;
 mod picture;

@@ -72,6 +72,11 @@ pub fn is_step(path: &Path) -> bool {
     ["step", "stp"].contains(&extension(path).as_str())
 }
 
+/// Whether a name asks for triangles of the surface.
+pub fn is_tessellation(path: &Path) -> bool {
+    extension(path) == "obj"
+}
+
 /// A fit by any method.
 #[derive(Debug)]
 pub struct Fit {

@@ -8,6 +8,7 @@ mod fields;
 mod fits;
 mod forms;
 mod meshes;
+mod model_fits;
 mod models;
 mod pht;
 mod queries;

@@ -3,6 +3,9 @@
 use crate::control::Cancelled;
 use crate::failure::{Classify, ErrorKind};
 use crate::fit::common::FitError;
+use crate::layout::of_mesh::MeshLayoutError;
+use crate::model::ModelError;
+use crate::parameterize::sphere::SphereError;
 use crate::surface::g1::SpaceError;
 use crate::tmesh::TMeshError;
 
@@ -18,6 +21,41 @@ pub enum ModelFitError {
     /// Cells cannot be made.
     #[error(transparent)]
     TMesh(#[from] TMeshError),
+    /// Patches need a closed mesh.
+    #[error(
+        "the mesh has {loops} boundary loops, one through node {node}; fit it as one chart, or close it first"
+    )]
+    Open {
+        /// How many loops.
+        loops: usize,
+        /// The first node of the longest.
+        node: usize,
+    },
+    /// Too many components.
+    #[error(
+        "the mesh has {count} components, at most {limit} become shells of one model; take out the small ones"
+    )]
+    Components {
+        /// How many.
+        count: usize,
+        /// Most that are possible.
+        limit: usize,
+    },
+    /// A component encloses nothing.
+    #[error("the component of node {node} encloses no volume")]
+    ZeroVolume {
+        /// One of its nodes.
+        node: usize,
+    },
+    /// The mesh cannot be mapped on to the sphere.
+    #[error(transparent)]
+    Sphere(#[from] SphereError),
+    /// The mesh gets no layout.
+    #[error(transparent)]
+    Layout(#[from] MeshLayoutError),
+    /// The patches make no model.
+    #[error(transparent)]
+    Model(#[from] ModelError),
     /// A place is not on the layout.
     #[error("the place of node {node} is not on a quad of the layout, or its parameters are outside [0, 1]")]
     Place {
@@ -38,6 +76,12 @@ impl Classify for ModelFitError {
             Self::Fit(error) => error.kind(),
             Self::Space(error) => error.kind(),
             Self::TMesh(error) => error.kind(),
+            Self::Open { .. } => ErrorKind::Topology,
+            Self::Components { .. } => ErrorKind::TooLarge,
+            Self::ZeroVolume { .. } => ErrorKind::Degenerate,
+            Self::Sphere(error) => error.kind(),
+            Self::Layout(error) => error.kind(),
+            Self::Model(error) => error.kind(),
             Self::Place { .. } => ErrorKind::InvalidArgument,
         }
     }
@@ -48,7 +92,11 @@ impl Classify for ModelFitError {
             Self::Fit(error) => error.index(),
             Self::Space(error) => error.index(),
             Self::TMesh(error) => error.index(),
-            Self::Place { node } => Some(*node),
+            Self::Sphere(error) => error.index(),
+            Self::Layout(error) => error.index(),
+            Self::Model(error) => error.index(),
+            Self::Components { .. } => None,
+            Self::Open { node, .. } | Self::ZeroVolume { node } | Self::Place { node } => Some(*node),
         }
     }
 }

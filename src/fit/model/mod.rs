@@ -1,4 +1,4 @@
-//! Smooth models within a tolerance: one PHT-spline a patch of a layout, fitted together.
+//! Models of meshes within a tolerance: one PHT-spline a patch of a layout, fitted together.
 //!
 //! J. Deng et al., "Polynomial splines over hierarchical T-meshes", Graph. Models 70 (2008), section 5.2, carried on to any
 //! layout: the unknowns are those of a [smooth space](crate::surface::g1), so the patches share position and tangent
@@ -11,6 +11,7 @@
 //!          split the cells in which a sample misses the tolerance, and conform the cells along edges
 //! ```
 
+mod bodies;
 mod error;
 mod foot;
 mod least_squares;
@@ -20,11 +21,13 @@ mod report;
 mod samples;
 #[cfg(test)]
 mod tests;
+mod whole;
 
 pub use error::ModelFitError;
 pub use options::ModelOptions;
 pub use report::{ModelReport, PatchReport};
 pub use samples::NodePlaces;
+pub use whole::{ComponentReport, Family, MeshModelOptions, ModelFit, Piece, fit_mesh};
 
 use super::common::interior::triangle_sagittas;
 use super::common::rounds::run;

@@ -240,3 +240,104 @@ fn a_fit_is_cancelled_and_bad_places_are_named() {
         fit_over_layout(&mesh, &layout, NodePlaces::Sphere(&directions), &options, &mut Control::new(1));
     assert_eq!(fit.unwrap_err().kind(), crate::failure::ErrorKind::InvalidArgument);
 }
+
+/// Both ways between points of the mesh and of the model, face by face through its surfaces.
+fn check_model(mesh: &Mesh, fit: &ModelFit) {
+    let ModelFit { model, places, errors, report, .. } = fit;
+    let measure = model.measure();
+    assert_eq!(model.free_edge_count(), 0);
+    assert!(model.edge_ids().all(|edge| model.uses(edge).count() == 2));
+    assert!(measure.max_gap <= 1e-14 * model.diagonal(), "{measure:?}");
+    assert!(measure.max_normal_jump <= 1e-7, "angles are no better than roots of roundings: {measure:?}");
+    assert!((measure.volume / report.volume - 1.0).abs() <= 1e-10, "{} {}", measure.volume, report.volume);
+    for (node, (place, error)) in places.iter().zip(errors).enumerate() {
+        let Some((face, uv)) = *place else { continue };
+        let point = model.carrier(face).points(&[uv])[0];
+        let miss = point.distance(mesh.points()[node]);
+        assert!((miss - error).abs() <= 1e-12 * report.diagonal, "node {node}: {miss} {error}");
+    }
+}
+
+fn model_of(mesh: &Mesh, tolerance: f64) -> ModelFit {
+    let tolerance = crate::fit::report::Tolerance { value: tolerance, ..Default::default() };
+    let fit = ModelOptions::default().with_tolerance(tolerance);
+    fit_mesh(mesh, &MeshModelOptions { fit, ..Default::default() }, &mut Control::new(2)).unwrap()
+}
+
+#[test]
+fn closed_meshes_become_solids_without_free_edges() {
+    let (ball, _) = star_shape(16, |d| d * (1.0 + 0.2 * (5.0 * d.z).sin()));
+    let fit = model_of(&ball, 1e-3);
+    assert!(fit.report.max_error <= 1e-3 * fit.report.diagonal, "{:?}", fit.report);
+    assert_eq!((fit.model.shells().len(), fit.model.euler_characteristic()), (1, 2));
+    check_model(&ball, &fit);
+}
+
+#[test]
+fn a_torus_gets_patches_of_its_own() {
+    let (quads, points) = torus(48, 24);
+    let triangles = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+    let mesh = Mesh::new(points, triangles).unwrap();
+    let fit = model_of(&mesh, 1e-3);
+    assert!(fit.report.max_error <= 1e-3 * fit.report.diagonal, "{:?}", fit.report);
+    assert_eq!((fit.components[0].genus, fit.model.euler_characteristic()), (1, 0));
+    assert!(fit.report.normal_jump <= 1e-10, "{}", fit.report.normal_jump);
+    check_model(&mesh, &fit);
+}
+
+/// Several meshes as one.
+fn joined(meshes: &[&Mesh]) -> Mesh {
+    let (mut points, mut triangles) = (Vec::new(), Vec::new());
+    for mesh in meshes {
+        let first = points.len() as u32;
+        points.extend_from_slice(mesh.points());
+        triangles.extend(mesh.triangles().iter().map(|triangle| triangle.map(|node| node + first)));
+    }
+    Mesh::new(points, triangles).unwrap()
+}
+
+#[test]
+fn components_become_shells_and_voids_whatever_way_they_are_turned() {
+    let [outer, inner, beside] = [(2.0, DVec3::ZERO), (0.7, DVec3::ZERO), (1.0, 5.0 * DVec3::X)]
+        .map(|(radius, middle)| star_shape(8, move |d| middle + radius * d).0);
+    let inside_out = |mesh: &Mesh| {
+        let triangles = mesh.triangles().iter().map(|&[a, b, c]| [a, c, b]).collect();
+        Mesh::new(mesh.points().to_vec(), triangles).unwrap()
+    };
+    let hollow = 4.0 / 3.0 * std::f64::consts::PI * (8.0 - 0.343 + 1.0);
+    for mesh in
+        [joined(&[&inner, &outer, &beside]), joined(&[&inside_out(&inner), &inside_out(&outer), &beside])]
+    {
+        let fit = model_of(&mesh, 1e-2);
+        let voids: Vec<Option<usize>> = fit.components.iter().map(|component| component.void_in).collect();
+        assert_eq!(voids.iter().flatten().count(), 1);
+        assert_eq!(fit.model.shells().len(), 3);
+        assert_eq!(fit.components.iter().filter(|component| component.is_turned).count(), 1);
+        // three balls of few facets
+        assert!((fit.report.volume / hollow - 1.0).abs() <= 0.05, "{}", fit.report.volume);
+        check_model(&mesh, &fit);
+    }
+}
+
+#[test]
+fn what_has_no_model_is_named() {
+    let (ball, _) = star_shape(4, |d| d);
+    let open = Mesh::new(ball.points().to_vec(), ball.triangles()[1..].to_vec()).unwrap();
+    let patches = MeshModelOptions { family: Family::Patches, ..Default::default() };
+    let refuse =
+        |mesh: &Mesh, options: &MeshModelOptions| fit_mesh(mesh, options, &mut Control::new(1)).unwrap_err();
+    assert!(matches!(refuse(&open, &patches), ModelFitError::Open { loops: 1, .. }));
+    let flat =
+        Mesh::new(ball.points().iter().map(|p| p.with_z(0.0)).collect(), ball.triangles().to_vec()).unwrap();
+    let refused = refuse(&flat, &patches);
+    assert_eq!(refused.kind(), crate::failure::ErrorKind::Degenerate, "{refused}");
+    let too_deep = MeshModelOptions { fit: ModelOptions::default().with_max_level(30), ..patches };
+    assert_eq!(refuse(&ball, &too_deep).kind(), crate::failure::ErrorKind::InvalidArgument);
+    // one chart serves an open mesh
+    let upper = |triangle: &&[u32; 3]| triangle.iter().all(|&node| ball.points()[node as usize].z >= -1e-9);
+    let upper = ball.triangles().iter().filter(upper).copied().collect();
+    let half = Mesh::new(ball.points().to_vec(), upper).unwrap();
+    let fit = model_of(&half, 1e-2);
+    assert!(fit.pieces.is_empty() && fit.components[0].layout.is_none());
+    assert!(fit.model.free_edge_count() > 0);
+}

@@ -28,6 +28,7 @@ const ORDER: &[&str] = &[
     "step.rs",
     "report_page.rs",
     "model.rs",
+    "model_fit.rs",
     "model_query.rs",
     "curve.rs",
     "curve_query.rs",

@@ -1,0 +1,201 @@
+//! `planish fit` where a mesh becomes a model: a solid of patches that meet smoothly.
+
+use crate::fit::{FitArguments, LayoutName, unit, with_bar};
+use crate::output::{self, Table};
+use crate::picture::{Picture, View};
+use crate::{Failure, Outcome};
+use glam::DVec3;
+use planish::export::step::{self, StepOptions};
+use planish::export::{native, vtk};
+use planish::fit::model::{Family, MeshModelOptions, ModelFit, ModelOptions, fit_mesh};
+use planish::fit::report::Remarks;
+use planish::layout::of_mesh::{LayoutKind, MeshLayoutOptions};
+use planish::mesh::{Mesh, MeshRepairs};
+use serde_json::json;
+use std::path::Path;
+
+pub fn run(mesh: &Mesh, repairs: &MeshRepairs, arguments: &FitArguments) -> Result<Outcome, Failure> {
+    if let Some(path) = arguments.out.iter().find(|path| output::is_tessellation(path)) {
+        let path = path.display();
+        return Err(Failure::new(format!("a model is not written to {path}; take .step, .vtu or .planish")));
+    }
+    let options = options(arguments);
+    let fit = with_bar(arguments.threads, |control| fit_mesh(mesh, &options, control))?;
+    let stem = arguments.mesh.file_stem().unwrap_or_default().to_string_lossy();
+    let product = arguments.product.as_deref().unwrap_or(&stem);
+    let text = StepOptions { unit: unit(arguments), product, ..StepOptions::default() };
+    for path in &arguments.out {
+        write(mesh, &fit, path, &text)?;
+    }
+    if let Some(path) = &arguments.picture {
+        let moved = moved(mesh, &fit);
+        let mut picture = Picture::new(1200, 900, &View::facing(&moved), &moved);
+        let range = (0.0, fit.report.max_error);
+        picture.draw_mesh(&moved, Some(&fit.errors), range);
+        picture.draw_scale("deviation", range);
+        output::write_png(&picture, path)?;
+    }
+    if arguments.json {
+        println!("{}", json_report(mesh, &fit));
+    } else {
+        print!("{}", table(arguments, mesh, repairs, &fit));
+    }
+    let is_met = !fit.report.remarks.has(Remarks::TOLERANCE_NOT_MET);
+    Ok(if is_met { Outcome::Done } else { Outcome::ToleranceNotMet })
+}
+
+fn options(arguments: &FitArguments) -> MeshModelOptions {
+    let mut fit = ModelOptions::default().with_tolerance(crate::fit::tolerance(arguments));
+    if arguments.smoothing > 0.0 {
+        fit.smoothing = arguments.smoothing;
+    }
+    if let Some(steps) = arguments.sweeps {
+        fit.foot_steps = u32::try_from(steps).unwrap_or(u32::MAX);
+    }
+    let defaults = MeshLayoutOptions::default();
+    let layout = MeshLayoutOptions {
+        kind: match (arguments.layout, arguments.patches) {
+            // who asks for a number of patches wants a complex
+            (LayoutName::Auto, Some(_)) | (LayoutName::Complex, _) => LayoutKind::Complex,
+            (LayoutName::Auto, None) => LayoutKind::Auto,
+            (LayoutName::Cube, _) => LayoutKind::Cube,
+        },
+        patches: arguments.patches.unwrap_or(defaults.patches),
+        ..defaults
+    };
+    MeshModelOptions { family: Family::Auto, fit, layout, level_spread: arguments.level_spread }
+}
+
+fn write(mesh: &Mesh, fit: &ModelFit, path: &Path, text: &StepOptions) -> Result<(), Failure> {
+    match path.extension().and_then(|extension| extension.to_str()) {
+        Some(extension) if extension.eq_ignore_ascii_case("vtu") => {
+            let data = vtk::PointData { name: "deviation", dim: 1, values: &fit.errors };
+            vtk::write_mesh(&moved(mesh, fit), &[data], path)?;
+        }
+        _ if output::is_step(path) => {
+            step::write(&fit.model, text, path)?;
+        }
+        _ => native::save_file(&fit.model, path)?,
+    }
+    Ok(())
+}
+
+/// The mesh with its nodes on the model.
+fn moved(mesh: &Mesh, fit: &ModelFit) -> Mesh {
+    let point = |(place, &point): (&Option<_>, &DVec3)| match *place {
+        Some((face, uv)) => fit.model.carrier(face).points(&[uv])[0],
+        None => point,
+    };
+    let points = fit.places.iter().zip(mesh.points()).map(point).collect();
+    Mesh::new(points, mesh.triangles().to_vec()).expect("the same triangles at finite places")
+}
+
+fn table(arguments: &FitArguments, mesh: &Mesh, repairs: &MeshRepairs, fit: &ModelFit) -> String {
+    let (report, model) = (&fit.report, &fit.model);
+    let mut table = Table::default();
+    let both = |error: f64| format!("{error:.3e}   {:.2e} of the diagonal", error / report.diagonal);
+    let (points, triangles) = (mesh.points().len(), mesh.triangles().len());
+    table.row("mesh", format!("{}", arguments.mesh.display()));
+    table.row("nodes, triangles", format!("{points}, {triangles}, {} boundary loops", mesh.loops().len()));
+    if !repairs.is_empty() {
+        table.row("repaired", output::repairs(repairs));
+    }
+    for component in &fit.components {
+        let layout = match component.layout {
+            None => "one chart".to_owned(),
+            Some(LayoutKind::Cube) => format!("cube, map energy {:.3}", component.map_energy),
+            Some(_) => format!("base complex, map energy {:.3}", component.map_energy),
+        };
+        let mut parts = vec![format!("genus {}", component.genus), layout];
+        parts.extend((component.fold_count > 0).then(|| format!("{} folds", component.fold_count)));
+        parts.extend(component.void_in.map(|outer| format!("void in {outer}")));
+        parts.extend(component.is_turned.then(|| "was inside out, turned".to_owned()));
+        table.row("component", parts.join(", "));
+    }
+    table.row(
+        "model",
+        format!(
+            "{} shells, {} faces, {} edges, {} free",
+            model.shells().len(),
+            model.faces().len(),
+            model.edges().len(),
+            model.free_edge_count()
+        ),
+    );
+    let patches = report.patches.len();
+    table.row(
+        "patches",
+        format!(
+            "{patches}, {} cells down to level {}, {} control points",
+            report.cell_count, report.deepest_level, report.coefficient_count
+        ),
+    );
+    table.row("tolerance", both(report.tolerance));
+    table.row("max error", both(report.max_error));
+    table.row("rms, mean error", format!("{:.3e}, {:.3e}", report.rms_error, report.mean_error));
+    table.row(
+        "between nodes",
+        format!("{:.3e}, of which facets explain {:.3e}", report.max_interior_error, report.facet_sagitta),
+    );
+    if !fit.pieces.is_empty() {
+        table.row("model to mesh", both(report.max_back_distance));
+        table.row("normal jump, gap", format!("{:.1e}, {:.1e}", report.normal_jump, report.gap));
+        table.row("volume", format!("{:.6e}, of the mesh {:.6e}", report.volume, report.mesh_volume));
+    }
+    let map: f64 = fit.components.iter().map(|component| component.map_seconds).sum();
+    table.row("seconds", format!("{map:.2} map, {:.2} fit, {:.2} in all", report.fit_seconds, fit.seconds));
+    table.row("result", crate::fit::verdict(report.remarks, report.stop));
+    for remark in crate::fit::remarks(report.remarks) {
+        table.row("remark", remark.to_owned());
+    }
+    table.to_string()
+}
+
+fn json_report(mesh: &Mesh, fit: &ModelFit) -> serde_json::Value {
+    let report = &fit.report;
+    let component = |component: &planish::fit::model::ComponentReport| {
+        json!({
+            "genus": component.genus,
+            "layout": component.layout.map(|layout| format!("{layout:?}").to_lowercase()),
+            "map_energy": component.map_energy,
+            "fold_count": component.fold_count,
+            "void_in": component.void_in,
+            "is_turned": component.is_turned,
+            "patch_count": component.fit.patches.len(),
+            "max_error": component.fit.max_error,
+        })
+    };
+    json!({
+        "nodes": mesh.points().len(),
+        "triangles": mesh.triangles().len(),
+        "tolerance_met": !report.remarks.has(Remarks::TOLERANCE_NOT_MET),
+        "tolerance": report.tolerance,
+        "diagonal": report.diagonal,
+        "max_error": report.max_error,
+        "rms_error": report.rms_error,
+        "mean_error": report.mean_error,
+        "worst_node": report.worst_node,
+        "max_interior_error": report.max_interior_error,
+        "facet_sagitta": report.facet_sagitta,
+        "max_back_distance": report.max_back_distance,
+        "normal_jump": report.normal_jump,
+        "gap": report.gap,
+        "volume": report.volume,
+        "mesh_volume": report.mesh_volume,
+        "components": fit.components.iter().map(component).collect::<Vec<_>>(),
+        "shell_count": fit.model.shells().len(),
+        "face_count": fit.model.faces().len(),
+        "edge_count": fit.model.edges().len(),
+        "free_edge_count": fit.model.free_edge_count(),
+        "patch_count": report.patches.len(),
+        "cell_count": report.cell_count,
+        "coefficient_count": report.coefficient_count,
+        "free_count": report.free_count,
+        "deepest_level": report.deepest_level,
+        "passes": report.passes,
+        "stop": crate::fit::verdict(report.remarks, report.stop),
+        "fit_seconds": report.fit_seconds,
+        "seconds": fit.seconds,
+        "remarks": crate::fit::remarks(report.remarks).collect::<Vec<_>>(),
+    })
+}

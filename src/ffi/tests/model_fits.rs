@@ -1,0 +1,120 @@
+//! Closed meshes as models, through C.
+
+use super::*;
+use crate::layout::CUBE_FACES;
+use glam::DVec2;
+
+/// A ball of some nodes a face of the cube; the triangles run inwards if `is_inside_out`.
+fn ball(n: u32, is_inside_out: bool) -> MeshHandle {
+    let mut numbers = std::collections::BTreeMap::new();
+    let (mut points, mut triangles): (Vec<f64>, Vec<u32>) = (Vec::new(), Vec::new());
+    for face in CUBE_FACES {
+        let mut at = |i: u32, j: u32| {
+            let place = face.point(DVec2::new(f64::from(i), f64::from(j)) / f64::from(n));
+            let key = (place * f64::from(n)).round().to_array().map(|x| x as i64);
+            *numbers.entry(key).or_insert_with(|| {
+                points.extend(place.normalize().to_array());
+                points.len() as u32 / 3 - 1
+            })
+        };
+        for (i, j) in (0..n * n).map(|k| (k / n, k % n)) {
+            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            let both = if is_inside_out { [[a, c, b], [a, d, c]] } else { [[a, b, c], [a, c, d]] };
+            triangles.extend(both.into_iter().flatten());
+        }
+    }
+    let (mut mesh, counts) = (null_mut(), (points.len() / 3, triangles.len() / 3));
+    // SAFETY: arrays of these sizes.
+    ok(unsafe {
+        planish_mesh_new(points.as_ptr(), counts.0, triangles.as_ptr(), counts.1, null(), &mut mesh)
+    });
+    MeshHandle(mesh)
+}
+
+fn defaults() -> planish_model_options {
+    planish_model_options { thread_count: 2, ..planish_model_options::default() }
+}
+
+#[test]
+fn a_ball_becomes_a_solid_and_every_node_finds_its_place() {
+    let mesh = ball(8, false);
+    let count = planish_mesh_point_count(mesh.0);
+    let (mut faces, mut uv, mut errors) = (vec![9_u32; count], vec![9.0; 2 * count], vec![9.0; count]);
+    let options = planish_model_options {
+        out_faces: faces.as_mut_ptr(),
+        out_uv: uv.as_mut_ptr(),
+        out_errors: errors.as_mut_ptr(),
+        ..defaults()
+    };
+    let (mut model, mut report) = (null_mut(), planish_model_report::default());
+    // SAFETY: a live mesh, arrays of its size.
+    unsafe {
+        ok(planish_model_fit(mesh.0, &options, &mut model, &mut report));
+        assert!(report.max_error <= report.tolerance && report.normal_jump <= 1e-12, "{report:?}");
+        assert_eq!((report.component_count, report.patch_count, report.genus, report.is_chart), (1, 6, 0, 0));
+        assert_eq!(errors.iter().copied().fold(0.0, f64::max), report.max_error);
+        let mut measure = planish_measure_report::default();
+        ok(planish_model_measure(model, &mut measure));
+        assert_eq!((measure.free_edge_count, measure.euler_characteristic), (0, 2));
+        assert!((measure.volume / report.volume - 1.0).abs() <= 1e-10);
+        assert!(faces.iter().all(|&face| (face as usize) < planish_model_face_count(model)));
+        // the first node again, through the face's own surface
+        let mut surface = null_mut();
+        ok(planish_model_copy_face(model, faces[0] as usize, &mut surface));
+        let surface = SurfaceHandle(surface);
+        let mut point = [0.0; 3];
+        ok(planish_surface_eval(surface.0, uv.as_ptr(), 1, null(), point.as_mut_ptr()));
+        let mut node = vec![0.0; 3 * count];
+        ok(planish_mesh_copy_points(mesh.0, node.as_mut_ptr(), count));
+        let miss: f64 = (0..3).map(|k| (point[k] - node[k]).powi(2)).sum::<f64>().sqrt();
+        assert!((miss - errors[0]).abs() <= 1e-13, "{miss} {}", errors[0]);
+        planish_model_free(model);
+    }
+}
+
+#[test]
+fn a_mesh_inside_out_is_turned_and_told() {
+    let mesh = ball(4, true);
+    let (mut model, mut report) = (null_mut(), planish_model_report::default());
+    // SAFETY: a live mesh.
+    unsafe {
+        let status = planish_model_fit(mesh.0, &defaults(), &mut model, &mut report);
+        assert_eq!((status, report.turned_count), (planish_status::InputRepaired, 1));
+        assert!(report.volume > 0.0);
+        planish_model_free(model);
+    }
+}
+
+#[test]
+fn wrong_options_leave_everything_as_it_was() {
+    let mesh = ball(4, false);
+    let mut report: planish_model_report = canary();
+    report.struct_size = size_of::<planish_model_report>();
+    let before = format!("{report:?}");
+    let mut model = null_mut();
+    let cases: [(fn(&mut planish_model_options), &str); 9] = [
+        (|o| o.tolerance = 0.0, "tolerance"),
+        (|o| o.smoothing = f64::NAN, "smoothing"),
+        (|o| o.family = 3, "family"),
+        (|o| o.layout = 3, "layout"),
+        (|o| o.tolerance_scale = 2, "tolerance_scale"),
+        (|o| o.guard = 2, "guard"),
+        (|o| o.max_level = 21, "max_level"),
+        (|o| o.start_level = 9, "start_level"),
+        (|o| o.max_rounds = 0, "max_rounds"),
+    ];
+    for (change, word) in cases {
+        let mut options = defaults();
+        change(&mut options);
+        // SAFETY: a live mesh.
+        let status = unsafe { planish_model_fit(mesh.0, &options, &mut model, &mut report) };
+        refused(status, planish_status::InvalidArgument, -1, &[word]);
+        assert!(model.is_null() && format!("{report:?}") == before, "{word}");
+    }
+    // SAFETY: NULL is refused.
+    unsafe {
+        null_refused(planish_model_fit(null(), null(), &mut model, null_mut()), "mesh");
+        null_refused(planish_model_fit(mesh.0, null(), null_mut(), null_mut()), "out_model");
+        null_refused(planish_model_options_init(null_mut(), 176), "options");
+    }
+}

@@ -1,0 +1,349 @@
+//! From any mesh to a model: the one place that chooses how.
+//!
+//! ```text
+//! closed, genus 0     over the cube; where that misses the tolerance, over a base complex too, and the better is kept
+//! closed, handles     over a base complex
+//! open                one chart: a PHT-spline inside its trims
+//! ```
+//! Several closed components become several shells, one inside another a void.
+
+use super::bodies::{Body, bodies};
+use super::error::ModelFitError;
+use super::{LayoutFit, ModelOptions, ModelReport, NodePlaces, fit_over_layout};
+use crate::control::Control;
+use crate::failure::Classify;
+use crate::fit::common::report::{FitReport, Remarks, Tolerance, ToleranceScale};
+use crate::fit::pht::{self, PhtOptions};
+use crate::layout::Layout;
+use crate::layout::of_mesh::{LayoutKind, MeshLayoutOptions, layout_of_mesh};
+use crate::mesh::Mesh;
+use crate::model::{FaceId, Form, FormOptions, Model, PatchModel, Patchwork, of_patches, of_surface};
+use crate::parameterize::sphere::{SphereOptions, map_to_sphere};
+use crate::summary::summarize;
+use crate::surface::AnySurface;
+use crate::surface::pht::PhtSurface;
+use glam::DVec2;
+use std::time::Instant;
+
+/// Which way a mesh becomes a model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Family {
+    /// What serves: one chart for an open mesh, patches for a closed one.
+    #[default]
+    Auto,
+    /// One chart.
+    Chart,
+    /// Patches over a layout.
+    Patches,
+}
+
+/// How any mesh becomes a model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeshModelOptions {
+    /// Chart or patches.
+    pub family: Family,
+    /// How patches are fitted; the tolerance holds for a chart too.
+    pub fit: ModelOptions,
+    /// Which layout patches have.
+    pub layout: MeshLayoutOptions,
+    /// By how much levels of cells in one face may differ. Default 1: few faces, and no huge nets, which other
+    /// programs integrate badly.
+    pub level_spread: u32,
+}
+
+impl Default for MeshModelOptions {
+    fn default() -> Self {
+        Self {
+            family: Family::default(),
+            fit: ModelOptions::default(),
+            layout: MeshLayoutOptions::default(),
+            level_spread: 1,
+        }
+    }
+}
+
+/// What one component has become.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ComponentReport {
+    /// Handles.
+    pub genus: usize,
+    /// Which layout it has; None for a chart.
+    pub layout: Option<LayoutKind>,
+    /// Symmetric Dirichlet energy of the node map by area: 4 for an isometry.
+    pub map_energy: f64,
+    /// Nodes or triangles that the map folds.
+    pub fold_count: usize,
+    /// The component in which it is a void.
+    pub void_in: Option<usize>,
+    /// Whether the mesh was inside out and has been turned.
+    pub is_turned: bool,
+    /// Seconds for layout and map.
+    pub map_seconds: f64,
+    /// The fit.
+    pub fit: ModelReport,
+}
+
+/// The patches of one component.
+#[derive(Debug, Clone)]
+pub struct Piece {
+    /// How they meet.
+    pub layout: Layout,
+    /// One for each quad.
+    pub surfaces: Vec<PhtSurface>,
+}
+
+/// A model with all that is known of it.
+#[derive(Debug, Clone)]
+pub struct ModelFit {
+    /// The model.
+    pub model: Model,
+    /// The patches it was made of; none for a chart.
+    pub pieces: Vec<Piece>,
+    /// The face and parameters of each node; None for a node without triangles.
+    pub places: Vec<Option<(FaceId, DVec2)>>,
+    /// The error of each node; NaN without a place.
+    pub errors: Vec<f64>,
+    /// Component by component, solids before their voids.
+    pub components: Vec<ComponentReport>,
+    /// All components together.
+    pub report: ModelReport,
+    /// Seconds in all.
+    pub seconds: f64,
+}
+
+/// Makes a model of a mesh.
+pub fn fit_mesh(
+    mesh: &Mesh,
+    options: &MeshModelOptions,
+    control: &mut Control,
+) -> Result<ModelFit, ModelFitError> {
+    let is_chart = match options.family {
+        Family::Auto => !mesh.loops().is_empty(),
+        Family::Chart => true,
+        Family::Patches => false,
+    };
+    let start = Instant::now();
+    let mut fit = if is_chart { chart(mesh, options, control) } else { patches(mesh, options, control) }?;
+    fit.seconds = start.elapsed().as_secs_f64();
+    Ok(fit)
+}
+
+/// Share of a component's time in which its map is made.
+const MAP_SHARE: f64 = 0.4;
+
+fn patches(
+    mesh: &Mesh,
+    options: &MeshModelOptions,
+    control: &mut Control,
+) -> Result<ModelFit, ModelFitError> {
+    options.fit.check(1)?;
+    let bodies = bodies(mesh)?;
+    // the tolerance is that of the whole
+    let (value, _) = options.fit.tolerance.absolute(&mesh.bounds());
+    let absolute = Tolerance { value, scale: ToleranceScale::Absolute };
+    let options = MeshModelOptions { fit: options.fit.with_tolerance(absolute), ..*options };
+    let mut places = vec![None; mesh.points().len()];
+    let mut errors = vec![f64::NAN; mesh.points().len()];
+    let (mut pieces, mut components, mut node_places) = (Vec::new(), Vec::new(), Vec::new());
+    let all = mesh.triangles().len() as f64;
+    let mut done = 0.0;
+    for body in &bodies {
+        let next = done + body.mesh.triangles().len() as f64 / all;
+        let (piece, fit, component) =
+            control.within(done, next, |control| component(body, &options, control))?;
+        done = next;
+        for (&node, &error) in body.nodes.iter().zip(&fit.errors) {
+            errors[node as usize] = error;
+        }
+        node_places.push(fit.places);
+        pieces.push(piece);
+        components.push(component);
+    }
+    let patchworks: Vec<Patchwork> = pieces
+        .iter()
+        .zip(&bodies)
+        .map(|(piece, body)| Patchwork {
+            layout: &piece.layout,
+            surfaces: &piece.surfaces,
+            void_in: body.void_in,
+        })
+        .collect();
+    let stitched: PatchModel = of_patches(&patchworks, options.level_spread)?;
+    for (number, (body, of_body)) in bodies.iter().zip(&node_places).enumerate() {
+        for (&node, place) in body.nodes.iter().zip(of_body) {
+            places[node as usize] = place.map(|place| (stitched.face_at(number, place), place.uv));
+        }
+    }
+    let report = together(mesh, &components, &errors);
+    Ok(ModelFit { model: stitched.model, pieces, places, errors, components, report, seconds: 0.0 })
+}
+
+type Component = (Piece, LayoutFit, ComponentReport);
+
+/// One component: over the cube, over a base complex, or the better of both.
+fn component(
+    body: &Body,
+    options: &MeshModelOptions,
+    control: &mut Control,
+) -> Result<Component, ModelFitError> {
+    let is_simple = body.mesh.genus() == 0;
+    match options.layout.kind {
+        LayoutKind::Cube => over_cube(body, options, control),
+        LayoutKind::Complex => over_complex(body, options, control),
+        LayoutKind::Auto if !is_simple => over_complex(body, options, control),
+        LayoutKind::Auto => {
+            let cube = control.within(0.0, 0.5, |control| over_cube(body, options, control))?;
+            if !cube.2.fit.remarks.has(Remarks::TOLERANCE_NOT_MET) {
+                return Ok(cube);
+            }
+            // patches that follow the limbs may do what six cannot
+            match control.within(0.5, 1.0, |control| over_complex(body, options, control)) {
+                Ok(complex) if complex.2.fit.max_error < cube.2.fit.max_error => Ok(complex),
+                Err(error) if error.kind() == crate::failure::ErrorKind::Cancelled => Err(error),
+                _ => Ok(cube),
+            }
+        }
+    }
+}
+
+fn over_cube(
+    body: &Body,
+    options: &MeshModelOptions,
+    control: &mut Control,
+) -> Result<Component, ModelFitError> {
+    let map = |control: &mut Control| map_to_sphere(&body.mesh, &SphereOptions::default(), control);
+    let sphere = control.within(0.0, MAP_SHARE, map)?;
+    let layout = Layout::cube();
+    let places = NodePlaces::Sphere(&sphere.points);
+    let fit = control.within(MAP_SHARE, 1.0, |control| {
+        fit_over_layout(&body.mesh, &layout, places, &options.fit, control)
+    })?;
+    let report = ComponentReport {
+        genus: 0,
+        layout: Some(LayoutKind::Cube),
+        map_energy: sphere.report.energy,
+        fold_count: sphere.report.folded_triangles,
+        void_in: body.void_in,
+        is_turned: body.is_turned,
+        map_seconds: sphere.report.seconds,
+        fit: fit.report.clone(),
+    };
+    Ok((Piece { layout, surfaces: fit.surfaces.clone() }, fit, report))
+}
+
+fn over_complex(
+    body: &Body,
+    options: &MeshModelOptions,
+    control: &mut Control,
+) -> Result<Component, ModelFitError> {
+    let layout = options.layout.with_kind(LayoutKind::Complex);
+    let made = control.within(0.0, MAP_SHARE, |control| layout_of_mesh(&body.mesh, &layout, control))?;
+    let places = NodePlaces::Patches(made.map.places());
+    let fit = control.within(MAP_SHARE, 1.0, |control| {
+        fit_over_layout(&body.mesh, &made.layout, places, &options.fit, control)
+    })?;
+    let report = ComponentReport {
+        genus: body.mesh.genus(),
+        layout: Some(LayoutKind::Complex),
+        map_energy: made.report.energy,
+        fold_count: made.report.folded_nodes,
+        void_in: body.void_in,
+        is_turned: body.is_turned,
+        map_seconds: made.report.seconds,
+        fit: fit.report.clone(),
+    };
+    Ok((Piece { layout: made.layout, surfaces: fit.surfaces.clone() }, fit, report))
+}
+
+/// The reports of all components in one.
+fn together(mesh: &Mesh, components: &[ComponentReport], errors: &[f64]) -> ModelReport {
+    let fits = || components.iter().map(|component| &component.fit);
+    let largest = |of: fn(&ModelReport) -> f64| fits().map(of).fold(0.0, f64::max);
+    // nodes without triangles have none
+    let known = summarize(errors.iter().map(|error| if error.is_nan() { 0.0 } else { *error }).collect());
+    let used = errors.iter().filter(|error| !error.is_nan()).count().max(1) as f64;
+    let share = used / errors.len().max(1) as f64;
+    let mut remarks = Remarks::default();
+    fits().for_each(|fit| remarks.0 |= fit.remarks.0);
+    ModelReport {
+        max_error: known.max,
+        rms_error: known.rms / share.sqrt(),
+        mean_error: known.mean / share,
+        worst_node: known.worst_index,
+        tolerance: largest(|fit| fit.tolerance),
+        diagonal: mesh.diagonal(),
+        max_interior_error: largest(|fit| fit.max_interior_error),
+        facet_sagitta: largest(|fit| fit.facet_sagitta),
+        max_back_distance: largest(|fit| fit.max_back_distance),
+        normal_jump: largest(|fit| fit.normal_jump),
+        gap: largest(|fit| fit.gap),
+        volume: fits().map(|fit| fit.volume).sum(),
+        mesh_volume: fits().map(|fit| fit.mesh_volume).sum(),
+        patches: fits().flat_map(|fit| fit.patches.iter().cloned()).collect(),
+        coefficient_count: fits().map(|fit| fit.coefficient_count).sum(),
+        free_count: fits().map(|fit| fit.free_count).sum(),
+        cell_count: fits().map(|fit| fit.cell_count).sum(),
+        deepest_level: fits().map(|fit| fit.deepest_level).max().unwrap_or(0),
+        dropped_samples: fits().map(|fit| fit.dropped_samples).sum(),
+        passes: fits().map(|fit| fit.passes).max().unwrap_or(0),
+        stop: fits().map(|fit| fit.stop).find(|&stop| stop != Default::default()).unwrap_or_default(),
+        remarks,
+        fit_seconds: fits().map(|fit| fit.fit_seconds).sum(),
+    }
+}
+
+/// An open mesh of one piece as one surface inside its trims.
+fn chart(mesh: &Mesh, options: &MeshModelOptions, control: &mut Control) -> Result<ModelFit, ModelFitError> {
+    let pht_options = PhtOptions { tolerance: options.fit.tolerance, ..PhtOptions::default() };
+    let fit = pht::fit_mesh(mesh, &pht_options, control)?;
+    let form =
+        FormOptions { form: Form::Patches, level_spread: options.level_spread, ..FormOptions::default() };
+    let surface = AnySurface::Pht(fit.surface);
+    let model = of_surface(&surface, &form)?;
+    let face_at = |uv: DVec2| {
+        let holds = |&face: &FaceId| model.carrier(face).domain().is_some_and(|domain| domain.contains(uv));
+        model.face_ids().find(holds)
+    };
+    let places = (0..mesh.points().len() as u32)
+        .zip(&fit.parameters)
+        .map(|(node, &uv)| Some((face_at(uv).filter(|_| mesh.is_used(node))?, uv)))
+        .collect();
+    let report = of_chart(&fit.report);
+    let component = ComponentReport {
+        genus: mesh.genus(),
+        layout: None,
+        map_energy: f64::NAN,
+        fold_count: fit.report.flipped_count,
+        void_in: None,
+        is_turned: false,
+        map_seconds: fit.report.parameterize_seconds,
+        fit: report.clone(),
+    };
+    let components = vec![component];
+    Ok(ModelFit { model, pieces: Vec::new(), places, errors: fit.errors, components, report, seconds: 0.0 })
+}
+
+fn of_chart(fit: &FitReport) -> ModelReport {
+    ModelReport {
+        max_error: fit.max_error,
+        rms_error: fit.rms_error,
+        mean_error: fit.mean_error,
+        worst_node: fit.worst_index,
+        tolerance: fit.tolerance,
+        diagonal: fit.diagonal,
+        max_interior_error: fit.max_interior_error,
+        facet_sagitta: fit.facet_sagitta,
+        max_back_distance: f64::NAN,
+        volume: f64::NAN,
+        mesh_volume: f64::NAN,
+        coefficient_count: fit.coefficient_count,
+        free_count: fit.coefficient_count,
+        cell_count: fit.cell_count,
+        deepest_level: fit.deepest_level,
+        passes: fit.passes,
+        stop: fit.stop,
+        remarks: fit.remarks,
+        fit_seconds: fit.seconds - fit.parameterize_seconds,
+        ..ModelReport::default()
+    }
+}
