@@ -801,7 +801,8 @@ module planish_records
   !> What a STEP file says beside the shape.
   type, bind(c), public :: planish_step_options
     integer(c_size_t) :: struct_size = 11 * word + 32
-    type(c_ptr) :: product = c_null_ptr !! Name of the product; NULL (default) for "surface"
+    !> Name of the product; NULL (default) for the surface's, or "surface" if it has none
+    type(c_ptr) :: product = c_null_ptr
     type(c_ptr) :: author = c_null_ptr !! Who made it; NULL (default) for nobody
     type(c_ptr) :: organization = c_null_ptr !! For whom; NULL (default) for nobody
     !> When, such as "2026-01-31T12:00:00"; NULL (default) for 1970-01-01T00:00:00, so that equal input gives equal
@@ -816,7 +817,7 @@ module planish_records
     type(c_ptr) :: out_stage = c_null_ptr
     !> A planish_step_schema; PLANISH_STEP_SCHEMA_AP214 (default)
     integer(c_int32_t) :: schema = PLANISH_STEP_SCHEMA_AP214
-    !> A planish_unit, what one model unit is; PLANISH_UNIT_MILLIMETRE (default)
+    !> A planish_unit, what one model unit is; PLANISH_UNIT_MILLIMETRE (default) leaves it to the surface
     integer(c_int32_t) :: unit = PLANISH_UNIT_MILLIMETRE
     integer(c_size_t) :: max_coefficients = 4000000 !! Most control points of PLANISH_STEP_FORM_TENSOR
     !> A planish_step_form, what is written of a T-spline or PHT-spline; PLANISH_STEP_FORM_TENSOR (default), which is
@@ -2219,6 +2220,34 @@ module planish_calls
       implicit none
       type(c_ptr), value :: surface
       integer(c_int32_t), value :: axis
+    end function
+
+    integer(c_size_t) function c_surface_name(surface, name, size) bind(c, name="planish_surface_name")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      character(kind=c_char), intent(inout), optional :: name(*)
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function c_surface_set_name(surface, name) bind(c, name="planish_surface_set_name")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      character(kind=c_char), intent(in) :: name(*)
+    end function
+
+    pure integer(c_int32_t) function c_surface_unit(surface) bind(c, name="planish_surface_unit")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end function
+
+    integer(c_int) function c_surface_set_unit(surface, unit) bind(c, name="planish_surface_set_unit")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int32_t), value :: unit
     end function
 
     integer(c_int) function c_vtk_options_init(options, struct_size) bind(c, name="planish_vtk_options_init")

@@ -163,6 +163,27 @@ TEST(WrapperMesh, ReadsFiles) {
   CHECK(std::string(error.what()).find(path) != std::string::npos);
 }
 
+TEST(WrapperSurface, KeepsNameAndUnit) {
+  const std::vector<double> knots = {0, 0, 1, 1};
+  planish::surface square =
+      planish::tensor_new(3, 1, 1, knots, knots, std::vector<double>{0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0});
+  CHECK(square.name().empty() && square.unit() == PLANISH_UNIT_MILLIMETRE);
+  square.set_name("a square");
+  square.set_unit(PLANISH_UNIT_INCH);
+  square.save_file("test_wrapper_named.planish");
+  const planish::surface loaded = planish::surface::load_file("test_wrapper_named.planish"), copy = loaded;
+  CHECK(copy.name() == "a square" && copy.unit() == PLANISH_UNIT_INCH);
+  char text[4] = "xyz";
+  CHECK_EQUAL(planish_surface_name(copy.get(), text, sizeof text), 8u);
+  CHECK(std::string(text) == "a s");
+  CHECK(planish_surface_set_name(square.get(), nullptr) == PLANISH_STATUS_NULL_POINTER);
+  CHECK(planish_surface_set_name(nullptr, "") == PLANISH_STATUS_NULL_POINTER);
+  CHECK(planish_surface_set_unit(square.get(), 3) == PLANISH_STATUS_INVALID_ARGUMENT);
+  CHECK(planish_surface_set_unit(nullptr, 0) == PLANISH_STATUS_NULL_POINTER);
+  CHECK_EQUAL(planish_surface_name(nullptr, nullptr, 0), 0u);
+  CHECK_EQUAL(planish_surface_unit(nullptr), 0u);
+}
+
 TEST(WrapperSurface, SaysHowLargeItIs) {
   planish::check_version();
   CHECK(planish_check_version(PLANISH_VERSION_MAJOR + 1, 0) == PLANISH_STATUS_VERSION);

@@ -155,6 +155,10 @@ module planish_types
     procedure :: normals => surface_normals
     procedure :: curvatures => surface_curvatures
     procedure :: field_gradient => surface_field_gradient
+    procedure :: name => surface_name
+    procedure :: set_name => surface_set_name
+    procedure :: unit => surface_unit
+    procedure :: set_unit => surface_set_unit
     procedure :: box => surface_box
     procedure :: area => surface_area
     procedure :: is_closed => surface_is_closed
@@ -1201,6 +1205,42 @@ contains
     if (present(options)) call_options = options
     if (refuse_points(call_options, shape(uv, c_size_t), shape(out, c_size_t), flags, stat, errmsg)) return
     call conclude(c_surface_curvatures(self%get(), uv, size(uv, 2, c_size_t), call_options, out), stat, errmsg)
+  end subroutine
+
+  !> The name of the surface; empty without one.
+  function surface_name(self) result(name)
+    class(planish_surface_t), intent(in) :: self
+    character(:), allocatable :: name
+    character(kind=c_char), allocatable :: letters(:)
+    integer(c_size_t) :: length
+    length = c_surface_name(self%get(), size=0_c_size_t)
+    allocate (letters(length + 1))
+    length = c_surface_name(self%get(), letters, size(letters, kind=c_size_t))
+    name = text_of(letters(:length))
+  end function
+
+  !> Gives the surface a name, which copies and saved files have too.
+  subroutine surface_set_name(self, name, stat, errmsg)
+    class(planish_surface_t), intent(inout) :: self
+    character(*), intent(in) :: name
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call conclude(c_surface_set_name(self%get(), terminated(name)), stat, errmsg)
+  end subroutine
+
+  !> What one unit of the surface is: a PLANISH_UNIT.
+  integer(c_int32_t) function surface_unit(self)
+    class(planish_surface_t), intent(in) :: self
+    surface_unit = c_surface_unit(self%get())
+  end function
+
+  !> Says what one unit of the surface is; no number changes.
+  subroutine surface_set_unit(self, unit, stat, errmsg)
+    class(planish_surface_t), intent(inout) :: self
+    integer(c_int32_t), intent(in) :: unit
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call conclude(c_surface_set_unit(self%get(), unit), stat, errmsg)
   end subroutine
 
   !> The box of the surface: box(:,1) has the least, box(:,2) the largest of each component.

@@ -2223,7 +2223,7 @@ typedef struct planish_step_options {
      */
     size_t struct_size;
     /**
-     * Name of the product; NULL (default) for "surface".
+     * Name of the product; NULL (default) for the surface's, or "surface" if it has none.
      */
     const char *product;
     /**
@@ -2265,7 +2265,7 @@ typedef struct planish_step_options {
      */
     uint32_t schema;
     /**
-     * A planish_unit, what one model unit is; PLANISH_UNIT_MILLIMETRE (default).
+     * A planish_unit, what one model unit is; PLANISH_UNIT_MILLIMETRE (default) leaves it to the surface.
      */
     uint32_t unit;
     /**
@@ -4990,6 +4990,52 @@ enum planish_status planish_surface_area(const struct planish_surface *surface,
 PLANISH_API
 uint32_t planish_surface_is_closed(const struct planish_surface *surface,
                                    uint32_t axis);
+
+/**
+ * The name of a surface, which copies, parts and saved files have too and STEP files take for the product's. A surface is
+ * born without one.
+ *
+ * surface: not NULL.
+ * name:    receives the name in UTF-8, cut off if it is too long and always terminated; NULL if size is 0.
+ * size:    bytes that name has room for, the NUL included.
+ * Arrays: name[size].
+ * Returns the length of the whole name in bytes without the NUL; 0 for NULL and without a name.
+ */
+PLANISH_API
+size_t planish_surface_name(const struct planish_surface *surface,
+                            char *name,
+                            size_t size);
+
+/**
+ * Gives a surface a name.
+ *
+ * surface: not NULL; changed.
+ * name:    in UTF-8, terminated; empty for none. Copied.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (name is not UTF-8).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_set_name(struct planish_surface *surface,
+                                             const char *name);
+
+/**
+ * What one unit of a surface is: a planish_unit; PLANISH_UNIT_MILLIMETRE for NULL. The library computes in the units it is
+ * given; STEP files say which they are.
+ */
+PLANISH_API
+uint32_t planish_surface_unit(const struct planish_surface *surface);
+
+/**
+ * Says what one unit of a surface is. No number changes.
+ *
+ * surface: not NULL; changed.
+ * unit:    a planish_unit.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (unit).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_set_unit(struct planish_surface *surface,
+                                             uint32_t unit);
 
 /**
  * Fills options with the defaults.

@@ -626,6 +626,20 @@ class surface {
   /// Number of control points.
   std::size_t coefficient_count() const noexcept { return planish_surface_coefficient_count(get()); }
 
+  /// The name; empty without one. Copies and saved files have it too.
+  std::string name() const {
+    std::string text(planish_surface_name(get(), nullptr, 0), '\0');
+    planish_surface_name(get(), text.data(), text.size() + 1);
+    return text;
+  }
+  /// Gives the surface a name, in UTF-8.
+  void set_name(const std::string &name) { detail::checked(planish_surface_set_name(get(), name.c_str())); }
+
+  /// What one unit is.
+  planish_unit unit() const noexcept { return static_cast<planish_unit>(planish_surface_unit(get())); }
+  /// Says what one unit is; no number changes.
+  void set_unit(planish_unit unit) { detail::checked(planish_surface_set_unit(get(), unit)); }
+
   /// The box of the surface over its whole domain: the least of each component, then the largest of each.
   std::vector<double> box() const {
     std::vector<double> box(2 * dim());

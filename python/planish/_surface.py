@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _abi
 from ._calls import LongCall, ProgressCallback
-from ._library import OUT, Handle, InvalidError, array, call, lib, made, path_of, pointer, read_only
+from ._library import OUT, Handle, InvalidError, array, call, lib, made, path_of, pointer, read_only, text_of
 from ._mesh import Mesh
 from ._records import Report, by_reference, options, report_record
 
@@ -84,6 +84,28 @@ class Surface(Handle):
     def domain(self) -> tuple[float, float, float, float]:
         """(u0, u1, v0, v1): where the surface is defined."""
         return self._box("planish_surface_domain")
+
+    @property
+    def name(self) -> str:
+        """What the surface is called, in copies and saved files too; empty without a name. Can be set."""
+        return text_of("planish_surface_name", self)
+
+    @name.setter
+    def name(self, name: str) -> None:
+        call("planish_surface_set_name", self, name.encode())
+
+    @property
+    def unit(self) -> str:
+        """What one unit is: "millimetre", "metre" or "inch". Can be set, which changes no number."""
+        number = lib.planish_surface_unit(self)
+        return next(word for word, of in _abi.ENUMERATIONS["planish_unit"].items() if of == number)
+
+    @unit.setter
+    def unit(self, unit: str) -> None:
+        units = _abi.ENUMERATIONS["planish_unit"]
+        if unit not in units:
+            raise InvalidError(f"unit is {unit!r}; the choices are {', '.join(map(repr, units))}")
+        call("planish_surface_set_unit", self, units[unit])
 
     @property
     def box(self) -> np.ndarray:

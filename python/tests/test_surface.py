@@ -168,6 +168,17 @@ def test_a_surface_says_how_large_it_is():
         tube.is_closed("w")
 
 
+def test_name_and_unit_are_kept(spline, tmp_path):
+    assert (spline.name, spline.unit) == ("", "millimetre")
+    spline.name, spline.unit = "Flügel", "metre"
+    path = tmp_path / "wing.planish"
+    spline.save(path)
+    for same in (planish.load(path), copy.copy(spline), pickle.loads(pickle.dumps(spline))):
+        assert (same.name, same.unit) == ("Flügel", "metre")
+    with pytest.raises(ValueError):
+        spline.unit = "furlong"
+
+
 def test_a_closed_handle_is_told(spline):
     spline.close()
     with pytest.raises((ValueError, ctypes.ArgumentError), match="closed"):

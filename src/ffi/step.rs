@@ -88,7 +88,7 @@ record! {
     /// What a STEP file says beside the shape. Fill with planish_step_options_init(), then change what you need.
     /// Texts are UTF-8, end with a NUL and are borrowed.
     pub struct planish_step_options (planish_step_options_init) {
-        /// Name of the product; NULL (default) for "surface".
+        /// Name of the product; NULL (default) for the surface's, or "surface" if it has none.
         pub product: *const c_char,
         /// Who made it; NULL (default) for nobody.
         pub author: *const c_char,
@@ -110,7 +110,7 @@ record! {
         pub out_stage: *mut u32,
         /// A planish_step_schema; PLANISH_STEP_SCHEMA_AP214 (default).
         pub schema: u32 = planish_step_schema::Ap214 as u32,
-        /// A planish_unit, what one model unit is; PLANISH_UNIT_MILLIMETRE (default).
+        /// A planish_unit, what one model unit is; PLANISH_UNIT_MILLIMETRE (default) leaves it to the surface.
         pub unit: u32 = planish_unit::Millimetre as u32,
         /// Most control points of PLANISH_STEP_FORM_TENSOR. Default 4000000.
         pub max_coefficients: usize = FormOptions::default().max_coefficients,
@@ -145,7 +145,7 @@ impl planish_step_options {
         };
         Ok(StepOptions {
             schema: choice(self.schema, &[Schema::Ap214, Schema::Ap242], "schema")?,
-            unit: choice(self.unit, &[Unit::Millimetre, Unit::Metre, Unit::Inch], "unit")?,
+            unit: choice(self.unit, &Unit::ALL, "unit")?,
             product: or(self.product, "product", defaults.product)?,
             author: or(self.author, "author", defaults.author)?,
             organization: or(self.organization, "organization", defaults.organization)?,
@@ -192,7 +192,14 @@ pub unsafe extern "C" fn planish_surface_write_step(
         let surface = deref(surface, "surface")?.family()?;
         let path = text(path, "path")?;
         let given = self::options(options)?;
-        let (core, conversion) = (given.core()?, given.conversion()?);
+        let (mut core, conversion) = (given.core()?, given.conversion()?);
+        let label = &surface.as_surface().region().label;
+        if given.product.is_null() && !label.name.is_empty() {
+            core.product = &label.name;
+        }
+        if core.unit == Unit::default() {
+            core.unit = label.unit;
+        }
         let report = ReportOut::new(given.out_report)?;
         let written = with_control(given.thread_count, listener!(given), |control| -> Result<_, Error> {
             control.enter(Stage::Convert);

@@ -61,7 +61,7 @@ impl planish_surface {
         }
     }
 
-    fn any_mut(&mut self) -> &mut dyn Surface {
+    pub(super) fn any_mut(&mut self) -> &mut dyn Surface {
         match &mut self.0 {
             Family::Any(surface) => surface.as_surface_mut(),
             #[cfg(test)]

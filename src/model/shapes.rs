@@ -47,7 +47,7 @@ pub(crate) fn rectangle(min: f64, max: f64) -> Vec<DVec2> {
 
 pub(crate) fn trimmed(mut surface: TensorSurface, loops: Vec<Vec<DVec2>>) -> TensorSurface {
     let trims = Trims::new(loops, &surface.domain()).unwrap();
-    *surface.region_mut() = Region { data_box: None, trims };
+    *surface.region_mut() = Region { data_box: None, trims, ..Region::default() };
     surface
 }
 

@@ -12,6 +12,7 @@ mod differential;
 pub mod evaluate;
 pub mod g1;
 mod homogeneous;
+mod label;
 pub mod pht;
 mod region;
 mod rows_of_four;
@@ -21,6 +22,7 @@ pub mod tspline;
 pub use crate::geometry::Domain;
 pub use any::{AnySurface, ConvertError};
 pub use differential::{Curvatures, curvatures, normal, surface_gradient};
+pub use label::{Label, Unit};
 pub use region::{Region, TrimError, Trims};
 
 use crate::bezier::BezierPatch;

@@ -1,6 +1,7 @@
 //! What a surface knows of its data in the parameter plane: a box and boundary loops.
 
 use super::cut::{HalfPlane, cut};
+use super::label::Label;
 use crate::failure::{Classify, ErrorKind};
 use crate::geometry::Domain;
 use glam::DVec2;
@@ -166,13 +167,15 @@ impl Bands {
     }
 }
 
-/// What a surface knows of the data it was made from.
+/// What a surface knows of the data it was made from, and of itself.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Region {
     /// The box of the data's parameters; beyond it the surface is extrapolated. None: the whole domain.
     pub data_box: Option<Domain>,
     /// The boundary loops of the data.
     pub trims: Trims,
+    /// What the surface is called.
+    pub label: Label,
 }
 
 impl Region {
@@ -190,7 +193,7 @@ impl Region {
         }
         let data_box =
             self.data_box.map(|data| Domain { min: part.clamp(data.min), max: part.clamp(data.max) });
-        Self { data_box, trims: Trims { loops, bands: OnceLock::new() } }
+        Self { data_box, trims: Trims { loops, bands: OnceLock::new() }, label: self.label.clone() }
     }
 
     /// With other parameters for the same places.
@@ -198,7 +201,7 @@ impl Region {
         let data_box = self.data_box.map(|data| Domain::around([change(data.min), change(data.max)]));
         let mapped = |polyline: &Vec<DVec2>| polyline.iter().map(|&uv| change(uv)).collect();
         let loops = self.trims.loops.iter().map(mapped).collect();
-        Self { data_box, trims: Trims { loops, bands: OnceLock::new() } }
+        Self { data_box, trims: Trims { loops, bands: OnceLock::new() }, label: self.label.clone() }
     }
 }
 

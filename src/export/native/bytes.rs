@@ -2,7 +2,7 @@
 
 use super::{LoadError, MAGIC, VERSION};
 use crate::knots::KnotVector;
-use crate::surface::{Domain, Region, Trims};
+use crate::surface::{Domain, Label, Region, Trims, Unit};
 use glam::DVec2;
 
 /// Writes fields.
@@ -47,6 +47,13 @@ impl Writer {
         }
     }
 
+    pub(super) fn label(&mut self, label: &Label) {
+        self.count(label.unit as usize);
+        self.count(label.name.len());
+        self.bytes.extend(label.name.as_bytes());
+        self.bytes.resize(self.bytes.len().next_multiple_of(8), 0);
+    }
+
     /// The whole, with its checksum.
     pub(super) fn finish(mut self) -> Vec<u8> {
         let sum = crc32fast::hash(&self.bytes);
@@ -54,6 +61,11 @@ impl Writer {
         debug_assert_eq!(self.bytes.len(), self.size, "the family's size is wrong");
         self.bytes
     }
+}
+
+/// Bytes that [`Writer::label`] writes.
+pub(super) fn label_size(label: &Label) -> usize {
+    16 + label.name.len().next_multiple_of(8)
 }
 
 /// Bytes that [`Writer::region`] writes.
@@ -176,7 +188,26 @@ impl<'a> Reader<'a> {
             loops.push(numbers.chunks_exact(2).map(DVec2::from_slice).collect());
         }
         let trims = Trims::new(loops, domain).map_err(|error| self.wrong(error.to_string()))?;
-        Ok(Region { data_box, trims })
+        Ok(Region { data_box, trims, ..Region::default() })
+    }
+
+    /// What [`Writer::label`] wrote.
+    pub(super) fn label(&mut self) -> Result<Label, LoadError> {
+        let unit = self.count()?;
+        let unit = *Unit::ALL.get(unit).ok_or_else(|| self.wrong(format!("the unit {unit} is unknown")))?;
+        let count = self.count()?;
+        let padded = count.checked_next_multiple_of(8);
+        let Some(taken) = padded.and_then(|size| self.bytes.get(self.at..)?.get(..size)) else {
+            return Err(self.wrong(format!("a name of {count} bytes is announced, there are fewer")));
+        };
+        let (name, rest) = taken.split_at(count);
+        let Ok(name) = std::str::from_utf8(name) else { return Err(self.wrong("the name is not UTF-8")) };
+        if name.contains('\0') || rest.iter().any(|&byte| byte != 0) {
+            return Err(self.wrong("the name has a zero, or none behind it"));
+        }
+        let label = Label { name: name.to_owned(), unit };
+        self.at += taken.len();
+        Ok(label)
     }
 
     fn domain(&mut self) -> Result<Domain, LoadError> {

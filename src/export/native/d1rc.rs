@@ -22,10 +22,10 @@
 
 use super::bytes::{Reader, Writer, region_size};
 use super::{D1RC, LoadError, Save};
-use crate::surface::Surface;
 use crate::surface::d1rc::{
     Boundary, D1rcError, D1rcMode, D1rcOptions, D1rcSurface, Recipe, SharpRule, Space,
 };
+use crate::surface::{Label, Surface};
 use glam::DVec2;
 
 const MODES: [D1rcMode; 2] = [D1rcMode::Reproducing, D1rcMode::Paper];
@@ -36,6 +36,10 @@ const SHARP_RULES: [SharpRule; 4] =
 impl Save for D1rcSurface {
     fn file_kind(&self) -> u32 {
         D1RC
+    }
+
+    fn label(&self) -> Option<&Label> {
+        Some(&self.region().label)
     }
 
     fn content_size(&self) -> usize {

@@ -8,6 +8,9 @@
 //! 12      u32           kind: 0 tensor surface, 1 T-spline, 2 PHT-spline, 3 D1RC-spline, 16 curve, 17 model
 //! 16      u64           size of the whole in bytes
 //! 24                    what the family needs, see its module
+//! ...     u64           the unit of a surface: 0 millimetre, 1 metre, 2 inch \
+//!         u64           bytes of its name                               | if either is not as it is by default
+//!         bytes         the name in UTF-8, zeros to a multiple of 8     /
 //! end-8   u64           CRC-32 (IEEE 802.3) of all bytes before
 //! ```
 //! Each family has a module of its own here, with its layout, its [`Save`] and `read`.
@@ -24,9 +27,9 @@ use super::error::{ExportError, write_file};
 use crate::curve::Curve;
 use crate::failure::{Classify, ErrorKind};
 use crate::model::Model;
-use crate::surface::AnySurface;
-use bytes::Reader;
+use crate::surface::{AnySurface, Label};
 pub use bytes::Writer;
+use bytes::{Reader, label_size};
 use std::path::Path;
 
 /// A buffer or file is not what was saved.
@@ -98,6 +101,11 @@ pub trait Save {
 
     /// Adds what the family needs.
     fn write(&self, writer: &mut Writer);
+
+    /// What a surface is called.
+    fn label(&self) -> Option<&Label> {
+        None
+    }
 }
 
 impl AnySurface {
@@ -116,18 +124,26 @@ impl AnySurface {
 pub fn save<S: Save + ?Sized>(surface: &S) -> Vec<u8> {
     let mut writer = Writer::new(surface.file_kind(), save_size(surface));
     surface.write(&mut writer);
+    if let Some(label) = told_label(surface) {
+        writer.label(label);
+    }
     writer.finish()
 }
 
 /// How many bytes [`save`] makes.
 pub fn save_size<S: Save + ?Sized>(surface: &S) -> usize {
-    FRAME_SIZE + surface.content_size()
+    FRAME_SIZE + surface.content_size() + told_label(surface).map_or(0, label_size)
+}
+
+/// The label, if it says anything.
+fn told_label<S: Save + ?Sized>(surface: &S) -> Option<&Label> {
+    surface.label().filter(|label| **label != Label::default())
 }
 
 /// The surface that bytes of [`save`] hold.
 pub fn load(bytes: &[u8]) -> Result<AnySurface, LoadError> {
     let (kind, mut reader) = Reader::open(bytes)?;
-    let surface = match kind {
+    let mut surface = match kind {
         TENSOR => AnySurface::Tensor(tensor::read(&mut reader)?),
         PHT => AnySurface::Pht(pht::read(&mut reader)?),
         D1RC => AnySurface::D1rc(d1rc::read(&mut reader)?),
@@ -136,6 +152,9 @@ pub fn load(bytes: &[u8]) -> Result<AnySurface, LoadError> {
         MODEL => return Err(reader.wrong("this is a model, not a surface")),
         _ => return Err(reader.wrong(format!("the kind {kind} is unknown"))),
     };
+    if reader.end().is_err() {
+        surface.as_surface_mut().region_mut().label = reader.label()?;
+    }
     reader.end()?;
     Ok(surface)
 }

@@ -17,14 +17,18 @@
 
 use super::bytes::{Reader, Writer, region_size};
 use super::{LoadError, PHT, Save};
-use crate::surface::Surface;
 use crate::surface::pht::{PhtError, PhtSurface};
 use crate::surface::tensor::Axis;
+use crate::surface::{Label, Surface};
 use crate::tmesh::{Cell, TMesh};
 
 impl Save for PhtSurface {
     fn file_kind(&self) -> u32 {
         PHT
+    }
+
+    fn label(&self) -> Option<&Label> {
+        Some(&self.region().label)
     }
 
     fn content_size(&self) -> usize {

@@ -14,12 +14,16 @@
 
 use super::bytes::{Reader, Writer, region_size};
 use super::{LoadError, Save, TENSOR};
-use crate::surface::Surface;
 use crate::surface::tensor::{Axis, TensorSurface};
+use crate::surface::{Label, Surface};
 
 impl Save for TensorSurface {
     fn file_kind(&self) -> u32 {
         TENSOR
+    }
+
+    fn label(&self) -> Option<&Label> {
+        Some(&self.region().label)
     }
 
     fn content_size(&self) -> usize {

@@ -7,7 +7,7 @@ use crate::surface::d1rc::{D1rcOptions, D1rcSurface};
 use crate::surface::pht::PhtSurface;
 use crate::surface::tensor::TensorSurface;
 use crate::surface::tspline::TSplineSurface;
-use crate::surface::{Domain, Region, Surface, Trims};
+use crate::surface::{Domain, Region, Surface, Trims, Unit};
 use crate::tmesh::{Cell, TMesh};
 use glam::DVec2;
 
@@ -20,7 +20,7 @@ fn tensor() -> AnySurface {
     let triangle = [(0.1, 0.1), (0.9, 0.1), (0.5, 0.8)].map(|(u, v)| DVec2::new(u, v)).to_vec();
     let data = Domain { min: DVec2::splat(0.1), max: DVec2::splat(0.9) };
     let trims = Trims::new(vec![triangle], &surface.domain()).unwrap();
-    *surface.region_mut() = Region { data_box: Some(data), trims };
+    *surface.region_mut() = Region { data_box: Some(data), trims, ..Region::default() };
     AnySurface::Tensor(surface)
 }
 
@@ -35,7 +35,7 @@ fn tspline() -> AnySurface {
     let mut surface = TSplineSurface::new(knots_v, curves.collect()).unwrap();
     let triangle = [(0.1, 2.1), (0.9, 2.1), (0.5, 2.8)].map(|(u, v)| DVec2::new(u, v)).to_vec();
     let trims = Trims::new(vec![triangle], &surface.domain()).unwrap();
-    *surface.region_mut() = Region { data_box: Some(surface.domain()), trims };
+    *surface.region_mut() = Region { data_box: Some(surface.domain()), trims, ..Region::default() };
     AnySurface::TSpline(surface)
 }
 
@@ -179,4 +179,26 @@ fn models_are_saved_to_the_bit_and_damage_is_refused() {
             }
         }
     }
+}
+
+#[test]
+fn name_and_unit_come_back() {
+    for (name, unit) in [("", Unit::Inch), ("a", Unit::Millimetre), ("ein Flügel", Unit::Metre)] {
+        let mut surface = tensor();
+        surface.as_surface_mut().region_mut().label = Label { name: name.into(), unit };
+        let saved = save(surface.as_saved());
+        assert_eq!((saved.len(), saved.len() % 8), (save_size(surface.as_saved()), 0));
+        let loaded = load(&saved).unwrap();
+        assert_eq!(loaded.as_surface().region(), surface.as_surface().region());
+    }
+    // what is as it is by default is not told, and the label of a name is no surface's tail
+    assert_eq!(save_size(tensor().as_saved()), save(tensor().as_saved()).len());
+    let mut surface = tensor();
+    surface.as_surface_mut().region_mut().label.name = "name".into();
+    let mut saved = save(surface.as_saved());
+    let end = saved.len() - 8;
+    saved[end - 4] = 1; // behind the name
+    let sum = u64::from(crc32fast::hash(&saved[..end]));
+    saved[end..].copy_from_slice(&sum.to_le_bytes());
+    assert_eq!(load(&saved).unwrap_err().kind(), ErrorKind::Format);
 }

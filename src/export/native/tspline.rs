@@ -14,12 +14,16 @@
 use super::bytes::{Reader, Writer, region_size};
 use super::{LoadError, Save, TSPLINE};
 use crate::curve::Curve;
-use crate::surface::Surface;
 use crate::surface::tspline::{DEGREE, TSplineSurface};
+use crate::surface::{Label, Surface};
 
 impl Save for TSplineSurface {
     fn file_kind(&self) -> u32 {
         TSPLINE
+    }
+
+    fn label(&self) -> Option<&Label> {
+        Some(&self.region().label)
     }
 
     fn content_size(&self) -> usize {

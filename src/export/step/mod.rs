@@ -27,17 +27,7 @@ pub enum Schema {
     Ap242,
 }
 
-/// What one model unit is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Unit {
-    /// A millimetre.
-    #[default]
-    Millimetre,
-    /// A metre.
-    Metre,
-    /// An inch, 25.4 mm.
-    Inch,
-}
+pub use crate::surface::Unit;
 
 /// What a file says beside the shape.
 #[derive(Debug, Clone, Copy, PartialEq)]

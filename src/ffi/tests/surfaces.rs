@@ -45,6 +45,25 @@ fn a_flag_cancels_and_a_stage_is_shown() {
 }
 
 #[test]
+fn name_and_unit_are_refused_by_name() {
+    let surface = SurfaceHandle::saddle();
+    // SAFETY: the handle is alive, the texts end with a NUL.
+    unsafe {
+        ok(planish_surface_set_name(surface.0, c"part".as_ptr()));
+        ok(planish_surface_set_unit(surface.0, 2));
+        assert_eq!((planish_surface_name(surface.0, null_mut(), 0), planish_surface_unit(surface.0)), (4, 2));
+        null_refused(planish_surface_set_name(null_mut(), c"part".as_ptr()), "surface");
+        null_refused(planish_surface_set_name(surface.0, null()), "name");
+        let status = planish_surface_set_name(surface.0, c"\xff".as_ptr());
+        refused(status, planish_status::InvalidArgument, -1, &["name is not UTF-8"]);
+        null_refused(planish_surface_set_unit(null_mut(), 0), "surface");
+        let status = planish_surface_set_unit(surface.0, 3);
+        refused(status, planish_status::InvalidArgument, -1, &["unit is 3"]);
+        assert_eq!((planish_surface_name(surface.0, null_mut(), 0), planish_surface_unit(surface.0)), (4, 2));
+    }
+}
+
+#[test]
 fn headers_of_other_versions_are_refused() {
     ok(planish_check_version(0, 1));
     refused(planish_check_version(0, 2), planish_status::Version, -1, &["0.2", "0.1.0"]);

@@ -165,7 +165,8 @@ impl FieldFitter {
         let knots = [knots(&grid[0], 'u')?, knots(&grid[1], 'v')?];
         let ((u0, u1), (v0, v1)) = (knots[0].domain(), knots[1].domain());
         let domain = Domain { min: DVec2::new(u0, v0), max: DVec2::new(u1, v1) };
-        let region = Region { data_box: Some(data_box), trims: trims(mesh, &uv, &domain) };
+        let region =
+            Region { data_box: Some(data_box), trims: trims(mesh, &uv, &domain), ..Region::default() };
         Ok(Self {
             uv,
             known,

@@ -243,7 +243,7 @@ impl<'a> Refinement<'a> {
         let (data, pool) = (&self.data, control.pool());
         let trims = trims(data.mesh, &data.uv, &surface.domain());
         let empty_cell_count = self.empty_cell_count(&surface, &trims);
-        *surface.region_mut() = Region { data_box: Some(data.data_box), trims };
+        *surface.region_mut() = Region { data_box: Some(data.data_box), trims, ..Region::default() };
         let mesh = surface.mesh();
         let measures_distance = self.options.measure_distance && (data.mesh.is_none() || data.is_shape);
         let mut report = FitReport {

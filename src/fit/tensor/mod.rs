@@ -162,6 +162,6 @@ impl<'a> Problem<'a> {
     }
 
     fn region(&self) -> Region {
-        Region { data_box: Some(self.data_box), trims: Trims::default() }
+        Region { data_box: Some(self.data_box), ..Region::default() }
     }
 }

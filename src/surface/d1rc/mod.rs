@@ -105,7 +105,7 @@ impl D1rcSurface {
             control_points,
             coefficients: vec![0.0; dim * space.configurations.len()],
             dependents: Arc::new(Lists::new(space.vertex_count(), pairs.iter().copied())),
-            region: Region { data_box: None, trims: trims(&space) },
+            region: Region { data_box: None, trims: trims(&space), ..Region::default() },
             space: Arc::new(space),
         };
         (0..surface.space.configurations.len()).for_each(|function| surface.update(function));

@@ -154,7 +154,7 @@ mod tests {
             |a: f64, b: f64| [(a, a), (b, a), (b, b), (a, b)].map(|(u, v)| DVec2::new(u, v)).to_vec();
         let data_box = Domain { min: DVec2::splat(0.1), max: DVec2::splat(1.9) };
         let trims = Trims::new(vec![square(0.1, 1.9), square(0.5, 1.5)], &surface.domain()).unwrap();
-        surface.with_region(Region { data_box: Some(data_box), trims })
+        surface.with_region(Region { data_box: Some(data_box), trims, ..Region::default() })
     }
 
     /// The parameters in `of` that random places of `part` have there.

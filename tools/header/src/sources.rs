@@ -24,6 +24,7 @@ const ORDER: &[&str] = &[
     "query.rs",
     "rows.rs",
     "extent.rs",
+    "label.rs",
     "export.rs",
     "step.rs",
     "report_page.rs",
