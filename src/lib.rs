@@ -19,6 +19,7 @@
 //! The tree is the architecture; arrows run downwards only, a module knows what stands above it:
 //!
 //! * [`error`], [`control`]: what can go wrong; threads, progress and cancelling.
+//! * [`file`], [`memory`]: files read and written as a whole, and how much of them there is room for.
 //! * [`geometry`]: boxes, exact predicates.
 //! * [`knots`], [`basis`], [`refinement`], [`bezier`], [`hermite`]: one-dimensional building blocks, and patches
 //!   made of them.
@@ -47,6 +48,7 @@ pub mod error;
 pub mod export;
 pub mod failure;
 pub mod ffi;
+pub mod file;
 pub mod fit;
 pub mod geometry;
 pub mod hermite;
@@ -54,6 +56,7 @@ pub mod knots;
 pub mod layout;
 pub mod linalg;
 pub mod lists;
+pub mod memory;
 pub mod mesh;
 pub mod model;
 mod options;

@@ -8,7 +8,8 @@
 //! Positions are 32-bit floats about the mesh's centre, which a translation puts back: a part far from the origin
 //! keeps its digits.
 
-use super::error::{ExportError, write_file};
+use super::error::ExportError;
+use crate::file;
 use crate::mesh::Mesh;
 use glam::DVec3;
 use std::path::Path;
@@ -32,7 +33,7 @@ pub fn write(mesh: &Mesh, colours: Option<Colours>, path: &Path) -> Result<(), E
     if let Some(Colours { values, .. }) = colours.filter(|colours| colours.values.len() != expected) {
         return Err(ExportError::Count { name: "values".to_owned(), count: values.len(), expected });
     }
-    write_file(path, &bytes(mesh, colours))
+    Ok(file::write(path, &bytes(mesh, colours))?)
 }
 
 /// A part of the binary chunk, as the JSON describes it.

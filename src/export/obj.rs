@@ -1,13 +1,14 @@
 //! Wavefront OBJ: nodes, parameters as `vt`, triangles.
 
-use super::error::{ExportError, write_file};
+use super::error::ExportError;
+use crate::file;
 use crate::mesh::Mesh;
 use std::fmt::Write;
 use std::path::Path;
 
 /// Writes a mesh; numbers read back to the same bits.
 pub fn write(mesh: &Mesh, path: &Path) -> Result<(), ExportError> {
-    write_file(path, text(mesh).as_bytes())
+    Ok(file::write(path, text(mesh).as_bytes())?)
 }
 
 fn text(mesh: &Mesh) -> String {

@@ -7,7 +7,8 @@
 mod measured;
 mod summary;
 
-use super::error::{ExportError, write_file};
+use super::error::ExportError;
+use crate::file;
 use crate::mesh::Mesh;
 use crate::surface::ControlNet;
 use base64::Engine;
@@ -50,7 +51,7 @@ pub struct Page<'a> {
 
 /// Writes the page.
 pub fn write(page: &Page, path: &Path) -> Result<(), ExportError> {
-    write_file(path, text(page)?.as_bytes())
+    Ok(file::write(path, text(page)?.as_bytes())?)
 }
 
 /// The page as one text.

@@ -23,9 +23,11 @@ mod pht;
 mod tensor;
 mod tspline;
 
-use super::error::{ExportError, write_file};
+use super::error::ExportError;
 use crate::curve::Curve;
 use crate::failure::{Classify, ErrorKind};
+use crate::file::{self, FileError};
+use crate::memory;
 use crate::model::Model;
 use crate::surface::{AnySurface, Label};
 pub use bytes::Writer;
@@ -36,13 +38,8 @@ use std::path::Path;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LoadError {
     /// The file cannot be read.
-    #[error("cannot read {path}: {reason}")]
-    File {
-        /// The file.
-        path: String,
-        /// What the system said.
-        reason: String,
-    },
+    #[error(transparent)]
+    File(#[from] FileError),
     /// The bytes are not what they claim to be.
     #[error("not a saved surface, curve or model: byte {byte}: {problem}")]
     Format {
@@ -62,7 +59,7 @@ pub enum LoadError {
 impl Classify for LoadError {
     fn kind(&self) -> ErrorKind {
         match self {
-            Self::File { .. } => ErrorKind::File,
+            Self::File(error) => error.kind(),
             Self::Format { .. } => ErrorKind::Format,
             Self::Version { .. } => ErrorKind::Version,
         }
@@ -210,7 +207,7 @@ pub fn load_model(bytes: &[u8]) -> Result<Model, LoadError> {
 
 /// Saves to a file.
 pub fn save_file<S: Save + ?Sized>(surface: &S, path: &Path) -> Result<(), ExportError> {
-    write_file(path, &save(surface))
+    Ok(file::write(path, &save(surface))?)
 }
 
 /// Loads from a file.
@@ -229,11 +226,7 @@ pub fn load_model_file(path: &Path) -> Result<Model, LoadError> {
 }
 
 fn read_file(path: &Path) -> Result<Vec<u8>, LoadError> {
-    let fail = |error: std::io::Error| LoadError::File {
-        path: path.display().to_string(),
-        reason: error.to_string(),
-    };
-    std::fs::read(path).map_err(fail)
+    Ok(file::read(path, memory::limit(0))?)
 }
 
 #[cfg(test)]

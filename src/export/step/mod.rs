@@ -11,8 +11,9 @@ mod net;
 mod part21;
 mod write;
 
-use super::error::{ExportError, write_file};
+use super::error::ExportError;
 use crate::failure::{Classify, ErrorKind};
+use crate::file;
 use crate::model::{CURVE_TOLERANCE, Model};
 use crate::surface::tensor::TensorError;
 use std::path::Path;
@@ -106,7 +107,7 @@ const UNCERTAINTY_MARGIN: f64 = 2.0;
 /// Writes a model; the file appears whole or not at all.
 pub fn write(model: &Model, options: &StepOptions, path: &Path) -> Result<StepReport, StepError> {
     let (text, report) = to_text(model, options)?;
-    write_file(path, text.as_bytes())?;
+    file::write(path, text.as_bytes()).map_err(ExportError::from)?;
     Ok(report)
 }
 

@@ -13,7 +13,8 @@
 
 use super::grid::{self, Grid};
 use crate::bezier::BezierPatch;
-use crate::export::error::{ExportError, write_file};
+use crate::export::error::ExportError;
+use crate::file;
 use crate::surface::Patches;
 use std::path::Path;
 
@@ -58,7 +59,7 @@ pub fn write_patches(patches: &dyn Patches, path: &Path) -> Result<(), ExportErr
             first..next
         }),
     );
-    write_file(path, &grid.finish())
+    Ok(file::write(path, &grid.finish())?)
 }
 
 /// The ordinates of a patch, whose v runs fastest, in the order of a cell.

@@ -7,7 +7,8 @@ mod grid;
 
 pub use bezier::write_patches;
 
-use super::error::{ExportError, write_file};
+use super::error::ExportError;
+use crate::file;
 use crate::control::Pool;
 use crate::failure::{Classify, ErrorKind};
 use crate::mesh::{Mesh, MeshError};
@@ -105,7 +106,7 @@ fn write_triangles(
     }
     grid.section("Points", "", |grid| grid.doubles("points", 3, &points));
     grid.cells(grid::TRIANGLE, triangles.iter().map(|nodes| nodes.map(i64::from)));
-    write_file(path, &grid.finish())
+    Ok(file::write(path, &grid.finish())?)
 }
 
 /// What a picture of a surface shows.
@@ -155,13 +156,17 @@ pub fn write_model(
     Ok(write_mesh(&moved, &[deviation], path)?)
 }
 
-/// A mesh with its nodes on a surface in space, at these parameters.
+/// A mesh with its nodes on a surface in space, at these parameters. Nodes without triangles stay where they are.
 pub fn on_surface(surface: &dyn Surface, mesh: &Mesh, uv: &[DVec2]) -> Result<Mesh, MeshError> {
+    let some_place = uv[mesh.triangles()[0][0] as usize];
+    let is_used = |node: usize| mesh.is_used(node as u32);
+    let uv: Vec<DVec2> =
+        uv.iter().enumerate().map(|(node, &uv)| if is_used(node) { uv } else { some_place }).collect();
     let mut rows = vec![0.0; 3 * uv.len()];
-    surface.eval_rows(uv, 0, &mut rows);
-    let points = rows.chunks_exact(3).map(DVec3::from_slice).collect();
-    let mut moved = Mesh::new(points, mesh.triangles().to_vec())?;
-    moved.set_parameters(uv.to_vec())?;
+    surface.eval_rows(&uv, 0, &mut rows);
+    let place = |(node, row)| if is_used(node) { DVec3::from_slice(row) } else { mesh.points()[node] };
+    let mut moved = Mesh::new(rows.chunks_exact(3).enumerate().map(place).collect(), mesh.triangles().to_vec())?;
+    moved.set_parameters(uv)?;
     Ok(moved)
 }
 
@@ -176,5 +181,5 @@ pub fn write_control_net(net: &ControlNet, path: &Path) -> Result<(), ExportErro
     });
     grid.section("Points", "", |grid| grid.doubles("points", 3, &points));
     grid.cells(grid::POLY_LINE, net.lines.iter().map(|line| line.iter().map(|&point| i64::from(point))));
-    write_file(path, &grid.finish())
+    Ok(file::write(path, &grid.finish())?)
 }
