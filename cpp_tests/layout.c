@@ -23,15 +23,33 @@ FOLLOWS(planish_mesh_options, weld_distance, out_repairs);
 FOLLOWS(planish_mesh_options, out_repairs, out_node_map);
 FOLLOWS(planish_mesh_options, out_node_map, orient);
 FOLLOWS(planish_mesh_options, orient, index_base);
-LAST(planish_mesh_options, index_base);
+FOLLOWS(planish_mesh_options, index_base, face_sizes);
+FOLLOWS(planish_mesh_options, face_sizes, max_memory);
+FOLLOWS(planish_mesh_options, max_memory, repair);
+FOLLOWS(planish_mesh_options, repair, components);
+FOLLOWS(planish_mesh_options, components, component);
+FOLLOWS(planish_mesh_options, component, format);
+FOLLOWS(planish_mesh_options, format, corner_count);
+FOLLOWS(planish_mesh_options, corner_count, reserved);
+LAST(planish_mesh_options, reserved);
+
+FIRST(planish_mesh_write_options);
+FOLLOWS(planish_mesh_write_options, struct_size, format);
+FOLLOWS(planish_mesh_write_options, format, text);
+LAST(planish_mesh_write_options, text);
 
 FIRST(planish_mesh_repairs);
 FOLLOWS(planish_mesh_repairs, struct_size, welded_node_count);
 FOLLOWS(planish_mesh_repairs, welded_node_count, dropped_triangle_count);
 FOLLOWS(planish_mesh_repairs, dropped_triangle_count, flipped_triangle_count);
 FOLLOWS(planish_mesh_repairs, flipped_triangle_count, dropped_parameters);
-FOLLOWS(planish_mesh_repairs, dropped_parameters, reserved);
-LAST(planish_mesh_repairs, reserved);
+FOLLOWS(planish_mesh_repairs, dropped_parameters, missing_end);
+FOLLOWS(planish_mesh_repairs, missing_end, unused_node_count);
+FOLLOWS(planish_mesh_repairs, unused_node_count, split_node_count);
+FOLLOWS(planish_mesh_repairs, split_node_count, duplicate_triangle_count);
+FOLLOWS(planish_mesh_repairs, duplicate_triangle_count, parted_edge_count);
+FOLLOWS(planish_mesh_repairs, parted_edge_count, excluded_triangle_count);
+LAST(planish_mesh_repairs, excluded_triangle_count);
 
 FIRST(planish_decimate_options);
 FOLLOWS(planish_decimate_options, struct_size, target_count);

@@ -40,9 +40,10 @@ static Mesh tetrahedron() { return make({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, {0
 
 // planish_mesh_new refuses the arrays and leaves the handle alone.
 static void check_refused(const std::vector<double> &points, const std::vector<std::uint32_t> &triangles,
-                          planish_status status, long long index, const char *words) {
+                          planish_status status, long long index, const char *words,
+                          const planish_mesh_options *options = nullptr) {
   planish_mesh *mesh = sentinel<planish_mesh>();
-  CHECK_FAILS(planish_mesh_new(points.data(), points.size() / 3, triangles.data(), triangles.size() / 3, nullptr,
+  CHECK_FAILS(planish_mesh_new(points.data(), points.size() / 3, triangles.data(), triangles.size() / 3, options,
                                &mesh),
               status, index, words);
   CHECK(mesh == sentinel<planish_mesh>());
@@ -164,16 +165,17 @@ TEST(MeshNew, WeldsAndSaysSo) {
   CHECK_EQUAL(repairs.welded_node_count, 2u);
   CHECK_EQUAL(repairs.dropped_triangle_count, 0u);
   CHECK_EQUAL(repairs.flipped_triangle_count, 0u);
-  CHECK_EQUAL(repairs.reserved, 0u);
+  CHECK_EQUAL(repairs.missing_end, 0u);
   CHECK(node_map[3] == node_map[0] && node_map[4] == node_map[2] && node_map[5] < 4);
 }
 
-TEST(MeshNew, OrientsOnRequestOnly) {
+TEST(MeshNew, OrientsUnlessToldNotTo) {
   const std::vector<double> points(square_points, square_points + 12);
   const std::vector<std::uint32_t> turned = {0, 1, 2, 0, 3, 2};
-  check_refused(points, turned, PLANISH_STATUS_TOPOLOGY, 1, "same direction");
   planish_mesh_options options = mesh_options();
-  options.orient = 1;
+  options.repair = PLANISH_MESH_REPAIR_NONE;
+  check_refused(points, turned, PLANISH_STATUS_TOPOLOGY, 1, "same direction", &options);
+  options.orient = 1; // whatever repair says
   auto repairs = fresh<planish_mesh_repairs>();
   options.out_repairs = &repairs;
   planish_mesh *raw = nullptr;
@@ -185,11 +187,13 @@ TEST(MeshNew, OrientsOnRequestOnly) {
 TEST(MeshNew, RefusesByName) {
   const std::vector<double> points(square_points, square_points + 12);
   const std::vector<std::uint32_t> triangles(square_triangles, square_triangles + 6);
+  planish_mesh_options none = mesh_options();
+  none.repair = PLANISH_MESH_REPAIR_NONE;
   check_refused({0, 0, 0, 1, 0, 0, nan_, 1, 0, 0, 1, 0}, triangles, PLANISH_STATUS_NOT_FINITE, 2, "node 2");
   check_refused({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, -HUGE_VAL}, triangles, PLANISH_STATUS_NOT_FINITE, 3, "node 3");
   check_refused(points, {0, 1, 2, 0, 2, 7}, PLANISH_STATUS_INDEX, 1, "refers to node 7");
-  check_refused(points, {0, 1, 2, 0, 3, 3}, PLANISH_STATUS_DEGENERATE, 1, "node 3 twice");
-  check_refused(points, {0, 1, 2, 2, 0, 1}, PLANISH_STATUS_TOPOLOGY, 1, "same nodes as triangle 0");
+  check_refused(points, {0, 1, 2, 0, 3, 3}, PLANISH_STATUS_DEGENERATE, 1, "node 3 twice", &none);
+  check_refused(points, {0, 1, 2, 2, 0, 1}, PLANISH_STATUS_TOPOLOGY, 1, "same nodes as triangle 0", &none);
   check_refused({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0}, {0, 1, 2, 1, 0, 3, 0, 1, 4}, PLANISH_STATUS_TOPOLOGY, 0,
                 "between nodes 0 and 1 has 3 triangles");
 }
@@ -215,6 +219,123 @@ TEST(MeshNew, RefusesOptionsOutOfRange) {
   options = mesh_options();
   options.weld_distance = 100;
   refuse(options, PLANISH_STATUS_DEGENERATE, "over the distance 100");
+}
+
+TEST(MeshNew, MendsAndSaysSo) {
+  // two triangles that touch in node 2, the second twice, a node that nobody needs, and a triangle of two nodes
+  const double points[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 2, 1, 0, 2, 2, 0, nan_, 0, 0};
+  const std::uint32_t triangles[] = {0, 1, 2, 2, 3, 4, 3, 4, 2, 0, 1, 1};
+  planish_mesh_options options = mesh_options();
+  auto repairs = fresh<planish_mesh_repairs>();
+  options.out_repairs = &repairs;
+  planish_mesh *raw = nullptr;
+  CHECK(planish_mesh_new(points, 6, triangles, 4, &options, &raw) == PLANISH_STATUS_INPUT_REPAIRED);
+  const Mesh mesh(raw);
+  CHECK_EQUAL(repairs.unused_node_count, 1u);
+  CHECK_EQUAL(repairs.split_node_count, 1u);
+  CHECK_EQUAL(repairs.duplicate_triangle_count, 1u);
+  CHECK_EQUAL(repairs.dropped_triangle_count, 1u);
+  CHECK_EQUAL(repairs.parted_edge_count, 0u);
+  CHECK_EQUAL(repairs.excluded_triangle_count, 0u);
+  std::uint32_t nodes[7], faces[2];
+  CHECK(planish_mesh_copy_node_map(mesh.get(), nodes, 7) == PLANISH_STATUS_OK);
+  CHECK(planish_mesh_copy_triangle_map(mesh.get(), faces, 2) == PLANISH_STATUS_OK);
+  for (std::uint32_t i = 0; i < 6; ++i) CHECK_EQUAL(nodes[i], i);
+  CHECK(nodes[6] == 2 && faces[0] == 0 && faces[1] == 1);
+}
+
+TEST(MeshNew, RefusesOneByOneWhatIsNotMended) {
+  const struct {
+    std::uint32_t repair;
+    planish_status status;
+    const char *words;
+  } cases[] = {{PLANISH_MESH_REPAIR_REPEATED_CORNERS, PLANISH_STATUS_DEGENERATE, "'corners'"},
+               {PLANISH_MESH_REPAIR_DUPLICATE_TRIANGLES, PLANISH_STATUS_TOPOLOGY, "'copies'"},
+               {PLANISH_MESH_REPAIR_UNUSED_NODES, PLANISH_STATUS_TOPOLOGY, "'unused'"},
+               {PLANISH_MESH_REPAIR_TOUCHING_NODES, PLANISH_STATUS_TOPOLOGY, "'touching'"},
+               {PLANISH_MESH_REPAIR_SHEETS, PLANISH_STATUS_TOPOLOGY, "'sheets'"}};
+  const double points[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 2, 1, 0, 2, 2, 0, 9, 0, 0, 0, 0, 1, 0, 0, 2};
+  const std::uint32_t triangles[] = {0, 1, 2, 2, 3, 4, 3, 4, 2, 0, 1, 1, 0, 1, 6, 0, 1, 7};
+  planish_mesh *mesh = sentinel<planish_mesh>();
+  planish_mesh_options options = mesh_options();
+  for (const auto &each : cases) {
+    options.repair = PLANISH_MESH_REPAIR_ALL - each.repair;
+    CHECK(planish_mesh_new(points, 8, triangles, 6, &options, &mesh) == each.status);
+    char text[256];
+    planish_error_message(text, sizeof text);
+    CHECK(std::strstr(text, each.words) != nullptr);
+    CHECK(mesh == sentinel<planish_mesh>());
+  }
+  options.repair = PLANISH_MESH_REPAIR_ALL;
+  CHECK(planish_mesh_new(points, 8, triangles, 6, &options, &mesh) == PLANISH_STATUS_INPUT_REPAIRED);
+  planish_mesh_free(mesh);
+  mesh = sentinel<planish_mesh>();
+  options.repair = 2 * PLANISH_MESH_REPAIR_SHEETS;
+  CHECK_FAILS(planish_mesh_new(points, 8, triangles, 6, &options, &mesh), PLANISH_STATUS_INVALID_ARGUMENT, -1,
+              "repair is 128");
+}
+
+TEST(MeshNew, TakesOneComponent) {
+  const double points[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 5, 0, 0, 6, 0, 0, 6, 1, 0};
+  const std::uint32_t triangles[] = {4, 5, 6, 0, 1, 2, 0, 2, 3};
+  planish_mesh_options options = mesh_options();
+  auto repairs = fresh<planish_mesh_repairs>();
+  options.out_repairs = &repairs;
+  options.components = PLANISH_MESH_COMPONENTS_LARGEST;
+  planish_mesh *raw = nullptr;
+  CHECK(planish_mesh_new(points, 7, triangles, 3, &options, &raw) == PLANISH_STATUS_OK);
+  Mesh mesh(raw);
+  CHECK_EQUAL(planish_mesh_triangle_count(mesh.get()), 2u);
+  CHECK_EQUAL(planish_mesh_point_count(mesh.get()), 7u);
+  CHECK_EQUAL(repairs.excluded_triangle_count, 1u);
+  options.components = PLANISH_MESH_COMPONENTS_ONE;
+  CHECK(planish_mesh_new(points, 7, triangles, 3, &options, &raw) == PLANISH_STATUS_OK);
+  mesh.reset(raw);
+  CHECK_EQUAL(planish_mesh_triangle_count(mesh.get()), 1u);
+  raw = sentinel<planish_mesh>();
+  options.component = 2;
+  CHECK_FAILS(planish_mesh_new(points, 7, triangles, 3, &options, &raw), PLANISH_STATUS_INDEX, 2, "no component 2");
+  options.components = 3;
+  CHECK_FAILS(planish_mesh_new(points, 7, triangles, 3, &options, &raw), PLANISH_STATUS_INVALID_ARGUMENT, -1,
+              "components is 3");
+}
+
+TEST(MeshNew, TakesQuadsAndPolygons) {
+  const std::uint32_t quad[] = {0, 1, 2, 3};
+  planish_mesh_options options = mesh_options();
+  options.corner_count = 4;
+  planish_mesh *raw = nullptr;
+  CHECK(planish_mesh_new(square_points, 4, quad, 1, &options, &raw) == PLANISH_STATUS_OK);
+  Mesh mesh(raw);
+  CHECK_EQUAL(planish_mesh_triangle_count(mesh.get()), 2u);
+  std::uint32_t faces[2];
+  CHECK(planish_mesh_copy_triangle_map(mesh.get(), faces, 2) == PLANISH_STATUS_OK);
+  CHECK(faces[0] == 0 && faces[1] == 0);
+
+  const double points[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0.5, 0};
+  const std::uint32_t corners[] = {1, 2, 3, 4, 2, 5, 3}, sizes[] = {4, 3};
+  options = mesh_options();
+  options.face_sizes = sizes;
+  options.index_base = 1;
+  CHECK(planish_mesh_new(points, 5, corners, 2, &options, &raw) == PLANISH_STATUS_OK);
+  mesh.reset(raw);
+  CHECK_EQUAL(planish_mesh_triangle_count(mesh.get()), 3u);
+
+  raw = sentinel<planish_mesh>();
+  const std::uint32_t small[] = {4, 2};
+  options.face_sizes = small;
+  const auto invalid = PLANISH_STATUS_INVALID_ARGUMENT;
+  CHECK_FAILS(planish_mesh_new(points, 5, corners, 2, &options, &raw), invalid, -1, "face 1 has 2 corners");
+  options.face_sizes = sizes;
+  options.triangle_stride = 4;
+  CHECK_FAILS(planish_mesh_new(points, 5, corners, 2, &options, &raw), invalid, -1, "triangle_stride is 4");
+  options = mesh_options();
+  options.corner_count = 2;
+  CHECK_FAILS(planish_mesh_new(points, 5, corners, 2, &options, &raw), invalid, -1, "2 corners");
+  options.corner_count = 4;
+  const std::uint32_t far[] = {0, 1, 2, 9};
+  CHECK_FAILS(planish_mesh_new(points, 5, far, 1, &options, &raw), PLANISH_STATUS_INDEX, 0, "node 9");
+  CHECK(raw == sentinel<planish_mesh>());
 }
 
 TEST(MeshNew, RefusesNullAndNothing) {
@@ -340,13 +461,113 @@ TEST(MeshRead, RefusesByName) {
   CHECK_FAILS(planish_mesh_read(alien.path(), nullptr, &mesh), PLANISH_STATUS_FORMAT, -1, "none of OFF");
   CHECK_FAILS(planish_mesh_read(nullptr, nullptr, &mesh), PLANISH_STATUS_NULL_POINTER, -1, "path is NULL");
   CHECK_FAILS(planish_mesh_read(cut.path(), nullptr, nullptr), PLANISH_STATUS_NULL_POINTER, -1, "out_mesh is NULL");
-  CHECK_FAILS(planish_mesh_read("\xff.off", nullptr, &mesh), PLANISH_STATUS_INVALID_ARGUMENT, 0, "not UTF-8");
+#ifndef _WIN32
+  CHECK_FAILS(planish_mesh_read("\xff.off", nullptr, &mesh), PLANISH_STATUS_FILE, -1, "cannot read"); // any bytes
+#endif
+  CHECK_FAILS(planish_mesh_read("/dev/zero", nullptr, &mesh), PLANISH_STATUS_FILE, -1, "/dev/zero");
+  planish_mesh_options small = mesh_options();
+  small.max_memory = 10;
+  CHECK_FAILS(planish_mesh_read(cut.path(), &small, &mesh), PLANISH_STATUS_TOO_LARGE, -1, "more than the 10 bytes");
+  const scratch cloud("cloud.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n");
+  CHECK_FAILS(planish_mesh_read(cloud.path(), nullptr, &mesh), PLANISH_STATUS_INVALID_ARGUMENT, -1,
+              "3 points but no triangles");
   planish_mesh_options options = mesh_options();
   std::uint32_t node_map = 7;
   options.out_node_map = &node_map;
   CHECK_FAILS(planish_mesh_read(cut.path(), &options, &mesh), PLANISH_STATUS_INVALID_ARGUMENT, -1, "out_node_map");
   CHECK_EQUAL(node_map, 7u);
   CHECK(mesh == sentinel<planish_mesh>());
+}
+
+TEST(MeshReadBuffer, TakesWhatTheContentSays) {
+  const std::string text = "OFF 4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n";
+  planish_mesh *raw = nullptr;
+  CHECK(planish_mesh_read_buffer(text.data(), text.size(), nullptr, &raw) == PLANISH_STATUS_OK);
+  const Mesh mesh(raw);
+  CHECK_EQUAL(planish_mesh_triangle_count(mesh.get()), 2u);
+  raw = sentinel<planish_mesh>();
+  planish_mesh_options options = mesh_options();
+  options.format = PLANISH_MESH_FORMAT_PLY;
+  CHECK_FAILS(planish_mesh_read_buffer(text.data(), text.size(), &options, &raw), PLANISH_STATUS_FORMAT, 0, "'ply'");
+  options.format = 5;
+  CHECK_FAILS(planish_mesh_read_buffer(text.data(), text.size(), &options, &raw), PLANISH_STATUS_INVALID_ARGUMENT, -1,
+              "format is 5");
+  CHECK_FAILS(planish_mesh_read_buffer("what", 4, nullptr, &raw), PLANISH_STATUS_FORMAT, -1, "none of OFF");
+  CHECK_FAILS(planish_mesh_read_buffer(nullptr, 4, nullptr, &raw), PLANISH_STATUS_NULL_POINTER, -1, "buffer is NULL");
+  CHECK_FAILS(planish_mesh_read_buffer(nullptr, 0, nullptr, &raw), PLANISH_STATUS_FORMAT, -1, "none of OFF");
+  CHECK_FAILS(planish_mesh_read_buffer(text.data(), text.size(), nullptr, nullptr), PLANISH_STATUS_NULL_POINTER, -1,
+              "out_mesh is NULL");
+  CHECK(raw == sentinel<planish_mesh>());
+}
+
+TEST(MeshWrite, ReadsBack) {
+  const Mesh mesh = square();
+  const double field[4] = {0.1, nan_, 3, 4}, uv[8] = {0, 0, 1, 0, 1, 1, 0, 1};
+  CHECK(planish_mesh_set_field(mesh.get(), "p", field, 4) == PLANISH_STATUS_OK);
+  CHECK(planish_mesh_set_parameters(mesh.get(), uv, 4) == PLANISH_STATUS_OK);
+  for (const char *name : {"written.off", "written.obj", "written.ply", "written.stl"}) {
+    const scratch file(name, "old");
+    for (std::uint32_t text = 0; text < 2; ++text) {
+      planish_mesh_write_options options;
+      CHECK(planish_mesh_write_options_init(&options, sizeof options) == PLANISH_STATUS_OK);
+      options.text = text;
+      CHECK(planish_mesh_write(mesh.get(), file.path(), &options) == PLANISH_STATUS_OK);
+      planish_mesh *raw = nullptr;
+      CHECK(planish_mesh_read(file.path(), nullptr, &raw) >= 0);
+      const Mesh read(raw);
+      CHECK_EQUAL(planish_mesh_triangle_count(read.get()), 2u);
+      CHECK_EQUAL(planish_mesh_point_count(read.get()), 4u);
+      const bool is_stl = std::strstr(name, "stl") != nullptr, is_ply = std::strstr(name, "ply") != nullptr;
+      CHECK_EQUAL(planish_mesh_has_parameters(read.get()), is_stl ? 0u : 1u);
+      CHECK_EQUAL(planish_mesh_field_count(read.get()), is_ply ? 1u : 0u);
+    }
+  }
+  CHECK_FAILS(planish_mesh_write(mesh.get(), "what.xyz", nullptr), PLANISH_STATUS_INVALID_ARGUMENT, -1, "what.xyz");
+  CHECK_FAILS(planish_mesh_write(mesh.get(), "no/such/folder/a.off", nullptr), PLANISH_STATUS_FILE, -1, "no/such");
+  CHECK_FAILS(planish_mesh_write(nullptr, "a.off", nullptr), PLANISH_STATUS_NULL_POINTER, -1, "mesh is NULL");
+  CHECK_FAILS(planish_mesh_write(mesh.get(), nullptr, nullptr), PLANISH_STATUS_NULL_POINTER, -1, "path is NULL");
+  planish_mesh_write_options options;
+  CHECK_FAILS(planish_mesh_write_options_init(nullptr, sizeof options), PLANISH_STATUS_NULL_POINTER, -1, "options");
+  CHECK(planish_mesh_write_options_init(&options, sizeof options) == PLANISH_STATUS_OK);
+  options.text = 2;
+  CHECK_FAILS(planish_mesh_write(mesh.get(), "a.off", &options), PLANISH_STATUS_INVALID_ARGUMENT, -1, "text is 2");
+}
+
+TEST(MeshSetPoints, MovesTheNodes) {
+  const Mesh mesh = square();
+  const double moved[12] = {0, 0, 5, 1, 0, 5, 1, 1, 5, 0, 1, 5};
+  CHECK(planish_mesh_set_points(mesh.get(), moved, 4) == PLANISH_STATUS_OK);
+  double found[12];
+  CHECK(planish_mesh_copy_points(mesh.get(), found, 4) == PLANISH_STATUS_OK);
+  CHECK(std::equal(found, found + 12, moved));
+  const double bad[12] = {0, 0, 0, nan_};
+  CHECK_FAILS(planish_mesh_set_points(mesh.get(), bad, 4), PLANISH_STATUS_NOT_FINITE, 1, "node 1");
+  CHECK_FAILS(planish_mesh_set_points(mesh.get(), moved, 3), PLANISH_STATUS_INVALID_ARGUMENT, -1, "3 points");
+  CHECK_FAILS(planish_mesh_set_points(mesh.get(), nullptr, 4), PLANISH_STATUS_NULL_POINTER, -1, "points is NULL");
+  CHECK_FAILS(planish_mesh_set_points(nullptr, moved, 4), PLANISH_STATUS_NULL_POINTER, -1, "mesh is NULL");
+}
+
+TEST(MeshMaps, RefuseShortBuffersAndNull) {
+  const Mesh mesh = square();
+  std::uint32_t numbers[4];
+  const auto too_small = PLANISH_STATUS_BUFFER_TOO_SMALL, null = PLANISH_STATUS_NULL_POINTER;
+  CHECK_FAILS(planish_mesh_copy_node_map(mesh.get(), numbers, 3), too_small, -1, "4 are needed");
+  CHECK_FAILS(planish_mesh_copy_node_map(mesh.get(), nullptr, 4), null, -1, "out_nodes is NULL");
+  CHECK_FAILS(planish_mesh_copy_node_map(nullptr, numbers, 4), null, -1, "mesh is NULL");
+  CHECK_FAILS(planish_mesh_copy_triangle_map(mesh.get(), numbers, 1), too_small, -1, "2 are needed");
+  CHECK_FAILS(planish_mesh_copy_triangle_map(mesh.get(), nullptr, 2), null, -1, "out_triangles is NULL");
+  CHECK_FAILS(planish_mesh_copy_triangle_map(nullptr, numbers, 2), null, -1, "mesh is NULL");
+}
+
+TEST(MeshRemoveField, RemovesIt) {
+  const Mesh mesh = square();
+  const double values[4] = {1, 2, 3, 4};
+  CHECK(planish_mesh_set_field(mesh.get(), "p", values, 4) == PLANISH_STATUS_OK);
+  CHECK(planish_mesh_remove_field(mesh.get(), "p") == PLANISH_STATUS_OK);
+  CHECK_EQUAL(planish_mesh_field_count(mesh.get()), 0u);
+  CHECK_FAILS(planish_mesh_remove_field(mesh.get(), "p"), PLANISH_STATUS_INVALID_ARGUMENT, -1, "no field 'p'");
+  CHECK_FAILS(planish_mesh_remove_field(mesh.get(), nullptr), PLANISH_STATUS_NULL_POINTER, -1, "name is NULL");
+  CHECK_FAILS(planish_mesh_remove_field(nullptr, "p"), PLANISH_STATUS_NULL_POINTER, -1, "mesh is NULL");
 }
 
 TEST(MeshClone, IsDeep) {

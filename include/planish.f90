@@ -99,6 +99,8 @@ module planish_types
   contains
     procedure :: new => mesh_new
     procedure :: read => mesh_read
+    procedure :: read_buffer => mesh_read_buffer
+    procedure :: write => mesh_write
     procedure, private :: assign => mesh_assign
     generic :: assignment(=) => assign
     procedure :: free => mesh_free
@@ -114,11 +116,15 @@ module planish_types
     procedure :: loop_point_count => mesh_loop_point_count
     procedure :: copy_points => mesh_copy_points
     procedure :: copy_triangles => mesh_copy_triangles
+    procedure :: copy_node_map => mesh_copy_node_map
+    procedure :: copy_triangle_map => mesh_copy_triangle_map
+    procedure :: set_points => mesh_set_points
     procedure :: copy_loop => mesh_copy_loop
     procedure :: field_count => mesh_field_count
     procedure :: field_name => mesh_field_name
     procedure :: copy_field => mesh_copy_field
     procedure :: set_field => mesh_set_field
+    procedure :: remove_field => mesh_remove_field
     procedure :: has_parameters => mesh_has_parameters
     procedure :: set_parameters => mesh_set_parameters
     procedure :: copy_parameters => mesh_copy_parameters
@@ -596,6 +602,81 @@ contains
     status = c_mesh_read(terminated(path), call_options, handle)
     if (status >= 0) call self%take(handle)
     call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Reads a mesh from the content of a file; options%format says which, or the content itself.
+  subroutine mesh_read_buffer(self, bytes, options, repairs, stat, errmsg)
+    class(planish_mesh_t), intent(inout) :: self
+    integer(c_int8_t), intent(in), contiguous :: bytes(:)
+    type(planish_mesh_options), intent(in), optional :: options
+    type(planish_mesh_repairs), intent(inout), optional, target :: repairs
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_mesh_options) :: call_options
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    if (present(options)) call_options = options
+    if (present(repairs)) call_options%out_repairs = c_loc(repairs)
+    status = c_mesh_read_buffer(bytes, size(bytes, kind=c_size_t), call_options, handle)
+    if (status >= 0) call self%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Writes the mesh as OFF, OBJ, PLY or STL; the name's end says which, or options%format.
+  subroutine mesh_write(self, path, options, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: self
+    character(*), intent(in) :: path
+    type(planish_mesh_write_options), intent(in), optional :: options
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call conclude(c_mesh_write(self%get(), terminated(path), options), stat, errmsg)
+  end subroutine
+
+  !> What each node was in the arrays or the file, counted from 1: n at least point_count().
+  subroutine mesh_copy_node_map(self, nodes, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: self
+    integer(c_int32_t), intent(inout), contiguous :: nodes(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_size_t) :: count
+    integer(c_int) :: status
+    status = c_mesh_copy_node_map(self%get(), nodes, size(nodes, kind=c_size_t))
+    count = self%point_count()
+    if (status >= 0) nodes(:count) = nodes(:count) + 1
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> What each triangle was in the arrays or the file, counted from 1: n at least triangle_count().
+  subroutine mesh_copy_triangle_map(self, triangles, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: self
+    integer(c_int32_t), intent(inout), contiguous :: triangles(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_size_t) :: count
+    integer(c_int) :: status
+    status = c_mesh_copy_triangle_map(self%get(), triangles, size(triangles, kind=c_size_t))
+    count = self%triangle_count()
+    if (status >= 0) triangles(:count) = triangles(:count) + 1
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Moves the nodes to points(3,n); triangles, parameters and fields stay.
+  subroutine mesh_set_points(self, points, stat, errmsg)
+    class(planish_mesh_t), intent(inout) :: self
+    real(c_double), intent(in), contiguous :: points(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    if (refuse_extent(size(points, 1, c_size_t), 3_c_size_t, "the first extent of points", stat, errmsg)) return
+    call conclude(c_mesh_set_points(self%get(), points, size(points, 2, c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> Removes a field.
+  subroutine mesh_remove_field(self, name, stat, errmsg)
+    class(planish_mesh_t), intent(inout) :: self
+    character(*), intent(in) :: name
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call conclude(c_mesh_remove_field(self%get(), terminated(name)), stat, errmsg)
   end subroutine
 
   impure elemental subroutine mesh_assign(self, other)

@@ -120,6 +120,9 @@ namespace detail {
 inline planish_status init(planish_mesh_options &options) {
   return planish_mesh_options_init(&options, sizeof options);
 }
+inline planish_status init(planish_mesh_write_options &options) {
+  return planish_mesh_write_options_init(&options, sizeof options);
+}
 inline planish_status init(planish_parameterize_options &options) {
   return planish_parameterize_options_init(&options, sizeof options);
 }
@@ -331,7 +334,7 @@ class mesh {
     });
   }
 
-  /// From an OFF, OBJ, PLY or STL file; `path` is UTF-8.
+  /// From an OFF, OBJ, PLY or STL file, packed by gzip or not.
   static mesh read(const std::string &path,
                    planish_mesh_options options = defaults<planish_mesh_options>()) {
     mesh made;
@@ -339,6 +342,22 @@ class mesh {
       return planish_mesh_read(path.c_str(), &options, out_mesh);
     });
     return made;
+  }
+
+  /// From the content of such a file; options.format says which, or the content itself.
+  static mesh read_buffer(const void *bytes, std::size_t size,
+                          planish_mesh_options options = defaults<planish_mesh_options>()) {
+    mesh made;
+    made.make(options, [&](planish_mesh **out_mesh) {
+      return planish_mesh_read_buffer(bytes, size, &options, out_mesh);
+    });
+    return made;
+  }
+
+  /// Writes the mesh as OFF, OBJ, PLY or STL.
+  void write(const std::string &path,
+             const planish_mesh_write_options &options = defaults<planish_mesh_write_options>()) const {
+    detail::checked(planish_mesh_write(get(), path.c_str(), &options));
   }
 
   /// Takes a mesh of planish.h over.
@@ -397,6 +416,25 @@ class mesh {
     return triangles;
   }
 
+  /// What each node was in the arrays or the file, or in the mesh that this one was cut from.
+  std::vector<std::uint32_t> node_map() const {
+    std::vector<std::uint32_t> nodes(point_count());
+    detail::checked(planish_mesh_copy_node_map(get(), nodes.data(), nodes.size()));
+    return nodes;
+  }
+
+  /// What each triangle was.
+  std::vector<std::uint32_t> triangle_map() const {
+    std::vector<std::uint32_t> triangles(triangle_count());
+    detail::checked(planish_mesh_copy_triangle_map(get(), triangles.data(), triangles.size()));
+    return triangles;
+  }
+
+  /// Moves the nodes; triangles, parameters and fields stay.
+  void set_points(const rows<double, 3> &points) {
+    detail::checked(planish_mesh_set_points(get(), points.data(), points.count()));
+  }
+
   /// The nodes of a boundary loop in order, the surface on their left; loop 0 is the longest.
   std::vector<std::uint32_t> loop(std::size_t index) const {
     std::vector<std::uint32_t> nodes(planish_mesh_loop_point_count(get(), index));
@@ -424,6 +462,11 @@ class mesh {
   /// Adds a field with one value for each node, or replaces the one of this name.
   void set_field(const std::string &name, const values<double> &numbers) {
     detail::checked(planish_mesh_set_field(get(), name.c_str(), numbers.data(), numbers.count()));
+  }
+
+  /// Removes a field.
+  void remove_field(const std::string &name) {
+    detail::checked(planish_mesh_remove_field(get(), name.c_str()));
   }
 
   /// Whether the nodes have parameters.

@@ -3,8 +3,8 @@
 mod error;
 pub mod gltf;
 pub mod html;
+pub mod mesh;
 pub mod native;
-pub mod obj;
 pub mod step;
 pub mod vtk;
 

@@ -6,6 +6,7 @@ use crate::surface::Kind;
 use libc::c_char;
 use std::ffi::CStr;
 use std::mem::MaybeUninit;
+use std::path::Path;
 
 /// An argument is not what it must be.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -24,6 +25,14 @@ pub(super) enum ArgumentError {
     Choice { name: &'static str, given: u32, largest: u32 },
     #[error("{name} is {given}, the largest is {largest}")]
     Limit { name: &'static str, given: usize, largest: usize },
+    #[error("cannot tell the format of '{path}', known are .off, .obj, .ply, .stl")]
+    NoMeshFormat { path: String },
+    #[error("repair is {given}, no choice has the bits beyond {largest}")]
+    RepairBits { given: u32, largest: u32 },
+    #[error("face {face} has {given} corners, it needs at least three")]
+    FaceSize { face: usize, given: u32 },
+    #[error("triangle_stride is {given}, with face_sizes it must be 0")]
+    StrideOfFaces { given: usize },
     #[error("{name} must be NULL in this call")]
     NotNull { name: &'static str },
     #[error("{name} {index} does not exist, there are {count}")]
@@ -272,6 +281,26 @@ pub(super) unsafe fn text<'a>(at: *const c_char, name: &'static str) -> Argument
     // SAFETY: not NULL, and the caller's promise.
     let text = unsafe { CStr::from_ptr(at) };
     text.to_str().map_err(|error| ArgumentError::NotUtf8 { name, byte: error.valid_up_to() })
+}
+
+/// A path of the caller: on Unix any bytes, elsewhere UTF-8.
+///
+/// # Safety
+/// As [`text`].
+pub(super) unsafe fn path<'a>(at: *const c_char, name: &'static str) -> Argument<&'a Path> {
+    #[cfg(unix)]
+    {
+        use std::os::unix::ffi::OsStrExt;
+        check(at, name)?;
+        // SAFETY: not NULL, and the caller's promise.
+        let bytes = unsafe { CStr::from_ptr(at) }.to_bytes();
+        Ok(Path::new(std::ffi::OsStr::from_bytes(bytes)))
+    }
+    #[cfg(not(unix))]
+    {
+        // SAFETY: the caller's promise.
+        unsafe { text(at, name) }.map(Path::new)
+    }
 }
 
 /// Writes as much of `text` as fits, always terminated, and returns its whole length.

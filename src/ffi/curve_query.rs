@@ -1,8 +1,6 @@
 //! What can be asked of curves, and their files.
 
-use super::arguments::{
-    ArgumentError, array_len, copy_rows, deref, options, out, slice, slice_mut, slice_mut_or_none, text,
-};
+use super::arguments::{self, ArgumentError, array_len, copy_rows, deref, options, out, slice, slice_mut, slice_mut_or_none};
 use super::curve::{planish_curve, query_curve};
 use super::guard::guard;
 use super::progress::thread_count;
@@ -13,7 +11,6 @@ use crate::export::native;
 use crate::query::project::{ProjectOptions, Projector, piece_count};
 use glam::DVec2;
 use libc::{c_char, c_void};
-use std::path::Path;
 
 /// Length of a curve, but for 1e-12 of it and the roundoff of its coordinates; 0 for NULL.
 #[unsafe(no_mangle)]
@@ -157,7 +154,7 @@ pub unsafe extern "C" fn planish_curve_load(
 /// Writes the bytes of planish_curve_save() to a file, which appears whole or not at all.
 ///
 /// curve: not NULL.
-/// path:  UTF-8, ends with a NUL; an existing file is replaced.
+/// path:  ends with a NUL; on Unix any bytes, elsewhere UTF-8. An existing file is replaced, see planish_mesh_write().
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the path is not UTF-8) or
 /// PLANISH_STATUS_FILE.
 #[must_use]
@@ -169,13 +166,13 @@ pub unsafe extern "C" fn planish_curve_save_file(
     // SAFETY: the caller's promises.
     guard(|| unsafe {
         let curve = deref(curve, "curve")?.core();
-        Ok(native::save_file(curve, Path::new(text(path, "path")?))?)
+        Ok(native::save_file(curve, arguments::path(path, "path")?)?)
     })
 }
 
 /// Makes a curve from a file of planish_curve_save_file().
 ///
-/// path:      UTF-8, ends with a NUL.
+/// path:      ends with a NUL; on Unix any bytes, elsewhere UTF-8.
 /// out_curve: receives a new curve; destroy with planish_curve_free().
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the path is not UTF-8),
 /// PLANISH_STATUS_FILE, PLANISH_STATUS_FORMAT (the index is the byte) or PLANISH_STATUS_VERSION.
@@ -187,9 +184,9 @@ pub unsafe extern "C" fn planish_curve_load_file(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let path = text(path, "path")?;
+        let path = arguments::path(path, "path")?;
         let out_curve = out(out_curve, "out_curve")?;
-        out_curve.write(planish_curve::into_raw(native::load_curve_file(Path::new(path))?));
+        out_curve.write(planish_curve::into_raw(native::load_curve_file(path)?));
         Ok(())
     })
 }

@@ -1,6 +1,6 @@
 //! Files and buffers.
 
-use super::arguments::{ArgumentError, choice, deref, options, out, slice, slice_mut, text};
+use super::arguments::{self, ArgumentError, choice, deref, options, out, slice, slice_mut};
 use super::guard::guard;
 use super::mesh::planish_mesh;
 use super::planish_status;
@@ -10,7 +10,6 @@ use super::surface::{planish_surface, query_surface};
 use crate::control::Stage;
 use crate::export::{ExportError, native, vtk};
 use libc::{c_char, c_void};
-use std::path::Path;
 
 /// What a VTK file holds of a surface.
 #[repr(C)]
@@ -54,7 +53,7 @@ record! {
 /// the control net. The file appears whole or not at all.
 ///
 /// surface: not NULL, of dimension 3.
-/// path:    UTF-8, ends with a NUL; an existing file is replaced.
+/// path:    ends with a NUL; on Unix any bytes, elsewhere UTF-8. An existing file is replaced, see planish_mesh_write().
 /// options: NULL for the defaults.
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension, an
 /// option, a path that is not UTF-8), PLANISH_STATUS_WRONG_KIND (a family without patches or control net, where these
@@ -70,7 +69,7 @@ pub unsafe extern "C" fn planish_surface_write_vtk(
     // SAFETY: the caller's promises.
     guard(|| unsafe {
         let surface = deref(surface, "surface")?.any();
-        let path = Path::new(text(path, "path")?);
+        let path = arguments::path(path, "path")?;
         let given = self::options(options)?;
         let contents =
             [planish_vtk_content::Triangles, planish_vtk_content::Patches, planish_vtk_content::ControlNet];
@@ -164,7 +163,7 @@ pub unsafe extern "C" fn planish_surface_load(
 /// Writes the bytes of planish_surface_save() to a file, which appears whole or not at all.
 ///
 /// surface: not NULL.
-/// path:    UTF-8, ends with a NUL; an existing file is replaced.
+/// path:    ends with a NUL; on Unix any bytes, elsewhere UTF-8. An existing file is replaced, see planish_mesh_write().
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the path is not
 /// UTF-8) or PLANISH_STATUS_FILE.
 #[must_use]
@@ -176,13 +175,13 @@ pub unsafe extern "C" fn planish_surface_save_file(
     // SAFETY: the caller's promises.
     guard(|| unsafe {
         let saved = deref(surface, "surface")?.family()?.as_saved();
-        Ok(native::save_file(saved, Path::new(text(path, "path")?))?)
+        Ok(native::save_file(saved, arguments::path(path, "path")?)?)
     })
 }
 
 /// Makes a surface from a file of planish_surface_save_file().
 ///
-/// path:        UTF-8, ends with a NUL.
+/// path:        ends with a NUL; on Unix any bytes, elsewhere UTF-8.
 /// out_surface: receives a new surface; destroy with planish_surface_free().
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the path is not
 /// UTF-8), PLANISH_STATUS_FILE, PLANISH_STATUS_FORMAT (the index is the byte) or PLANISH_STATUS_VERSION.
@@ -194,9 +193,9 @@ pub unsafe extern "C" fn planish_surface_load_file(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let path = text(path, "path")?;
+        let path = arguments::path(path, "path")?;
         let out_surface = out(out_surface, "out_surface")?;
-        let surface = native::load_file(Path::new(path))?;
+        let surface = native::load_file(path)?;
         out_surface.write(planish_surface::into_raw(surface));
         Ok(())
     })

@@ -1,21 +1,20 @@
 //! Triangle meshes.
 
 use super::arguments::{
-    ArgumentError, ReportOut, copy, copy_rows, deref, deref_mut, flag, options, out, rows_mut, slice,
-    slice_mut_or_none, stride, text, write_text,
+    ArgumentError, Record, ReportOut, choice, copy, copy_rows, deref, deref_mut, flag, options, out, rows_mut, slice,
+    slice_mut_or_none, stride, strided_len, text, write_text,
 };
 use super::guard::{Failure, guard};
 use super::planish_status;
 use super::report::write_pairs;
 use super::status::query;
-use crate::mesh::{Mesh, MeshOptions, MeshRepairs, Piece};
+use crate::mesh::{Components, Faces, Mesh, MeshOptions, MeshRepairs, Piece, Repair};
 use glam::{DVec2, DVec3};
 use libc::c_char;
 use std::mem::MaybeUninit;
-use std::path::Path;
 
 /// A triangle mesh: manifold and consistently oriented, possibly with several components, holes and nodes
-/// without triangles. Made by planish_mesh_new() and others, destroyed by planish_mesh_free().
+/// without triangles, which are passed over. Made by planish_mesh_new() and others, destroyed by planish_mesh_free().
 ///
 /// Calls that take it const may run at once on any threads; a call that takes it non-const needs it alone.
 pub struct planish_mesh(pub(super) Mesh);
@@ -45,24 +44,142 @@ record! {
         /// Receives what was repaired, or NULL (default). Set its struct_size before. Filled on success only.
         pub out_repairs: *mut planish_mesh_repairs,
         /// Receives for each node given the node of the mesh that it became, counted from 0: point_count
-        /// elements, or NULL (default). Filled on success only. Must be NULL for files.
+        /// elements, or NULL (default). Filled on success only. Must be NULL for files;
+        /// planish_mesh_copy_node_map() tells the same the other way round.
         /// Array: [nodes].
         pub out_node_map: *mut u32,
-        /// 1 turns triangles over until neighbours agree; with 0 (default) disagreement is an error.
-        pub orient: u32 = core.orient.into(),
+        /// 1 turns triangles over until neighbours agree, whatever repair says; 0 (default) leaves that to repair.
+        pub orient: u32,
         /// The number that `triangles` uses for the first node, such as 1 from Fortran. Default 0. Ignored for
         /// files. Everything that the library hands back counts from 0.
         pub index_base: u32 = core.index_base,
+        /// Corners of each face, at least 3: `triangles` then holds polygons, one behind the other, and
+        /// triangle_count is their number. NULL (default) for corner_count each. Borrowed. Ignored for files.
+        /// Array: [faces].
+        pub face_sizes: *const u32,
+        /// Most bytes of a file, unpacked; 0 (default) for three quarters of what the machine or its control group
+        /// has.
+        pub max_memory: u64 = core.max_memory,
+        /// Which faults are mended: bits of planish_mesh_repair. 0 (default) is PLANISH_MESH_REPAIR_SAFE.
+        pub repair: u32,
+        /// A planish_mesh_components: which parts that hang together by edges become the mesh. The nodes of others
+        /// stay, as nodes that no triangle needs. Default PLANISH_MESH_COMPONENTS_ALL.
+        pub components: u32,
+        /// The part for PLANISH_MESH_COMPONENTS_ONE, counted from 0 in the order of their first triangles. Default 0.
+        pub component: u32,
+        /// A planish_mesh_format, of files and buffers. Default PLANISH_MESH_FORMAT_AUTO.
+        pub format: u32,
+        /// Corners of every face if face_sizes is NULL: 0 (default) or 3 for triangles, 4 for quads and so on.
+        /// Polygons become triangles. Ignored for files.
+        pub corner_count: u32,
+        /// 0.
+        pub reserved: u32,
     }
 }
 
+/// Faults that are mended when arrays or a file become a mesh. All others are refused.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum planish_mesh_repair {
+    /// All that change no shape and need no guess: the five that follow NONE.
+    Safe = 0,
+    /// None.
+    None = 1,
+    /// Nodes that no triangle needs are kept and passed over, whatever their coordinates are.
+    UnusedNodes = 2,
+    /// Triangles with a corner twice are left out, and faces of less than three corners.
+    RepeatedCorners = 4,
+    /// Of triangles with the same three nodes, whatever their orientation, only the first is kept.
+    DuplicateTriangles = 8,
+    /// Nodes where the surface touches itself become one for each part; the copies come after all other nodes.
+    TouchingNodes = 16,
+    /// Triangles are turned over until neighbours agree, as few as that takes.
+    Orientation = 32,
+    /// Edges of three and more triangles are parted: sheets that meet others only there get nodes of their own.
+    Sheets = 64,
+    /// All of them.
+    All = 126,
+}
+
+/// Which parts of a mesh that hang together by edges are taken.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum planish_mesh_components {
+    /// All.
+    All = 0,
+    /// The one of most triangles; of equals the first.
+    Largest = 1,
+    /// One by its number.
+    One = 2,
+}
+
 impl planish_mesh_options {
-    fn to_core(self) -> Result<MeshOptions, ArgumentError> {
+    pub(super) fn to_core(self) -> Result<MeshOptions, ArgumentError> {
+        if self.reserved != 0 {
+            return Err(ArgumentError::Reserved { record: Self::NAME, given: self.reserved });
+        }
+        let components = [Components::All, Components::Largest, Components::One(self.component)];
+        let orient = if flag(self.orient, "orient")? { Repair::ORIENTATION } else { Repair::NONE };
         Ok(MeshOptions {
             weld_distance: self.weld_distance,
-            orient: flag(self.orient, "orient")?,
+            repair: repair(self.repair)?.with(orient),
+            components: choice(self.components, &components, "components")?,
             index_base: self.index_base,
+            max_memory: self.max_memory,
         })
+    }
+
+    /// The faces that an array of nodes holds, if they are not all triangles.
+    ///
+    /// # Safety
+    /// The arrays are NULL or as the header says.
+    unsafe fn faces(&self, nodes: *const u32, count: usize) -> Result<Option<Faces>, ArgumentError> {
+        let width = if self.corner_count == 0 { 3 } else { self.corner_count as usize };
+        if self.face_sizes.is_null() && width == 3 {
+            return Ok(None);
+        }
+        if self.face_sizes.is_null() && width < 3 {
+            return Err(ArgumentError::FaceSize { face: 0, given: self.corner_count });
+        }
+        let mut faces = Faces::default();
+        let mut add = |corners: &[u32]| {
+            corners.iter().for_each(|&node| faces.push(node));
+            faces.end_face();
+        };
+        // SAFETY: the caller's promise.
+        unsafe {
+            if self.face_sizes.is_null() {
+                let stride = stride(self.triangle_stride, width, "triangle_stride")?;
+                let nodes = slice(nodes, strided_len::<u32>(count, stride, width, "triangles")?, "triangles")?;
+                nodes.chunks(stride).for_each(|row| add(&row[..width]));
+            } else {
+                if self.triangle_stride != 0 {
+                    return Err(ArgumentError::StrideOfFaces { given: self.triangle_stride });
+                }
+                let sizes = slice(self.face_sizes, count, "face_sizes")?;
+                if let Some(face) = sizes.iter().position(|&size| size < 3) {
+                    return Err(ArgumentError::FaceSize { face, given: sizes[face] });
+                }
+                let total = sizes.iter().try_fold(0_usize, |sum, &size| sum.checked_add(size as usize));
+                let overflow = ArgumentError::Overflow { name: "triangles", count, width: 0 };
+                let mut rest = slice(nodes, total.ok_or(overflow)?, "triangles")?;
+                for &size in sizes {
+                    let (corners, others) = rest.split_at(size as usize);
+                    add(corners);
+                    rest = others;
+                }
+            }
+        }
+        Ok(Some(faces))
+    }
+}
+
+/// The repair that a number stands for: 0 the safe ones, 1 none, else its bits.
+fn repair(number: u32) -> Result<Repair, ArgumentError> {
+    let all = planish_mesh_repair::All as u32;
+    match number {
+        0 => Ok(Repair::SAFE),
+        _ => Repair::from_bits(number >> 1).ok_or(ArgumentError::RepairBits { given: number, largest: all }),
     }
 }
 
@@ -72,14 +189,26 @@ record! {
     pub struct planish_mesh_repairs {
         /// Nodes that vanished because they were welded to others.
         pub welded_node_count: usize,
-        /// Triangles that vanished because welding made two of their nodes one.
+        /// Triangles and faces that were left out because two of their corners are one node, as given or by welding,
+        /// or because they have less than three.
         pub dropped_triangle_count: usize,
         /// Triangles that were turned over.
         pub flipped_triangle_count: usize,
-        /// 1 if the file has texture coordinates that are no parameters, because a node has several or none.
+        /// 1 if the file has texture coordinates that are no parameters, because a node has several or none, or because
+        /// they are not finite or lie on a line.
         pub dropped_parameters: u32,
-        /// 0.
-        pub reserved: u32,
+        /// 1 if the file ends before it says that it does; what it has is whole.
+        pub missing_end: u32,
+        /// Nodes that no triangle needs.
+        pub unused_node_count: usize,
+        /// Copies of nodes that were appended.
+        pub split_node_count: usize,
+        /// Triangles that were left out because an earlier one has the same nodes.
+        pub duplicate_triangle_count: usize,
+        /// Edges of three and more triangles that were parted.
+        pub parted_edge_count: usize,
+        /// Triangles of components that were not asked for: a choice, no repair.
+        pub excluded_triangle_count: usize,
     }
 }
 
@@ -91,13 +220,18 @@ impl From<&MeshRepairs> for planish_mesh_repairs {
             dropped_triangle_count: repairs.dropped_triangles,
             flipped_triangle_count: repairs.flipped_triangles,
             dropped_parameters: repairs.dropped_parameters.into(),
-            reserved: 0,
+            missing_end: repairs.missing_end.into(),
+            unused_node_count: repairs.unused_nodes,
+            split_node_count: repairs.split_nodes,
+            duplicate_triangle_count: repairs.duplicate_triangles,
+            parted_edge_count: repairs.parted_edges,
+            excluded_triangle_count: repairs.excluded_triangles,
         }
     }
 }
 
 /// Where the caller wants a new mesh and what is known of it.
-struct MeshOutputs<'a> {
+pub(super) struct MeshOutputs<'a> {
     mesh: &'a mut MaybeUninit<*mut planish_mesh>,
     repairs: ReportOut<planish_mesh_repairs>,
     node_map: Option<&'a mut [u32]>,
@@ -121,7 +255,20 @@ impl MeshOutputs<'_> {
         }
     }
 
-    fn store(self, mesh: Mesh, repairs: &MeshRepairs) -> planish_status {
+    /// # Safety
+    /// The outputs are NULL or as the header says.
+    pub unsafe fn of_file(
+        mesh: *mut *mut planish_mesh,
+        options: &planish_mesh_options,
+    ) -> Result<Self, ArgumentError> {
+        if !options.out_node_map.is_null() {
+            return Err(ArgumentError::NotNull { name: "out_node_map" });
+        }
+        // SAFETY: the caller's promise.
+        unsafe { Self::new(mesh, options, 0) }
+    }
+
+    pub fn store(self, mesh: Mesh, repairs: &MeshRepairs) -> planish_status {
         if let Some(node_map) = self.node_map {
             match &repairs.node_map {
                 Some(map) => node_map.copy_from_slice(map),
@@ -139,19 +286,20 @@ impl MeshOutputs<'_> {
 /// points:         point_count rows of x, y, z in model units; rows start options->point_stride doubles apart.
 /// point_count:    at least 1.
 /// triangles:      triangle_count rows of three nodes, counter-clockwise seen from outside, counted from
-///                 options->index_base; rows start options->triangle_stride indices apart.
+///                 options->index_base; rows start options->triangle_stride indices apart. Rows of more nodes with
+///                 options->corner_count or options->face_sizes: polygons, which become triangles.
 /// triangle_count: at least 1.
 /// options:        NULL for the defaults.
 /// out_mesh:       receives a new mesh; destroy with planish_mesh_free().
 /// Arrays: points[point_count, 3], triangles[triangle_count, 3].
-/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_INPUT_REPAIRED (something was welded or turned over, see
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_INPUT_REPAIRED (something was welded or mended, see
 /// options->out_repairs) or an error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (empty
-/// arrays, a stride, the weld distance), PLANISH_STATUS_NOT_FINITE (a coordinate; the index is the node),
-/// PLANISH_STATUS_INDEX (a triangle refers to a node that does not exist; the index is the triangle),
-/// PLANISH_STATUS_DEGENERATE (a triangle has a node twice, or welding leaves nothing),
-/// PLANISH_STATUS_TOPOLOGY (an edge of three triangles, two triangles with the same nodes, neighbours that
-/// disagree in orientation, a surface of one side), PLANISH_STATUS_TOO_LARGE, PLANISH_STATUS_VERSION or
-/// PLANISH_STATUS_OUT_OF_MEMORY.
+/// arrays, an option), PLANISH_STATUS_NOT_FINITE (a coordinate of a node that has triangles; the index is the node),
+/// PLANISH_STATUS_INDEX (a triangle refers to a node that does not exist; the index is the triangle; or there is no
+/// such component), PLANISH_STATUS_DEGENERATE (no triangle is left), PLANISH_STATUS_TOPOLOGY (an edge of three
+/// triangles, unless PLANISH_MESH_REPAIR_SHEETS parts it; a surface of one side), PLANISH_STATUS_TOO_LARGE,
+/// PLANISH_STATUS_VERSION or PLANISH_STATUS_OUT_OF_MEMORY. What options->repair does not mend is refused:
+/// PLANISH_STATUS_TOPOLOGY, or PLANISH_STATUS_DEGENERATE for corners that come twice.
 #[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_mesh_new(
@@ -167,41 +315,16 @@ pub unsafe extern "C" fn planish_mesh_new(
         let options = self::options(options)?;
         let outputs = MeshOutputs::new(out_mesh, &options, point_count)?;
         let point_stride = stride(options.point_stride, 3, "point_stride")?;
-        let triangle_stride = stride(options.triangle_stride, 3, "triangle_stride")?;
+        let core = options.to_core()?;
         let points = copy_rows(points, point_count, point_stride, "points", DVec3::from_array)?;
-        let triangles = copy_rows(triangles, triangle_count, triangle_stride, "triangles", |nodes| nodes)?;
-        let (mesh, repairs) = Mesh::with_options(points, triangles, &options.to_core()?)?;
-        Ok(outputs.store(mesh, &repairs))
-    })
-}
-
-/// Reads a mesh from an OFF, OBJ, PLY or STL file, told by the name's end or else by the content.
-///
-/// Polygons become triangles. The `vt` of an OBJ become parameters if each node has one; the numbers that a
-/// PLY has on its nodes become fields.
-///
-/// path:     the file, in UTF-8, terminated.
-/// options:  NULL for the defaults.
-/// out_mesh: receives a new mesh; destroy with planish_mesh_free().
-/// Returns what planish_mesh_new() returns, or PLANISH_STATUS_FILE (cannot be read), PLANISH_STATUS_FORMAT (not
-/// what it claims to be; the index is the line or the byte, counted from 0) or PLANISH_STATUS_INVALID_ARGUMENT
-/// (out_node_map is not NULL, or path is not UTF-8).
-#[must_use]
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn planish_mesh_read(
-    path: *const c_char,
-    options: *const planish_mesh_options,
-    out_mesh: *mut *mut planish_mesh,
-) -> planish_status {
-    // SAFETY: the caller's promises.
-    guard(|| unsafe {
-        let path = text(path, "path")?;
-        let options = self::options(options)?;
-        if !options.out_node_map.is_null() {
-            return Err(ArgumentError::NotNull { name: "out_node_map" }.into());
-        }
-        let outputs = MeshOutputs::new(out_mesh, &options, 0)?;
-        let (mesh, repairs) = crate::mesh::read(Path::new(path), &options.to_core()?)?;
+        let (mesh, repairs) = match options.faces(triangles, triangle_count)? {
+            Some(faces) => Mesh::from_faces(points, faces, &core)?,
+            None => {
+                let stride = stride(options.triangle_stride, 3, "triangle_stride")?;
+                let triangles = copy_rows(triangles, triangle_count, stride, "triangles", |nodes| nodes)?;
+                Mesh::with_options(points, triangles, &core)?
+            }
+        };
         Ok(outputs.store(mesh, &repairs))
     })
 }
@@ -361,6 +484,77 @@ pub unsafe extern "C" fn planish_mesh_copy_triangles(
     })
 }
 
+/// Copies what each node of the mesh was in the arrays or the file that it comes from, or in the mesh that it was cut
+/// from: copies of nodes name the node that they are copies of, and welded nodes the first of those that became one.
+///
+/// mesh:      not NULL.
+/// out_nodes: receives planish_mesh_point_count() nodes, counted from 0.
+/// count:     nodes that out_nodes has room for.
+/// Arrays: out_nodes[mesh_point_count].
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_copy_node_map(
+    mesh: *const planish_mesh,
+    out_nodes: *mut u32,
+    count: usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let origins = deref(mesh, "mesh")?.0.node_origins();
+        let nodes = rows_mut(out_nodes, count, origins.len(), 1, "out_nodes")?;
+        nodes.iter_mut().zip(origins).for_each(|(node, origin)| *node = origin);
+        Ok(())
+    })
+}
+
+/// Copies what each triangle of the mesh was: the triangle or polygon of the arrays, the face of the file, or the
+/// triangle of the mesh that it was cut from.
+///
+/// mesh:          not NULL.
+/// out_triangles: receives planish_mesh_triangle_count() numbers, counted from 0.
+/// count:         numbers that out_triangles has room for.
+/// Arrays: out_triangles[mesh_triangle_count].
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_copy_triangle_map(
+    mesh: *const planish_mesh,
+    out_triangles: *mut u32,
+    count: usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let origins = deref(mesh, "mesh")?.0.triangle_origins();
+        let triangles = rows_mut(out_triangles, count, origins.len(), 1, "out_triangles")?;
+        triangles.iter_mut().zip(origins).for_each(|(triangle, origin)| *triangle = origin);
+        Ok(())
+    })
+}
+
+/// Moves the nodes of a mesh, which keeps its triangles, parameters and fields: a step of a simulation.
+///
+/// mesh:   not NULL; changed.
+/// points: count rows of x, y, z in model units. Copied.
+/// count:  planish_mesh_point_count().
+/// Arrays: points[count, 3].
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (count),
+/// PLANISH_STATUS_NOT_FINITE (of a node that has triangles, which is the index), PLANISH_STATUS_TOO_LARGE or
+/// PLANISH_STATUS_OUT_OF_MEMORY.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_set_points(
+    mesh: *mut planish_mesh,
+    points: *const f64,
+    count: usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let mesh = &mut deref_mut(mesh, "mesh")?.0;
+        Ok(mesh.set_points(copy_rows(points, count, 3, "points", DVec3::from_array)?)?)
+    })
+}
+
 /// Copies the nodes of a boundary loop in order, the surface on their left. The first is not repeated.
 ///
 /// mesh:      not NULL.
@@ -471,6 +665,29 @@ pub unsafe extern "C" fn planish_mesh_set_field(
     })
 }
 
+/// Removes a field.
+///
+/// mesh: not NULL; changed.
+/// name: the field's name in UTF-8, terminated.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (no such field, or name is
+/// not UTF-8).
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_remove_field(
+    mesh: *mut planish_mesh,
+    name: *const c_char,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let mesh = &mut deref_mut(mesh, "mesh")?.0;
+        let name = text(name, "name")?;
+        match mesh.remove_field(name) {
+            true => Ok(()),
+            false => Err(ArgumentError::NoField { name: name.to_owned() }.into()),
+        }
+    })
+}
+
 /// 1 if the nodes have parameters, else 0; 0 for NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_mesh_has_parameters(mesh: *const planish_mesh) -> u32 {
@@ -525,8 +742,8 @@ pub unsafe extern "C" fn planish_mesh_copy_parameters(
 
 /// Makes a mesh without some of the triangles, and without the nodes that no triangle needs any more.
 ///
-/// Parameters and fields go with their nodes: to know which node each one was, give the mesh a field of node
-/// numbers before.
+/// Parameters and fields go with their nodes, and planish_mesh_copy_node_map() of the new mesh tells which node each
+/// one was.
 ///
 /// mesh:      not NULL; stays as it is.
 /// triangles: count triangles to leave out, counted from 0, in any order.

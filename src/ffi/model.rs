@@ -1,8 +1,6 @@
 //! Models: faces that share edges and vertices.
 
-use super::arguments::{
-    ArgumentError, ReportOut, deref, options, out, rows_mut, rows_or_none, slice, slice_mut, text,
-};
+use super::arguments::{self, ArgumentError, ReportOut, deref, options, out, rows_mut, rows_or_none, slice, slice_mut};
 use super::curve::planish_curve;
 use super::guard::guard;
 use super::planish_status;
@@ -15,7 +13,6 @@ use crate::fit::conversion::{ConversionOptions, to_model};
 use crate::model::{Carrier, EdgeId, Face, FaceId, Form, FormOptions, Measure, Model, Role, ShellId, Use};
 use crate::surface::AnySurface;
 use libc::{c_char, c_void};
-use std::path::Path;
 
 /// A model: faces, each a bounded part of a surface, that share edges and vertices. Made by
 /// planish_model_from_surface() and others, destroyed by planish_model_free().
@@ -624,7 +621,7 @@ pub unsafe extern "C" fn planish_model_measure(
 /// are written once, for both faces. The file appears whole or not at all; equal input gives equal bytes.
 ///
 /// model:   not NULL.
-/// path:    UTF-8, ends with a NUL; an existing file is replaced.
+/// path:    ends with a NUL; on Unix any bytes, elsewhere UTF-8. An existing file is replaced, see planish_mesh_write().
 /// options: NULL for the defaults. What is said there of forms and tolerances is for surfaces, and not used.
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, a text that is
 /// not UTF-8), PLANISH_STATUS_DEGENERATE (numbers overflow) or PLANISH_STATUS_FILE.
@@ -638,11 +635,11 @@ pub unsafe extern "C" fn planish_model_write_step(
     // SAFETY: the caller's promises.
     guard(|| unsafe {
         let model = deref(model, "model")?.core();
-        let path = text(path, "path")?;
+        let path = arguments::path(path, "path")?;
         let given = self::options(options)?;
         let core = given.core()?;
         let report = ReportOut::new(given.out_report)?;
-        report.store(step::write(model, &core, Path::new(path))?.into());
+        report.store(step::write(model, &core, path)?.into());
         Ok(())
     })
 }
@@ -746,7 +743,7 @@ pub unsafe extern "C" fn planish_model_load(
 /// Writes the bytes of planish_model_save() to a file, which appears whole or not at all.
 ///
 /// model: not NULL.
-/// path:  UTF-8, ends with a NUL; an existing file is replaced.
+/// path:  ends with a NUL; on Unix any bytes, elsewhere UTF-8. An existing file is replaced, see planish_mesh_write().
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the path is not UTF-8) or
 /// PLANISH_STATUS_FILE.
 #[must_use]
@@ -758,13 +755,13 @@ pub unsafe extern "C" fn planish_model_save_file(
     // SAFETY: the caller's promises.
     guard(|| unsafe {
         let model = deref(model, "model")?.core();
-        Ok(native::save_file(model, Path::new(text(path, "path")?))?)
+        Ok(native::save_file(model, arguments::path(path, "path")?)?)
     })
 }
 
 /// Makes a model from a file of planish_model_save_file().
 ///
-/// path:      UTF-8, ends with a NUL.
+/// path:      ends with a NUL; on Unix any bytes, elsewhere UTF-8.
 /// out_model: receives a new model; destroy with planish_model_free().
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the path is not UTF-8),
 /// PLANISH_STATUS_FILE, PLANISH_STATUS_FORMAT (the index is the byte) or PLANISH_STATUS_VERSION.
@@ -776,9 +773,9 @@ pub unsafe extern "C" fn planish_model_load_file(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let path = text(path, "path")?;
+        let path = arguments::path(path, "path")?;
         let out_model = out(out_model, "out_model")?;
-        out_model.write(planish_model::into_raw(native::load_model_file(Path::new(path))?));
+        out_model.write(planish_model::into_raw(native::load_model_file(path)?));
         Ok(())
     })
 }

@@ -1,9 +1,6 @@
 //! Questions to models: values, closest points, deviation, tessellation, VTK.
 
-use super::arguments::{
-    ArgumentError, ReportOut, array_len, choice, copy_rows, deref, flag, options, out, rows_or_none, slice,
-    slice_mut, slice_mut_or_none, stride, strided_len, text,
-};
+use super::arguments::{self, ArgumentError, ReportOut, array_len, choice, copy_rows, deref, flag, options, out, rows_or_none, slice, slice_mut, slice_mut_or_none, stride, strided_len};
 use super::export::{planish_vtk_content, planish_vtk_options};
 use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;
@@ -25,7 +22,6 @@ use crate::surface::MAX_DERIVATIVE;
 use crate::surface::evaluate::{OutsideRule, Quantity};
 use glam::{DVec2, DVec3};
 use libc::c_char;
-use std::path::Path;
 
 /// Evaluates at parameters on faces.
 ///
@@ -300,7 +296,7 @@ pub unsafe extern "C" fn planish_model_tessellate(
 /// distance as point data "deviation".
 ///
 /// model:   not NULL.
-/// path:    UTF-8, ends with a NUL; an existing file is replaced.
+/// path:    ends with a NUL; on Unix any bytes, elsewhere UTF-8. An existing file is replaced, see planish_mesh_write().
 /// options: NULL for the defaults; content must be PLANISH_VTK_CONTENT_TRIANGLES.
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, a path that is
 /// not UTF-8), PLANISH_STATUS_FILE, or what planish_model_tessellate() or planish_model_deviation() return.
@@ -314,7 +310,7 @@ pub unsafe extern "C" fn planish_model_write_vtk(
     // SAFETY: the caller's promises.
     guard(|| unsafe {
         let model = deref(model, "model")?.core();
-        let path = Path::new(text(path, "path")?);
+        let path = arguments::path(path, "path")?;
         let given = self::options(options)?;
         choice(given.content, &[planish_vtk_content::Triangles], "content")?;
         let deviation_from = match given.deviation_from.is_null() {

@@ -1,6 +1,6 @@
 //! The report as a page.
 
-use super::arguments::{choice, deref, options, text};
+use super::arguments::{self, choice, deref, options, text};
 use super::guard::guard;
 use super::mesh::planish_mesh;
 use super::planish_status;
@@ -9,7 +9,6 @@ use super::surface::planish_surface;
 use crate::export::html::{ReportOptions, write_report};
 use crate::fit::common::report::{Remarks, ToleranceScale};
 use libc::{c_char, c_void};
-use std::path::Path;
 
 record! {
     /// What a report says beside what it measures. Fill with planish_report_options_init(), then change what you need.
@@ -63,7 +62,7 @@ pub unsafe extern "C" fn planish_surface_write_report(
     guard(|| unsafe {
         let surface = deref(surface, "surface")?.any();
         let mesh = &deref(mesh, "mesh")?.0;
-        let path = Path::new(text(path, "path")?);
+        let path = arguments::path(path, "path")?;
         let given = self::options(options)?;
         let defaults = ReportOptions::default();
         let core = ReportOptions {

@@ -23,8 +23,8 @@ pub enum planish_status {
     Stagnated = 2,
     /// Some points lie outside the domain; their values are NaN.
     PointsOutside = 3,
-    /// The mesh is not what was given: nodes were welded, triangles dropped or turned over, or texture
-    /// coordinates that are no parameters left out.
+    /// The mesh is not all that was given: nodes were welded, split or passed over, triangles dropped or turned over, or
+    /// texture coordinates that are no parameters left out. planish_mesh_repairs counts them.
     InputRepaired = 4,
     /// Some triangles are turned over or flat in the parameter plane: a surface over them may fold.
     FoldedParameters = 5,

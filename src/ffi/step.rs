@@ -1,6 +1,6 @@
 //! STEP files.
 
-use super::arguments::{ArgumentError, Record, ReportOut, choice, deref, options, text};
+use super::arguments::{self, ArgumentError, Record, ReportOut, choice, deref, options, text};
 use super::guard::guard;
 use super::planish_status;
 use super::progress::{planish_progress, with_control};
@@ -11,7 +11,6 @@ use crate::export::step::{Schema, StepOptions, StepReport, Unit, write};
 use crate::fit::conversion::{ConversionOptions, to_model};
 use crate::model::{Form, FormOptions};
 use libc::{c_char, c_void};
-use std::path::Path;
 
 /// The application protocol of a STEP file.
 #[repr(C)]
@@ -172,7 +171,7 @@ impl planish_step_options {
 /// not at all; equal input gives equal bytes. A D1RC-spline is written as a tensor surface fitted to it.
 ///
 /// surface: not NULL, of dimension 3.
-/// path:    UTF-8, ends with a NUL; an existing file is replaced.
+/// path:    ends with a NUL; on Unix any bytes, elsewhere UTF-8. An existing file is replaced, see planish_mesh_write().
 /// options: NULL for the defaults.
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension, an
 /// option, a text that is not UTF-8), PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOPOLOGY (trims that cross or
@@ -190,7 +189,7 @@ pub unsafe extern "C" fn planish_surface_write_step(
     // SAFETY: the caller's promises.
     guard(|| unsafe {
         let surface = deref(surface, "surface")?.family()?;
-        let path = text(path, "path")?;
+        let path = arguments::path(path, "path")?;
         let given = self::options(options)?;
         let (mut core, conversion) = (given.core()?, given.conversion()?);
         let label = &surface.as_surface().region().label;
@@ -205,7 +204,7 @@ pub unsafe extern "C" fn planish_surface_write_step(
             control.enter(Stage::Convert);
             let model = to_model(surface, &conversion, control)?;
             control.enter(Stage::Write);
-            Ok(write(&model, &core, Path::new(path))?)
+            Ok(write(&model, &core, path)?)
         })??;
         report.store(written.into());
         Ok(())

@@ -26,6 +26,8 @@ pub fn fitter(
     options: &FieldOptions,
     control: &mut Control,
 ) -> Result<FieldFitter, FieldError> {
+    let mask = nodes.mask(options);
+    let options = &FieldOptions { is_known: mask.as_deref().or(options.is_known), ..*options };
     let found = control.within(0.0, 0.6, |control| find(&nodes, sample, options, control))?;
     let grid = FieldGrid::Fixed([found.grid_u, found.grid_v]);
     let options = options.with_grid(grid).with_smoothing(found.smoothing);

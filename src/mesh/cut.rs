@@ -9,7 +9,7 @@
 //! ```
 //! Parameters and fields go with their nodes.
 
-use super::{Field, HalfEdge, Mesh, MeshError};
+use super::{Field, HalfEdge, Mesh, MeshError, Origins};
 use crate::failure::{Classify, ErrorKind};
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
@@ -102,6 +102,20 @@ pub struct Piece {
     pub nodes: Vec<u32>,
 }
 
+impl Piece {
+    /// Rows of `dim` numbers, one a node of the other mesh: those of this one.
+    pub fn gather(&self, rows: &[f64], dim: usize) -> Vec<f64> {
+        self.nodes.iter().flat_map(|&node| &rows[node as usize * dim..][..dim]).copied().collect()
+    }
+
+    /// What is known by node of this mesh, by node of the other, which has `count`; `nothing` elsewhere.
+    pub fn spread<T: Copy>(&self, values: &[T], count: usize, nothing: T) -> Vec<T> {
+        let mut spread = vec![nothing; count];
+        self.nodes.iter().zip(values).for_each(|(&node, &value)| spread[node as usize] = value);
+        spread
+    }
+}
+
 impl Mesh {
     /// The mesh without some of its triangles, and without the nodes that no triangle needs any more.
     pub fn remove_triangles(&self, triangles: &[u32]) -> Result<Piece, CutError> {
@@ -113,18 +127,25 @@ impl Mesh {
                 None => return Err(CutError::NoSuchTriangle { triangle, count }),
             }
         }
-        let kept = self.triangles.iter().zip(keeps).filter(|&(_, keep)| keep).map(|(&triangle, _)| triangle);
-        self.compacted(kept.collect())
+        self.compacted((0..).zip(&self.triangles).zip(keeps).filter(|&(_, keep)| keep).map(|(kept, _)| kept))
     }
 
     /// Each part that hangs together by edges as a mesh of its own, in the order of their first triangles.
     pub fn split_components(&self) -> Result<Vec<Piece>, CutError> {
         let (labels, count) = self.topology.components();
         let mut parts = vec![Vec::new(); count];
-        for (&triangle, label) in self.triangles.iter().zip(labels) {
+        for (triangle, label) in (0..).zip(&self.triangles).zip(labels) {
             parts[label as usize].push(triangle);
         }
         parts.into_iter().map(|triangles| self.compacted(triangles)).collect()
+    }
+
+    /// The mesh without the nodes that no triangle needs; none if it has no such nodes.
+    pub fn without_unused_nodes(&self) -> Option<Piece> {
+        if self.used_count == self.points.len() {
+            return None;
+        }
+        Some(self.compacted((0..).zip(&self.triangles)).expect("it stays the same mesh"))
     }
 
     /// Opens the mesh along a path of edges, given by its nodes in order.
@@ -165,7 +186,8 @@ impl Mesh {
         if nodes.len() == self.points.len() {
             return Err(CutError::NothingOpened { from, to });
         }
-        self.piece(triangles, nodes)
+        let numbers = (0..triangles.len() as u32).collect();
+        self.piece(triangles, nodes, numbers)
     }
 
     /// The shortest path along edges, by length; of equally short ones always the same.
@@ -223,18 +245,28 @@ impl Mesh {
         sectors
     }
 
-    /// The mesh of some triangles and only their nodes.
-    pub(super) fn compacted(&self, mut triangles: Vec<[u32; 3]>) -> Result<Piece, CutError> {
+    /// The mesh of some triangles, given with what they were in this one, and only their nodes.
+    pub(super) fn compacted<T: std::borrow::Borrow<[u32; 3]>>(
+        &self,
+        triangles: impl IntoIterator<Item = (u32, T)>,
+    ) -> Result<Piece, CutError> {
+        let (numbers, mut triangles): (Vec<u32>, Vec<[u32; 3]>) =
+            triangles.into_iter().map(|(number, triangle)| (number, *triangle.borrow())).unzip();
         let mut new = vec![u32::MAX; self.points.len()];
         triangles.iter().flatten().for_each(|&node| new[node as usize] = 0);
         let nodes: Vec<u32> = (0..new.len() as u32).filter(|&node| new[node as usize] == 0).collect();
         nodes.iter().enumerate().for_each(|(i, &node)| new[node as usize] = i as u32);
         triangles.iter_mut().flatten().for_each(|node| *node = new[*node as usize]);
-        self.piece(triangles, nodes)
+        self.piece(triangles, nodes, numbers)
     }
 
-    /// A mesh whose node i is the node `nodes[i]` of this one.
-    fn piece(&self, triangles: Vec<[u32; 3]>, nodes: Vec<u32>) -> Result<Piece, CutError> {
+    /// A mesh whose node i is the node `nodes[i]` of this one, and whose triangle t was `numbers[t]`.
+    fn piece(
+        &self,
+        triangles: Vec<[u32; 3]>,
+        nodes: Vec<u32>,
+        numbers: Vec<u32>,
+    ) -> Result<Piece, CutError> {
         let points = nodes.iter().map(|&node| self.points[node as usize]).collect();
         let mut mesh = Mesh::new(points, triangles).map_err(|error| match error {
             MeshError::NoPoints => MeshError::NoTriangles, // the nodes went with the triangles
@@ -246,6 +278,7 @@ impl Mesh {
             values: nodes.iter().map(|&node| field.values[node as usize]).collect(),
         });
         mesh.fields = fields.collect();
+        mesh.origins = Origins::new(nodes.clone(), numbers);
         Ok(Piece { mesh, nodes })
     }
 }

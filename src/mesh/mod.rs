@@ -2,13 +2,16 @@
 //!
 //! A [`Mesh`] is manifold and consistently oriented: every edge has one or two triangles, and two run along
 //! it in opposite directions. Its constructor checks that and names what is wrong, so nothing after it asks
-//! again. Allowed are several components, holes, nodes without triangles and nodes where the surface only
-//! touches itself ([`Mesh::pinched_nodes`]).
+//! again. Allowed are several components, holes, nodes without triangles (whose coordinates may be anything) and
+//! nodes where the surface only touches itself ([`Mesh::pinched_nodes`]). Arrays and files that are no mesh yet are
+//! repaired ([`Repair`]) where that needs no guess.
 
 mod cut;
 mod decimate;
 mod error;
+mod polygon;
 mod read;
+mod repair;
 pub(crate) mod rings;
 #[cfg(test)]
 mod tests;
@@ -19,11 +22,15 @@ pub use cut::{CutError, Piece};
 pub(crate) use decimate::Quadric;
 pub use decimate::{DecimateError, DecimateOptions, DecimateReport, Decimation};
 pub use error::MeshError;
-pub use read::{Format, ReadError, read, read_bytes};
+pub use polygon::Faces;
+pub use read::{Format, ReadError, read, read_as, read_bytes};
+pub use repair::{Components, MeshRepairs, Repair};
 pub use topology::{HalfEdge, Topology};
 
 use crate::geometry::Bounds;
 use glam::{DVec2, DVec3};
+use polygon::Triangulation;
+use repair::Draft;
 
 /// How arrays become a mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -31,10 +38,14 @@ pub struct MeshOptions {
     /// Nodes not further apart than this become one, in model units. Default 0: nothing is welded, except
     /// that nodes of STL files with equal coordinates always are.
     pub weld_distance: f64,
-    /// Whether triangles are turned over until neighbours agree. Default: no, disagreement is an error.
-    pub orient: bool,
+    /// Which faults are mended; the others are refused. Default: [`Repair::SAFE`].
+    pub repair: Repair,
+    /// Which components become the mesh. Default: all.
+    pub components: Components,
     /// The number of the first node in the triangles given; files know theirs. Default 0.
     pub index_base: u32,
+    /// Most bytes of a file, unpacked, that are read; 0 (default) for three quarters of the machine's memory.
+    pub max_memory: u64,
 }
 
 impl MeshOptions {
@@ -43,36 +54,19 @@ impl MeshOptions {
         Self { weld_distance, ..self }
     }
 
-    /// The same with or without repair of the orientation.
-    pub const fn with_orient(self, orient: bool) -> Self {
-        Self { orient, ..self }
+    /// The same with another choice of what is mended.
+    pub const fn with_repair(self, repair: Repair) -> Self {
+        Self { repair, ..self }
+    }
+
+    /// The same for other components.
+    pub const fn with_components(self, components: Components) -> Self {
+        Self { components, ..self }
     }
 
     /// The same for nodes counted from another number.
     pub const fn with_index_base(self, index_base: u32) -> Self {
         Self { index_base, ..self }
-    }
-}
-
-/// What was done to arrays or a file to make a mesh of them.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct MeshRepairs {
-    /// Nodes that vanished because they were welded to others.
-    pub welded_nodes: usize,
-    /// Triangles that vanished because welding made two of their nodes one.
-    pub dropped_triangles: usize,
-    /// Triangles that were turned over.
-    pub flipped_triangles: usize,
-    /// The file has texture coordinates that are no parameters: a node has several, or none.
-    pub dropped_parameters: bool,
-    /// The node of the mesh that each node given became; none if they are the same.
-    pub node_map: Option<Vec<u32>>,
-}
-
-impl MeshRepairs {
-    /// Whether the mesh is what was given.
-    pub fn is_empty(&self) -> bool {
-        *self == Self::default()
     }
 }
 
@@ -96,67 +90,128 @@ pub struct Mesh {
     loops: Vec<Vec<u32>>,
     component_count: usize,
     used_count: usize,
+    origins: Origins,
+}
+
+/// What nodes and triangles were in the arrays, the file or the mesh that they come from.
+#[derive(Debug, Clone, PartialEq, Default)]
+struct Origins {
+    /// By node; none if the numbers are the same.
+    nodes: Option<Vec<u32>>,
+    /// By triangle; none if the numbers are the same.
+    triangles: Option<Vec<u32>>,
+}
+
+impl Origins {
+    /// From all numbers.
+    fn new(nodes: Vec<u32>, triangles: Vec<u32>) -> Self {
+        let unless_same = |numbers: Vec<u32>| {
+            let is_same = numbers.iter().zip(0..).all(|(&number, i)| number == i);
+            (!is_same).then_some(numbers)
+        };
+        Self { nodes: unless_same(nodes), triangles: unless_same(triangles) }
+    }
+
+    fn node(&self, node: u32) -> u32 {
+        self.nodes.as_ref().map_or(node, |nodes| nodes[node as usize])
+    }
+
+    fn triangle(&self, triangle: u32) -> u32 {
+        self.triangles.as_ref().map_or(triangle, |triangles| triangles[triangle as usize])
+    }
 }
 
 impl Mesh {
-    /// From arrays that need no repair.
+    /// From arrays that need no repair. Nodes without triangles and touching nodes may be there.
     pub fn new(points: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
         check_sizes(&points, &triangles)?;
-        check_triangles(&points, &triangles, 0)?;
-        Self::assemble(points, triangles)
+        check_indices(&points, &triangles, 0)?;
+        let is_repeated = |&[a, b, c]: &[u32; 3]| a == b || b == c || c == a;
+        if let Some(triangle) = triangles.iter().position(is_repeated) {
+            let [a, b, c] = triangles[triangle];
+            return Err(MeshError::RepeatedNode { triangle, node: if a == b { a } else { c } });
+        }
+        if let Some(node) = first_not_finite(&points, &triangles) {
+            return Err(MeshError::NotFinite { node });
+        }
+        let topology = Topology::new(&triangles, points.len())?;
+        Ok(Self::assemble(points, triangles, topology, Origins::default()))
     }
 
     /// From arrays, repaired as far as `options` ask for it.
     pub fn with_options(
         points: Vec<DVec3>,
-        triangles: Vec<[u32; 3]>,
+        mut triangles: Vec<[u32; 3]>,
         options: &MeshOptions,
     ) -> Result<(Self, MeshRepairs), MeshError> {
-        let weld = (options.weld_distance != 0.0).then_some(options.weld_distance);
-        Self::repaired(points, triangles, weld, options)
+        check_sizes(&points, &triangles)?;
+        check_indices(&points, &triangles, options.index_base)?;
+        triangles.iter_mut().flatten().for_each(|node| *node -= options.index_base);
+        Self::repaired(points, triangles, weld_distance(options), options)
+    }
+
+    /// From polygons, repaired as far as `options` ask for it. The triangles that errors speak of are those that the
+    /// polygons are cut into.
+    pub fn from_faces(
+        points: Vec<DVec3>,
+        mut faces: Faces,
+        options: &MeshOptions,
+    ) -> Result<(Self, MeshRepairs), MeshError> {
+        if points.is_empty() {
+            return Err(MeshError::NoPoints);
+        }
+        faces.rebase(options.index_base, points.len())?;
+        Self::from_faces_welded(points, faces, weld_distance(options), options)
+    }
+
+    fn from_faces_welded(
+        points: Vec<DVec3>,
+        faces: Faces,
+        weld: Option<f64>,
+        options: &MeshOptions,
+    ) -> Result<(Self, MeshRepairs), MeshError> {
+        let left_out = faces.left_out();
+        if let Some((face, count)) = left_out.filter(|_| !options.repair.has(Repair::REPEATED_CORNERS)) {
+            return Err(MeshError::FewCorners { face, count });
+        }
+        let Triangulation { triangles, faces } = faces.into_triangles(&points)?;
+        if let (true, Some((_, count))) = (triangles.is_empty(), left_out) {
+            return Err(MeshError::NoArea { count });
+        }
+        let (mut mesh, mut repairs) = Self::repaired(points, triangles, weld, options)?;
+        repairs.dropped_triangles += left_out.map_or(0, |(_, count)| count);
+        if let Some(faces) = faces {
+            let numbers = 0..mesh.triangles.len() as u32;
+            let face = |triangle| faces[mesh.origins.triangle(triangle) as usize];
+            mesh.origins.triangles = Some(numbers.map(face).collect());
+        }
+        Ok((mesh, repairs))
     }
 
     /// `weld`: the distance, 0 for equal coordinates; none for no welding whatever the options say.
     fn repaired(
-        mut points: Vec<DVec3>,
-        mut triangles: Vec<[u32; 3]>,
+        points: Vec<DVec3>,
+        triangles: Vec<[u32; 3]>,
         weld: Option<f64>,
         options: &MeshOptions,
     ) -> Result<(Self, MeshRepairs), MeshError> {
-        check_sizes(&points, &triangles)?;
         if let Some(distance) = weld.filter(|distance| !(distance.is_finite() && *distance >= 0.0)) {
             return Err(MeshError::WeldDistance { distance });
         }
-        let mut repairs = MeshRepairs::default();
-        // the numbers that the caller has for nodes and triangles; none while they are ours
-        let mut numbers = None;
-
-        check_indices(&points, &mut triangles, options.index_base)?;
-        if let Some(distance) = weld {
-            let firsts = weld::weld(&points, distance);
-            numbers = apply_weld(&firsts, &mut points, &mut triangles, &mut repairs);
-            if triangles.is_empty() {
-                return Err(MeshError::NothingLeft { distance });
-            }
-        }
-        let told = |error: MeshError| match &numbers {
-            Some((nodes, kept)) => error.renumbered(nodes, kept),
-            None => error,
-        };
-        if options.orient {
-            repairs.flipped_triangles = topology::orient(&mut triangles, points.len()).map_err(told)?;
-        }
-        let mesh = Self::assemble(points, triangles).map_err(told)?;
-        Ok((mesh, repairs))
+        Draft::new(points, triangles, options.repair)?.into_mesh(weld, options.components)
     }
 
     /// From checked arrays: everything that follows from them.
-    fn assemble(points: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
-        let topology = Topology::new(&triangles, points.len())?;
+    fn assemble(
+        points: Vec<DVec3>,
+        triangles: Vec<[u32; 3]>,
+        topology: Topology,
+        origins: Origins,
+    ) -> Self {
         let loops = ordered_loops(&points, &triangles, &topology);
         let (_, component_count) = topology.components();
         let used_count = (0..points.len()).filter(|&i| topology.first(i as u32).is_some()).count();
-        Ok(Self {
+        Self {
             points,
             triangles,
             parameters: None,
@@ -165,12 +220,36 @@ impl Mesh {
             loops,
             component_count,
             used_count,
-        })
+            origins,
+        }
+    }
+
+    /// What each node was in the arrays or the file, or in the mesh that this one was cut from.
+    pub fn node_origins(&self) -> impl ExactSizeIterator<Item = u32> + '_ {
+        (0..self.points.len() as u32).map(|node| self.origins.node(node))
+    }
+
+    /// What each triangle was in the arrays, or in the mesh that this one was cut from; for files the face.
+    pub fn triangle_origins(&self) -> impl ExactSizeIterator<Item = u32> + '_ {
+        (0..self.triangles.len() as u32).map(|triangle| self.origins.triangle(triangle))
     }
 
     /// The nodes.
     pub fn points(&self) -> &[DVec3] {
         &self.points
+    }
+
+    /// Moves the nodes. Parameters and fields stay.
+    pub fn set_points(&mut self, points: Vec<DVec3>) -> Result<(), MeshError> {
+        if points.len() != self.points.len() {
+            return Err(MeshError::PointCount { given: points.len(), count: self.points.len() });
+        }
+        if let Some(node) = first_not_finite(&points, &self.triangles) {
+            return Err(MeshError::NotFinite { node });
+        }
+        self.points = points;
+        self.loops = ordered_loops(&self.points, &self.triangles, &self.topology); // by length
+        Ok(())
     }
 
     /// Three nodes each, counter-clockwise seen from outside.
@@ -221,6 +300,13 @@ impl Mesh {
             None => self.fields.push(Field { name: name.to_owned(), values }),
         }
         Ok(())
+    }
+
+    /// Removes the field of this name; false if there is none.
+    pub fn remove_field(&mut self, name: &str) -> bool {
+        let before = self.fields.len();
+        self.fields.retain(|field| field.name != name);
+        self.fields.len() < before
     }
 
     /// Twins and fans.
@@ -362,77 +448,32 @@ fn check_sizes(points: &[DVec3], triangles: &[[u32; 3]]) -> Result<(), MeshError
         (_, count) if count > topology::MAX_TRIANGLES => {
             Err(MeshError::TooManyTriangles { count, limit: topology::MAX_TRIANGLES })
         }
-        _ => match points.iter().position(|point| !point.is_finite()) {
-            Some(node) => Err(MeshError::NotFinite { node }),
-            None => Ok(()),
-        },
+        _ => Ok(()),
     }
 }
 
-fn check_triangles(points: &[DVec3], triangles: &[[u32; 3]], first: u32) -> Result<(), MeshError> {
-    let end = points.len() as u64 + u64::from(first);
-    let exists = |node: u32| node >= first && u64::from(node) < end;
-    for (triangle, &[a, b, c]) in triangles.iter().enumerate() {
-        if let Some(node) = [a, b, c].into_iter().find(|&node| !exists(node)) {
-            return Err(MeshError::IndexOutOfRange { triangle, node, first, last: end - 1 });
-        }
-        if a == b || b == c || c == a {
-            return Err(MeshError::RepeatedNode { triangle, node: if a == b { a } else { c } - first });
-        }
-    }
-    Ok(())
-}
-
-/// Checks the triangles and lets their nodes count from 0.
-fn check_indices(points: &[DVec3], triangles: &mut [[u32; 3]], base: u32) -> Result<(), MeshError> {
-    check_triangles(points, triangles, base)?;
-    if base != 0 {
-        triangles.iter_mut().flatten().for_each(|node| *node -= base);
-    }
-    Ok(())
-}
-
-/// Keeps the nodes that are their own first and the triangles that keep three nodes. Returns the old numbers
-/// of both; none if no node was welded.
-fn apply_weld(
-    firsts: &[u32],
-    points: &mut Vec<DVec3>,
-    triangles: &mut Vec<[u32; 3]>,
-    repairs: &mut MeshRepairs,
-) -> Option<(Vec<u32>, Vec<u32>)> {
-    let mut nodes = Vec::new();
-    let mut node_map = Vec::with_capacity(firsts.len());
-    for (i, &first) in firsts.iter().enumerate() {
-        if first as usize == i {
-            node_map.push(nodes.len() as u32);
-            nodes.push(i as u32);
-        } else {
-            node_map.push(node_map[first as usize]); // first < i
-        }
-    }
-    if nodes.len() == points.len() {
+/// The first node of a triangle that has a coordinate which is not finite.
+fn first_not_finite(points: &[DVec3], triangles: &[[u32; 3]]) -> Option<usize> {
+    let is_bad = |node: usize| !points[node].is_finite();
+    if !(0..points.len()).any(is_bad) {
         return None;
     }
-    let mut kept = Vec::with_capacity(triangles.len());
-    let mut t = 0;
-    triangles.retain_mut(|triangle| {
-        *triangle = triangle.map(|node| node_map[node as usize]);
-        let [a, b, c] = *triangle;
-        let keeps = a != b && b != c && c != a;
-        if keeps {
-            kept.push(t);
+    triangles.iter().flatten().map(|&node| node as usize).filter(|&node| is_bad(node)).min()
+}
+
+fn weld_distance(options: &MeshOptions) -> Option<f64> {
+    (options.weld_distance != 0.0).then_some(options.weld_distance)
+}
+
+fn check_indices(points: &[DVec3], triangles: &[[u32; 3]], first: u32) -> Result<(), MeshError> {
+    let end = points.len() as u64 + u64::from(first);
+    let exists = |node: u32| node >= first && u64::from(node) < end;
+    for (triangle, nodes) in triangles.iter().enumerate() {
+        if let Some(&node) = nodes.iter().find(|&&node| !exists(node)) {
+            return Err(MeshError::IndexOutOfRange { triangle, node, first, last: end - 1 });
         }
-        t += 1;
-        keeps
-    });
-    *repairs = MeshRepairs {
-        welded_nodes: points.len() - nodes.len(),
-        dropped_triangles: t as usize - kept.len(),
-        node_map: Some(node_map),
-        ..*repairs
-    };
-    *points = nodes.iter().map(|&node| points[node as usize]).collect();
-    Some((nodes, kept))
+    }
+    Ok(())
 }
 
 fn ordered_loops(points: &[DVec3], triangles: &[[u32; 3]], topology: &Topology) -> Vec<Vec<u32>> {

@@ -90,7 +90,8 @@ fn refusals_name_the_offender() {
     assert_eq!(refusal(&[[0, 1, 2], [1, 0, 2]]), MeshError::DuplicateTriangle { triangle: 1, first: 0 });
     let page = refusal(&[[3, 1, 2], [1, 3, 4], [3, 1, 0]]);
     assert_eq!(page, MeshError::NonManifoldEdge { nodes: [1, 3], triangle_count: 3 });
-    assert_eq!(page.to_string(), "the edge between nodes 1 and 3 has 3 triangles, a mesh allows two");
+    let sentence = "the edge between nodes 1 and 3 has 3 triangles, a mesh allows two; the repair 'sheets' parts them";
+    assert_eq!(page.to_string(), sentence);
     assert_eq!((page.kind(), page.index()), (ErrorKind::Topology, Some(1)));
     let turned = refusal(&[[0, 1, 2], [1, 2, 3]]);
     assert_eq!(turned, MeshError::InconsistentOrientation { nodes: [1, 2], triangles: [0, 1] });
@@ -142,14 +143,16 @@ fn nodes_without_triangles_are_allowed_and_do_not_count() {
 }
 
 #[test]
-fn orientation_is_repaired_on_request_by_the_fewest_turns() {
+fn orientation_is_repaired_by_the_fewest_turns() {
     let good = torus(5, 6);
     let mut bad = good.clone();
     for t in [0, 1, 2, 17, 40] {
         bad[t].swap(0, 1);
     }
     assert!(matches!(Mesh::new(points(30), bad.clone()), Err(MeshError::InconsistentOrientation { .. })));
-    let options = MeshOptions::default().with_orient(true);
+    let options = MeshOptions::default();
+    let none = Mesh::with_options(points(30), bad.clone(), &options.with_repair(Repair::NONE)).unwrap_err();
+    assert!(matches!(none, MeshError::InconsistentOrientation { .. }), "{none}");
     let (mesh, repairs) = Mesh::with_options(points(30), bad, &options).unwrap();
     assert_eq!(repairs, MeshRepairs { flipped_triangles: 5, ..MeshRepairs::default() });
     assert_eq!(mesh.genus(), 1);
@@ -163,10 +166,10 @@ fn orientation_is_repaired_on_request_by_the_fewest_turns() {
 }
 
 #[test]
-fn a_moebius_strip_is_refused_even_on_request() {
+fn a_moebius_strip_is_refused_for_having_one_side() {
     let strip = band(5, true);
     assert!(matches!(refusal(&strip), MeshError::InconsistentOrientation { .. }));
-    let options = MeshOptions::default().with_orient(true);
+    let options = MeshOptions::default();
     let error = Mesh::with_options(points(10), strip, &options).unwrap_err();
     assert!(matches!(error, MeshError::NonOrientable { .. }), "{error}");
     assert_eq!(error.kind(), ErrorKind::Topology);
@@ -196,12 +199,146 @@ fn welding_reports_what_it_did_in_the_callers_numbers() {
     assert_eq!(mesh.loops().len(), 1);
 
     let twice = vec![[4, 6, 5], [0, 1, 2], [0, 3, 5]];
-    let error = Mesh::with_options(quad.clone(), twice, &options).unwrap_err();
+    let no_copies = options.with_repair(Repair::NONE.with(Repair::UNUSED_NODES));
+    let error = Mesh::with_options(quad.clone(), twice.clone(), &no_copies).unwrap_err();
     assert_eq!(error, MeshError::DuplicateTriangle { triangle: 2, first: 1 });
+    let (once, repairs) = Mesh::with_options(quad.clone(), twice, &options).unwrap();
+    assert_eq!((repairs.dropped_triangles, repairs.duplicate_triangles, repairs.unused_nodes), (1, 1, 1));
+    assert_eq!(once.triangle_origins().collect::<Vec<_>>(), [1]);
+    assert_eq!(once.node_origins().collect::<Vec<_>>(), [0, 1, 2, 4]);
     let nothing = Mesh::with_options(quad.clone(), vec![[4, 6, 5]], &options).unwrap_err();
     assert_eq!(nothing, MeshError::NothingLeft { distance: 1e-9 });
     let bad = Mesh::with_options(quad, vec![[0, 1, 2]], &options.with_weld_distance(-1.0)).unwrap_err();
     assert_eq!(bad, MeshError::WeldDistance { distance: -1.0 });
+}
+
+/// The faults that each repair mends, alone: the nodes, the triangles, and what refuses them.
+fn faults() -> [(Repair, usize, Vec<[u32; 3]>, MeshError); 6] {
+    [
+        (Repair::UNUSED_NODES, 4, vec![[0, 1, 2]], MeshError::UnusedNode { node: 3 }),
+        (Repair::REPEATED_CORNERS, 3, vec![[0, 1, 1], [0, 1, 2]], MeshError::RepeatedNode { triangle: 0, node: 1 }),
+        (
+            Repair::DUPLICATE_TRIANGLES,
+            3,
+            vec![[0, 1, 2], [2, 1, 0]],
+            MeshError::DuplicateTriangle { triangle: 1, first: 0 },
+        ),
+        (Repair::TOUCHING_NODES, 5, BOW_TIE.to_vec(), MeshError::TouchingNode { node: 2 }),
+        (
+            Repair::ORIENTATION,
+            4,
+            vec![[0, 1, 2], [1, 2, 3]],
+            MeshError::InconsistentOrientation { nodes: [1, 2], triangles: [0, 1] },
+        ),
+        (
+            Repair::SHEETS,
+            5,
+            vec![[3, 1, 2], [1, 3, 4], [3, 1, 0]],
+            MeshError::NonManifoldEdge { nodes: [1, 3], triangle_count: 3 },
+        ),
+    ]
+}
+
+#[test]
+fn each_repair_mends_its_fault_and_no_other() {
+    for (repair, count, triangles, fault) in faults() {
+        let others = Repair::from_bits(0b11_1111 & !(1 << faults().iter().position(|f| f.0 == repair).unwrap()));
+        let make = |repair| {
+            Mesh::with_options(points(count), triangles.clone(), &MeshOptions::default().with_repair(repair))
+        };
+        assert_eq!(make(others.unwrap()).unwrap_err(), fault, "{repair:?}");
+        assert_eq!(make(Repair::NONE).unwrap_err(), fault, "{repair:?}");
+        let (mesh, repairs) = make(repair).unwrap_or_else(|error| panic!("{repair:?}: {error}"));
+        assert!(!repairs.is_empty(), "{repair:?}");
+        for (node, origin) in mesh.node_origins().enumerate() {
+            assert_eq!(mesh.points()[node], points(count)[origin as usize]);
+        }
+    }
+}
+
+#[test]
+fn unused_nodes_may_hold_anything() {
+    let mut bad = points(4);
+    bad[0] = DVec3::NAN;
+    bad.push(DVec3::INFINITY);
+    for weld in [0.0, 1e-3] {
+        let options = MeshOptions::default().with_weld_distance(weld);
+        let (mesh, repairs) = Mesh::with_options(bad.clone(), vec![[1, 2, 3]], &options).unwrap();
+        assert_eq!((repairs.unused_nodes, mesh.points().len()), (2, 5));
+        assert_eq!(mesh.bounds().max, [3.0, 9.0, 1.5]);
+        let piece = mesh.without_unused_nodes().unwrap();
+        assert_eq!(piece.nodes, [1, 2, 3]);
+    }
+    let used = Mesh::with_options(bad, vec![[1, 2, 4]], &MeshOptions::default()).unwrap_err();
+    assert_eq!(used, MeshError::NotFinite { node: 4 });
+}
+
+#[test]
+fn touching_nodes_are_split_and_their_copies_appended() {
+    let other = TETRAHEDRON.map(|t| t.map(|i| i + 3));
+    let touching: Vec<[u32; 3]> = TETRAHEDRON.iter().chain(&other).copied().collect();
+    let (mesh, repairs) = Mesh::with_options(points(7), touching.clone(), &MeshOptions::default()).unwrap();
+    assert_eq!((repairs.split_nodes, mesh.points().len()), (1, 8));
+    assert!(mesh.pinched_nodes().is_empty());
+    assert_eq!(census(&mesh), (2, 0, 4, 0, 12));
+    assert_eq!(mesh.node_origins().last(), Some(3));
+    assert_eq!(mesh.triangle_origins().collect::<Vec<_>>(), (0..8).collect::<Vec<_>>());
+    // one component alone does not touch itself
+    let options = MeshOptions::default().with_components(Components::One(1));
+    let (part, repairs) = Mesh::with_options(points(7), touching, &options).unwrap();
+    assert_eq!((repairs.split_nodes, repairs.excluded_triangles, part.unused_nodes()), (0, 4, vec![0, 1, 2]));
+    assert_eq!(part.triangle_origins().collect::<Vec<_>>(), [4, 5, 6, 7]);
+}
+
+#[test]
+fn the_largest_component_is_picked() {
+    let mut triangles = vec![[5, 6, 7]];
+    triangles.extend(TETRAHEDRON);
+    triangles.extend(TETRAHEDRON.map(|t| t.map(|i| i + 8)));
+    let make = |components| {
+        let options = MeshOptions::default().with_components(components);
+        Mesh::with_options(points(12), triangles.clone(), &options)
+    };
+    let (mesh, repairs) = make(Components::Largest).unwrap();
+    assert_eq!((mesh.triangles(), repairs.excluded_triangles), (&TETRAHEDRON[..], 5));
+    assert!(repairs.unused_nodes == 1 && !repairs.is_empty(), "node 4 alone was never used: {repairs:?}");
+    let error = make(Components::One(3)).unwrap_err();
+    assert_eq!(error, MeshError::NoSuchComponent { component: 3, count: 3 });
+}
+
+#[test]
+fn sheets_are_parted_where_more_than_two_meet() {
+    let options = MeshOptions::default().with_repair(Repair::ALL);
+    // a tetrahedron with a fin on the edge from 0 to 1: the body stays closed
+    let mut finned = TETRAHEDRON.to_vec();
+    finned.push([0, 1, 4]);
+    let (mesh, repairs) = Mesh::with_options(points(5), finned, &options).unwrap();
+    assert_eq!((repairs.parted_edges, repairs.split_nodes), (1, 2));
+    assert_eq!(census(&mesh), (2, 1, 3, 0, 9));
+    assert_eq!(mesh.triangles()[..4], TETRAHEDRON);
+    // two tetrahedra that share an edge
+    let other = TETRAHEDRON.map(|t| t.map(|i| if i < 2 { i } else { i + 2 }));
+    let two: Vec<[u32; 3]> = TETRAHEDRON.iter().chain(&other).copied().collect();
+    let (mesh, repairs) = Mesh::with_options(points(6), two, &options).unwrap();
+    assert_eq!((repairs.parted_edges, repairs.split_nodes), (1, 2));
+    assert_eq!(census(&mesh), (2, 0, 4, 0, 12));
+    // pages of a book
+    let book: Vec<[u32; 3]> = (0..5).map(|page| [0, 1, 2 + page]).collect();
+    let (mesh, _) = Mesh::with_options(points(7), book, &options).unwrap();
+    assert_eq!((mesh.component_count(), mesh.points().len()), (5, 7 + 8));
+}
+
+#[test]
+fn moved_nodes_keep_everything_else() {
+    let mut mesh = mesh(&[[0, 1, 2]]);
+    mesh.set_field("t", vec![1.0, 2.0, 3.0]).unwrap();
+    let moved = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
+    mesh.set_points(moved.clone()).unwrap();
+    assert_eq!((mesh.points(), mesh.field("t")), (&moved[..], Some(&[1.0, 2.0, 3.0][..])));
+    assert_eq!(mesh.set_points(vec![]), Err(MeshError::PointCount { given: 0, count: 3 }));
+    let nan = vec![DVec3::ZERO, DVec3::NAN, DVec3::Y];
+    assert_eq!(mesh.set_points(nan), Err(MeshError::NotFinite { node: 1 }));
+    assert!(mesh.remove_field("t") && !mesh.remove_field("t") && mesh.fields().is_empty());
 }
 
 #[test]

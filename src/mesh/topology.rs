@@ -79,7 +79,11 @@ pub struct Topology {
 impl Topology {
     /// Pairs the edges of `triangles`, whose nodes are below `node_count`.
     pub(super) fn new(triangles: &[[u32; 3]], node_count: usize) -> Result<Self, MeshError> {
-        let (twins, clash) = pair_edges(triangles, node_count)?;
+        let Pairing { mates: twins, clash, crowded } = Pairing::new(triangles, node_count);
+        if let Some(&CrowdedEdge { nodes, triangle_count }) = crowded.first() {
+            let error = MeshError::NonManifoldEdge { nodes, triangle_count };
+            return Err(duplicate(triangles).unwrap_or(error));
+        }
         if let Some(half_edges) = clash {
             return Err(duplicate(triangles).unwrap_or_else(|| inconsistent(triangles, half_edges)));
         }
@@ -133,6 +137,11 @@ impl Topology {
         let mut nodes: Vec<u32> = self.further_fans.iter().map(|&(node, _)| node).collect();
         nodes.dedup();
         nodes
+    }
+
+    /// The fans beyond the first of each node, as the node and the half-edge they start with, by node.
+    pub(super) fn further_fans(&self) -> impl Iterator<Item = (u32, HalfEdge)> + '_ {
+        self.further_fans.iter().map(|&(node, half_edge)| (node, HalfEdge(half_edge)))
     }
 
     /// Fans beyond the first of each node: how many nodes more there were if no node was pinched.
@@ -199,8 +208,9 @@ impl Topology {
 /// Turns triangles over so that neighbours agree, as few as that takes in each component (of two equal
 /// halves the one without the smallest triangle), and returns how many.
 pub(super) fn orient(triangles: &mut [[u32; 3]], node_count: usize) -> Result<usize, MeshError> {
-    let (mates, clash) = pair_edges(triangles, node_count)?;
-    let Some(_) = clash else { return Ok(0) };
+    let Pairing { mates, clash, crowded } = Pairing::new(triangles, node_count);
+    // edges of more than two triangles are told when the mesh is made
+    let (Some(_), true) = (clash, crowded.is_empty()) else { return Ok(0) };
     if let Some(error) = duplicate(triangles) {
         return Err(error);
     }
@@ -248,61 +258,107 @@ fn some(half_edge: u32) -> Option<HalfEdge> {
     (half_edge != NONE).then_some(HalfEdge(half_edge))
 }
 
-/// The half-edge on the other side of each, whatever its direction (NONE on the boundary), and the first
-/// two that run in the same direction.
-fn pair_edges(
-    triangles: &[[u32; 3]],
-    node_count: usize,
-) -> Result<(Vec<u32>, Option<[HalfEdge; 2]>), MeshError> {
-    // counting sort by the smaller node: entries of node i end at ends[i]
-    let mut ends = vec![0u32; node_count + 1];
-    for &[a, b, c] in triangles {
-        for node in [a.min(b), b.min(c), c.min(a)] {
-            ends[node as usize + 1] += 1;
-        }
-    }
-    for node in 0..node_count {
-        ends[node + 1] += ends[node];
-    }
-    // one number for each half-edge: larger node, half-edge, whether it leaves the smaller node
-    let mut entries = vec![0u64; 3 * triangles.len()];
-    for (t, &[a, b, c]) in triangles.iter().enumerate() {
-        for (corner, (from, to)) in [(a, b), (b, c), (c, a)].into_iter().enumerate() {
-            let place = &mut ends[from.min(to) as usize];
-            let half_edge = (3 * t + corner) as u64;
-            entries[*place as usize] = u64::from(from.max(to)) << 32 | half_edge << 1 | u64::from(from < to);
-            *place += 1;
-        }
-    }
+/// An edge of more than two triangles.
+pub(super) struct CrowdedEdge {
+    /// Its ends, the smaller first.
+    pub nodes: [u32; 2],
+    pub triangle_count: usize,
+}
 
-    let mut mates = vec![NONE; entries.len()];
-    let mut clash = None;
-    let mut start = 0;
-    for node in 0..node_count {
-        let end = ends[node] as usize;
-        let bucket = &mut entries[start..end];
-        start = end;
-        bucket.sort_unstable();
-        for edge in bucket.chunk_by(|x, y| x >> 32 == y >> 32) {
-            match *edge {
-                [_] => {}
-                [x, y] => {
-                    let [first, second] = [x, y].map(|entry| HalfEdge(entry as u32 >> 1));
-                    mates[first.index()] = second.0;
-                    mates[second.index()] = first.0;
-                    if x & 1 == y & 1 {
-                        clash = clash.or(Some([first, second]));
+/// Which half-edges lie on the same edge, whatever their directions.
+pub(super) struct Pairing {
+    /// The other side of each half-edge; NONE on the boundary, and at edges of more than two triangles.
+    mates: Vec<u32>,
+    /// The first two mates that run in the same direction.
+    clash: Option<[HalfEdge; 2]>,
+    /// Edges of more than two triangles, by their smaller node, then by the larger.
+    pub crowded: Vec<CrowdedEdge>,
+}
+
+impl Pairing {
+    pub fn new(triangles: &[[u32; 3]], node_count: usize) -> Self {
+        // counting sort by the smaller node: entries of node i end at ends[i]
+        let mut ends = vec![0u32; node_count + 1];
+        for &[a, b, c] in triangles {
+            for node in [a.min(b), b.min(c), c.min(a)] {
+                ends[node as usize + 1] += 1;
+            }
+        }
+        for node in 0..node_count {
+            ends[node + 1] += ends[node];
+        }
+        // one number for each half-edge: larger node, half-edge, whether it leaves the smaller node
+        let mut entries = vec![0u64; 3 * triangles.len()];
+        for (t, &[a, b, c]) in triangles.iter().enumerate() {
+            for (corner, (from, to)) in [(a, b), (b, c), (c, a)].into_iter().enumerate() {
+                let place = &mut ends[from.min(to) as usize];
+                let half_edge = (3 * t + corner) as u64;
+                entries[*place as usize] =
+                    u64::from(from.max(to)) << 32 | half_edge << 1 | u64::from(from < to);
+                *place += 1;
+            }
+        }
+
+        let mut mates = vec![NONE; entries.len()];
+        let mut clash = None;
+        let mut crowded = Vec::new();
+        let mut start = 0;
+        for node in 0..node_count {
+            let end = ends[node] as usize;
+            let bucket = &mut entries[start..end];
+            start = end;
+            bucket.sort_unstable();
+            for edge in bucket.chunk_by(|x, y| x >> 32 == y >> 32) {
+                match *edge {
+                    [_] => {}
+                    [x, y] => {
+                        let [first, second] = [x, y].map(|entry| HalfEdge(entry as u32 >> 1));
+                        mates[first.index()] = second.0;
+                        mates[second.index()] = first.0;
+                        if x & 1 == y & 1 {
+                            clash = clash.or(Some([first, second]));
+                        }
                     }
-                }
-                _ => {
-                    let nodes = [node as u32, (edge[0] >> 32) as u32];
-                    let error = MeshError::NonManifoldEdge { nodes, triangle_count: edge.len() };
-                    return Err(duplicate(triangles).unwrap_or(error));
+                    _ => crowded.push(CrowdedEdge {
+                        nodes: [node as u32, (edge[0] >> 32) as u32],
+                        triangle_count: edge.len(),
+                    }),
                 }
             }
         }
+        Self { mates, clash, crowded }
     }
-    Ok((mates, clash))
+
+    /// The corners, 3 * triangle + corner, at each of some nodes, in groups of triangles that hang together by edges of
+    /// two triangles; without the first group of each node, which is that of the smallest corner.
+    pub fn further_groups(&self, triangles: &[[u32; 3]], nodes: &[u32]) -> Vec<(u32, Vec<usize>)> {
+        let mut has_group = vec![false; nodes.len()];
+        let mut seen = vec![false; self.mates.len()];
+        let mut groups = Vec::new();
+        for corner in 0..seen.len() {
+            let node = HalfEdge(corner as u32).origin(triangles);
+            let Ok(place) = nodes.binary_search(&node) else { continue };
+            if std::mem::replace(&mut seen[corner], true) {
+                continue;
+            }
+            let mut group = vec![corner];
+            let mut done = 0;
+            while done < group.len() {
+                let leaving = HalfEdge(group[done] as u32);
+                done += 1;
+                for mate in [leaving, leaving.previous()].into_iter().filter_map(|h| some(self.mates[h.index()])) {
+                    let next = if mate.origin(triangles) == node { mate } else { mate.next() };
+                    if !std::mem::replace(&mut seen[next.index()], true) {
+                        group.push(next.index());
+                    }
+                }
+            }
+            if std::mem::replace(&mut has_group[place], true) {
+                groups.push((node, group));
+            }
+        }
+        groups
+    }
 }
 
 /// The first fan of each node, and the others as (node, half-edge) by node. Open fans go first.
@@ -333,6 +389,23 @@ fn find_fans(triangles: &[[u32; 3]], twins: &[u32], node_count: usize) -> (Vec<u
 
 /// The first triangle that has the nodes of an earlier one. Sorts, so only asked when something is wrong.
 fn duplicate(triangles: &[[u32; 3]]) -> Option<MeshError> {
+    let keys = sorted_by_nodes(triangles);
+    let pairs = keys.windows(2).filter(|pair| pair[0].0 == pair[1].0);
+    let (triangle, first) = pairs.map(|pair| (pair[1].1, pair[0].1)).min()?;
+    Some(MeshError::DuplicateTriangle { triangle, first })
+}
+
+/// Whether each triangle is the first one with its nodes.
+pub(super) fn first_copies(triangles: &[[u32; 3]]) -> Vec<bool> {
+    let mut is_first = vec![true; triangles.len()];
+    for pair in sorted_by_nodes(triangles).windows(2) {
+        is_first[pair[1].1] = pair[0].0 != pair[1].0;
+    }
+    is_first
+}
+
+/// Triangles as their nodes, in increasing order, and their numbers.
+fn sorted_by_nodes(triangles: &[[u32; 3]]) -> Vec<([u32; 3], usize)> {
     let sorted = |(t, &triangle): (usize, &[u32; 3])| {
         let mut nodes = triangle;
         nodes.sort_unstable();
@@ -340,9 +413,7 @@ fn duplicate(triangles: &[[u32; 3]]) -> Option<MeshError> {
     };
     let mut keys: Vec<([u32; 3], usize)> = triangles.iter().enumerate().map(sorted).collect();
     keys.sort_unstable();
-    let pairs = keys.windows(2).filter(|pair| pair[0].0 == pair[1].0);
-    let (triangle, first) = pairs.map(|pair| (pair[1].1, pair[0].1)).min()?;
-    Some(MeshError::DuplicateTriangle { triangle, first })
+    keys
 }
 
 fn inconsistent(triangles: &[[u32; 3]], half_edges: [HalfEdge; 2]) -> MeshError {

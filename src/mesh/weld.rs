@@ -11,7 +11,7 @@ use glam::DVec3;
 const CELL_WIDTH: f64 = 4.0;
 
 /// For each point the first of the points it is welded to (itself if it is kept). Distance 0 welds points
-/// whose coordinates are equal.
+/// whose coordinates are equal. Points that are not finite stay alone.
 pub(super) fn weld(points: &[DVec3], distance: f64) -> Vec<u32> {
     let equal = weld_equal(points);
     if distance == 0.0 { equal } else { weld_near(points, &equal, distance) }
@@ -21,6 +21,10 @@ fn weld_equal(points: &[DVec3]) -> Vec<u32> {
     let mut table = Table::new(points.len());
     let mut firsts = Vec::with_capacity(points.len());
     for (i, &point) in points.iter().enumerate() {
+        if !point.is_finite() {
+            firsts.push(i as u32);
+            continue;
+        }
         let hash = hash(point.to_array().map(|x| (x + 0.0).to_bits())); // -0 + 0 = 0
         let first = table.chain(hash).find(|&j| points[j as usize] == point);
         firsts.push(first.unwrap_or(i as u32));
@@ -33,8 +37,9 @@ fn weld_equal(points: &[DVec3]) -> Vec<u32> {
 
 /// `equal`: what [`weld_equal`] returned; equal points stay together.
 fn weld_near(points: &[DVec3], equal: &[u32], distance: f64) -> Vec<u32> {
-    let low = points.iter().fold(points[0], |low, &point| low.min(point));
-    let high = points.iter().fold(points[0], |high, &point| high.max(point));
+    let finite = || points.iter().copied().filter(|point| point.is_finite());
+    let low = finite().fold(DVec3::INFINITY, DVec3::min);
+    let high = finite().fold(DVec3::NEG_INFINITY, DVec3::max);
     // cells so small that neighbours have the same floating-point number would lose nodes
     let width = (CELL_WIDTH * distance).max((high - low).max_element() * 2f64.powi(-50));
     let cell_of = |point: DVec3| ((point - low) / width).floor().to_array();
@@ -45,6 +50,10 @@ fn weld_near(points: &[DVec3], equal: &[u32], distance: f64) -> Vec<u32> {
     for (i, &point) in points.iter().enumerate() {
         if (equal[i] as usize) < i {
             firsts.push(firsts[equal[i] as usize]);
+            continue;
+        }
+        if !point.is_finite() {
+            firsts.push(i as u32);
             continue;
         }
         let [from, to] = [cell_of(point - distance), cell_of(point + distance)];

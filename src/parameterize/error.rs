@@ -23,14 +23,8 @@ pub enum ParameterizeError {
         genus: usize,
     },
     /// The surface touches itself in a node.
-    #[error("the surface touches itself in node {node}; use two nodes there")]
+    #[error("the surface touches itself in node {node}; the repair 'touching' makes two nodes of it")]
     Pinched {
-        /// The node.
-        node: usize,
-    },
-    /// A node belongs to no triangle and has no given parameters.
-    #[error("node {node} belongs to no triangle, so nothing says where its parameters lie; remove it")]
-    Unused {
         /// The node.
         node: usize,
     },
@@ -117,7 +111,7 @@ impl Classify for ParameterizeError {
             Self::Closed | Self::Components { .. } | Self::Genus { .. } | Self::Pinched { .. } => {
                 ErrorKind::Topology
             }
-            Self::Unused { .. } | Self::ShortBorder { .. } => ErrorKind::Topology,
+            Self::ShortBorder { .. } => ErrorKind::Topology,
             Self::ZeroArea { .. } | Self::ZeroWeight { .. } | Self::Untied { .. } => ErrorKind::Degenerate,
             Self::ZeroBorder { .. } | Self::FlatParameters | Self::CannotUnroll => ErrorKind::Degenerate,
             Self::Corner { .. } | Self::NoParameters | Self::Option { .. } | Self::NodeWeight { .. } => {
@@ -131,9 +125,15 @@ impl Classify for ParameterizeError {
 
     /// The offending node, if one is to blame.
     fn index(&self) -> Option<usize> {
-        match *self {
+        self.clone().node_mut().copied()
+    }
+}
+
+impl ParameterizeError {
+    /// The offending node, to be told in other numbers.
+    pub(crate) fn node_mut(&mut self) -> Option<&mut usize> {
+        match self {
             Self::Pinched { node }
-            | Self::Unused { node }
             | Self::ZeroWeight { node, .. }
             | Self::Untied { node }
             | Self::Corner { node }

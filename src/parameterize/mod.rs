@@ -186,6 +186,7 @@ pub fn parameterize_weighted(
             flatten(mesh, &mut uv, &mut report);
         }
     }
+    place_unused_nodes(mesh, &mut uv);
     report.seconds = start.elapsed().as_secs_f64();
     Ok(Parameterization { uv, report })
 }
@@ -384,10 +385,16 @@ fn start_values(mesh: &Mesh, options: &ParameterizeOptions) -> Result<Vec<DVec2>
     match mesh.parameters() {
         Some(given) => Ok(given.to_vec()),
         None if options.border == Border::Kept => Err(ParameterizeError::NoParameters),
-        None => match mesh.unused_nodes().first() {
-            Some(&node) => Err(ParameterizeError::Unused { node: node as usize }),
-            None => Ok(vec![DVec2::ZERO; mesh.points().len()]),
-        },
+        None => Ok(vec![DVec2::ZERO; mesh.points().len()]),
+    }
+}
+
+/// Nodes without triangles have no place in the map. Unless they were given parameters, which they keep, they get those
+/// of a node that has one: the range of the map stays as it is.
+fn place_unused_nodes(mesh: &Mesh, uv: &mut [DVec2]) {
+    let some_place = uv[mesh.triangles()[0][0] as usize];
+    for node in mesh.unused_nodes() {
+        uv[node as usize] = mesh.parameters().map_or(some_place, |given| given[node as usize]);
     }
 }
 

@@ -81,9 +81,10 @@ impl Classify for DeviationError {
 /// Distances between a surface and a mesh, in model units.
 #[derive(Debug, Clone, Default)]
 pub struct DeviationReport {
-    /// From the nodes to the surface: each, the largest, root mean square, mean, and the farthest node.
+    /// From the nodes to the surface: each (NaN for a node without triangles), the largest, root mean square, mean, and
+    /// the farthest node.
     pub nodes: DataErrors,
-    /// The (u,v) nearest to each node.
+    /// The (u,v) nearest to each node; NaN for a node without triangles.
     pub uv: Vec<DVec2>,
     /// Largest distance from a place on the surface to the mesh; NaN unless asked for.
     pub max_back_distance: f64,
@@ -117,17 +118,29 @@ pub fn deviation_with(
     if surface.dim() != 3 {
         return Err(DeviationError::Dimension { dim: surface.dim() });
     }
-    let points: Vec<f64> = mesh.points().iter().flat_map(|p| p.to_array()).collect();
-    let count = mesh.points().len();
-    let guesses = mesh.parameters().filter(|_| options.use_parameters);
-    let project = ProjectOptions { guesses, keep_trims: options.keep_trims, ..ProjectOptions::default() };
-    let (mut uv, mut distances) = (vec![DVec2::ZERO; count], vec![0.0; count]);
-    projector.project(&points, &project, &mut uv, &mut distances, pool)?;
+    // nodes that no triangle needs are none of the shape's
+    let nodes: Vec<usize> = (0..mesh.points().len()).filter(|&node| mesh.is_used(node as u32)).collect();
+    let points: Vec<f64> = nodes.iter().flat_map(|&node| mesh.points()[node].to_array()).collect();
+    let guesses: Option<Vec<DVec2>> = mesh
+        .parameters()
+        .filter(|_| options.use_parameters)
+        .map(|uv| nodes.iter().map(|&node| uv[node]).collect());
+    let project =
+        ProjectOptions { guesses: guesses.as_deref(), keep_trims: options.keep_trims, ..ProjectOptions::default() };
+    let (mut nearest, mut distances) = (vec![DVec2::ZERO; nodes.len()], vec![0.0; nodes.len()]);
+    projector.project(&points, &project, &mut nearest, &mut distances, pool)?;
     let (max_back_distance, worst_back_uv, back_count) = match options.measure_back {
         true => measure_back(surface, mesh, options, pool)?,
         false => (f64::NAN, DVec2::NAN, 0),
     };
-    Ok(DeviationReport { nodes: summarize(distances), uv, max_back_distance, worst_back_uv, back_count })
+    let mut errors = summarize(distances);
+    let mut uv = vec![DVec2::NAN; mesh.points().len()];
+    let mut each = vec![f64::NAN; mesh.points().len()];
+    for (&node, (&place, &distance)) in nodes.iter().zip(nearest.iter().zip(&errors.each)) {
+        (uv[node], each[node]) = (place, distance);
+    }
+    (errors.worst_index, errors.each) = (nodes[errors.worst_index], each);
+    Ok(DeviationReport { nodes: errors, uv, max_back_distance, worst_back_uv, back_count })
 }
 
 /// The largest distance from nodes and middles of a tessellation to the mesh, its place, and their number.
@@ -199,8 +212,10 @@ mod tests {
         // parameters that are all wrong change nothing
         mesh.set_parameters(vec![DVec2::splat(0.3); mesh.points().len()]).unwrap();
         let guessed = deviation(&square(), &mesh, &DeviationOptions::default(), &Pool::new(2)).unwrap();
-        let pairs = report.nodes.each.iter().zip(&guessed.nodes.each);
-        assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() <= 1e-12));
+        for (node, (a, b)) in report.nodes.each.iter().zip(&guessed.nodes.each).enumerate() {
+            // nodes without triangles, here in the hole, are none of the shape's
+            assert!(if mesh.is_used(node as u32) { (a - b).abs() <= 1e-12 } else { a.is_nan() && b.is_nan() });
+        }
     }
 
     #[test]

@@ -1,11 +1,12 @@
 //! `planish d1rc`.
 
+use crate::input::{MeshInput, threads};
 use crate::output::{self, Step, Table};
 use crate::{Failure, Outcome};
 use clap::{Args, ValueEnum};
 use planish::Control;
 use planish::export::step::StepOptions;
-use planish::mesh::{Mesh, MeshOptions, read};
+use planish::mesh::Mesh;
 use planish::parameterize::{ParameterizeOptions, parameterize};
 use planish::surface::d1rc::{Boundary, D1rcMode, D1rcOptions, D1rcSurface, SharpRule, sharp_edges};
 use std::path::PathBuf;
@@ -18,7 +19,7 @@ pub struct D1rcArguments {
     #[arg(long, default_value_t = 3)]
     degree: usize,
     /// Edges whose faces meet at more than this many degrees stay sharp.
-    #[arg(long, value_name = "DEGREES")]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
     sharp_angle: Option<f64>,
     /// Which functions there are.
     #[arg(long, value_enum, default_value_t = ModeName::Reproducing)]
@@ -33,8 +34,13 @@ pub struct D1rcArguments {
     /// several times.
     #[arg(long, value_name = "FILE")]
     out: Vec<PathBuf>,
+    /// Ignore parameters that the file has.
+    #[arg(long)]
+    ignore_parameters: bool,
+    #[command(flatten)]
+    input: MeshInput,
     /// Threads; 0 for all cores.
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = 0, value_name = "N", value_parser = threads)]
     threads: usize,
 }
 
@@ -61,7 +67,10 @@ enum SharpName {
 
 pub fn run(arguments: &D1rcArguments) -> Result<Outcome, Failure> {
     output::check_names(&arguments.out)?;
-    let (mut mesh, _) = read(&arguments.mesh, &MeshOptions::default())?;
+    let (mut mesh, repairs) = arguments.input.read(&arguments.mesh)?;
+    if arguments.ignore_parameters {
+        mesh.clear_parameters();
+    }
     if mesh.parameters().is_none() {
         let mut control = Control::new(arguments.threads);
         let map = parameterize(&mesh, &ParameterizeOptions::default(), &mut control)?;
@@ -72,12 +81,17 @@ pub fn run(arguments: &D1rcArguments) -> Result<Outcome, Failure> {
         None => Vec::new(),
     };
     let surface = D1rcSurface::from_mesh(&mesh, &options(arguments), &sharp, &[])?;
-    print!("{}", table(arguments, &mesh, &sharp, &surface));
+    let mut table = table(arguments, &mesh, &sharp, &surface);
+    output::repair_rows(&mut table, &repairs);
     let surface = surface.into();
     let product = arguments.mesh.file_stem().unwrap_or_default().to_string_lossy();
     let text = StepOptions { product: &product, ..StepOptions::default() };
     let step = Step { text, ..Step::default() };
-    arguments.out.iter().try_for_each(|path| output::write_surface(&surface, path, &step))?;
+    for path in &arguments.out {
+        output::write_surface(&surface, path, &step)?;
+        table.row("written", path.display().to_string());
+    }
+    output::print(table)?;
     Ok(Outcome::Done)
 }
 

@@ -1,12 +1,12 @@
 //! `planish eval`.
 
-use crate::{Failure, Outcome};
+use crate::{Failure, Outcome, output};
 use clap::Args;
 use planish::Control;
 use planish::export::native;
 use planish::surface::Domain;
 use planish::surface::evaluate::{Output, OutsideRule, Points, Quantity, evaluate};
-use std::io::{Read, Write};
+use std::io::Read;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -44,12 +44,13 @@ pub fn run(arguments: &EvalArguments) -> Result<Outcome, Failure> {
     let points = Points::new(&uv, 2, count);
     let output = Output { rows: &mut values, stride: width, flags: &mut [] };
     evaluate(surface, quantity, points, rule, output, control.pool())?;
-    let mut out = std::io::BufWriter::new(std::io::stdout().lock());
+    let mut text = String::new();
     for (uv, row) in uv.chunks_exact(2).zip(values.chunks_exact(width)) {
         let numbers: Vec<String> = uv.iter().chain(row).map(f64::to_string).collect();
-        writeln!(out, "{}", numbers.join(" "))?;
+        text.push_str(&numbers.join(" "));
+        text.push('\n');
     }
-    out.flush()?;
+    output::print(text)?;
     Ok(Outcome::Done)
 }
 
@@ -59,7 +60,7 @@ fn read_pairs(path: &PathBuf) -> Result<Vec<f64>, Failure> {
     if path.as_os_str() == "-" {
         std::io::stdin().read_to_string(&mut text).map_err(fail)?;
     } else {
-        text = std::fs::read_to_string(path).map_err(fail)?;
+        text = output::read_text(path)?;
     }
     let mut pairs = Vec::new();
     for (line, content) in text.lines().enumerate() {

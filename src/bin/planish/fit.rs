@@ -1,5 +1,6 @@
 //! `planish fit`.
 
+use crate::input::{MeshInput, threads};
 use crate::model;
 use crate::output::{self, Fit, Step, Table};
 use crate::{Failure, Outcome};
@@ -12,7 +13,7 @@ use planish::fit::d1rc::{self, D1rcFitOptions};
 use planish::fit::pht::{self, PhtOptions};
 use planish::fit::report::{FitReport, Remarks, StopReason, Tolerance, ToleranceScale};
 use planish::fit::tensor::{self, Ends, Method, TensorOptions};
-use planish::mesh::{Mesh, MeshOptions, MeshRepairs, read};
+use planish::mesh::{Mesh, MeshRepairs};
 use planish::model::{Form, FormOptions};
 use planish::parameterize::{Border, ParameterizeOptions};
 use planish::{Control, Error};
@@ -35,7 +36,7 @@ pub struct FitArguments {
     #[arg(long, value_enum, default_value_t = LayoutName::Auto)]
     pub layout: LayoutName,
     /// Largest error allowed at the nodes, as a fraction of the bounding box's diagonal.
-    #[arg(long, default_value_t = 1e-3, value_name = "T")]
+    #[arg(long, default_value_t = 1e-3, value_name = "T", allow_negative_numbers = true)]
     tolerance: f64,
     /// Take the tolerance in model units.
     #[arg(long)]
@@ -69,7 +70,7 @@ pub struct FitArguments {
     #[arg(long, default_value_t = 257, value_name = "N")]
     max_grid: usize,
     /// Weight of the bending energy; 0 finds one.
-    #[arg(long, default_value_t = 0.0, value_name = "MU")]
+    #[arg(long, default_value_t = 0.0, value_name = "MU", allow_negative_numbers = true)]
     pub smoothing: f64,
     /// Leave the ends of the knots free instead of straight.
     #[arg(long)]
@@ -78,7 +79,7 @@ pub struct FitArguments {
     #[arg(long)]
     ferguson: bool,
     /// Edges whose triangles turn by more than this stay sharp (d1rc).
-    #[arg(long, value_name = "DEGREES")]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
     sharp_angle: Option<f64>,
     /// Vertices of the control mesh (d1rc); as many as the tolerance takes if it is left out.
     #[arg(long, value_name = "N")]
@@ -86,14 +87,10 @@ pub struct FitArguments {
     /// Sweeps of parameter correction on each grid, or in each round; the default depends on the family.
     #[arg(long, value_name = "N")]
     pub sweeps: Option<usize>,
-    /// Join nodes closer than this.
-    #[arg(long, default_value_t = 0.0, value_name = "DISTANCE")]
-    weld: f64,
-    /// Repair inconsistent orientation.
-    #[arg(long)]
-    orient: bool,
+    #[command(flatten)]
+    input: MeshInput,
     /// Threads; 0 for all cores.
-    #[arg(long, default_value_t = 0, value_name = "N")]
+    #[arg(long, default_value_t = 0, value_name = "N", value_parser = threads)]
     pub threads: usize,
     /// Print the report as JSON.
     #[arg(long)]
@@ -152,9 +149,8 @@ enum UnitName {
 
 pub fn run(arguments: &FitArguments) -> Result<Outcome, Failure> {
     output::check_names(&arguments.out)?;
-    let mesh_options =
-        MeshOptions::default().with_weld_distance(arguments.weld).with_orient(arguments.orient);
-    let (mut mesh, repairs) = read(&arguments.mesh, &mesh_options)?;
+    arguments.picture.iter().try_for_each(|path| output::check_name(path, output::PICTURES))?;
+    let (mut mesh, repairs) = arguments.input.read(&arguments.mesh)?;
     if arguments.ignore_parameters {
         mesh.clear_parameters();
     }
@@ -188,9 +184,9 @@ pub fn run(arguments: &FitArguments) -> Result<Outcome, Failure> {
         output::write_picture(&mesh, &fit, path)?;
     }
     if arguments.json {
-        println!("{}", json_report(&mesh, &fit.report));
+        output::print(format_args!("{}\n", json_report(arguments, &mesh, &repairs, &fit.report)))?;
     } else {
-        print!("{}", table(arguments, &mesh, &repairs, &fit.report));
+        output::print(table(arguments, &mesh, &repairs, &fit.report))?;
     }
     let is_met = !fit.report.remarks.has(Remarks::TOLERANCE_NOT_MET);
     Ok(if is_met { Outcome::Done } else { Outcome::ToleranceNotMet })
@@ -309,9 +305,7 @@ fn table(arguments: &FitArguments, mesh: &Mesh, repairs: &MeshRepairs, report: &
     let (points, triangles) = (mesh.points().len(), mesh.triangles().len());
     table.row("mesh", format!("{}", arguments.mesh.display()));
     table.row("nodes, triangles", format!("{points}, {triangles}, {} boundary loops", mesh.loops().len()));
-    if !repairs.is_empty() {
-        table.row("repaired", output::repairs(repairs));
-    }
+    output::repair_rows(&mut table, repairs);
     table.row("map", format!("stretch {:.3}, {} flipped triangles", report.stretch, report.flipped_count));
     let grid = match report.cell_count {
         0 => format!("{} x {} knots", report.grid_u, report.grid_v),
@@ -332,7 +326,14 @@ fn table(arguments: &FitArguments, mesh: &Mesh, repairs: &MeshRepairs, report: &
     for remark in remarks(report.remarks) {
         table.row("remark", remark.to_owned());
     }
+    for path in written(arguments) {
+        table.row("written", path);
+    }
     table.to_string()
+}
+
+pub fn written(arguments: &FitArguments) -> Vec<String> {
+    output::names(arguments.out.iter().chain(&arguments.picture))
 }
 
 pub fn verdict(remarks: Remarks, stop: StopReason) -> String {
@@ -365,7 +366,12 @@ pub fn remarks(remarks: Remarks) -> impl Iterator<Item = &'static str> {
     .map(|(_, sentence)| sentence)
 }
 
-fn json_report(mesh: &Mesh, report: &FitReport) -> serde_json::Value {
+fn json_report(
+    arguments: &FitArguments,
+    mesh: &Mesh,
+    repairs: &MeshRepairs,
+    report: &FitReport,
+) -> serde_json::Value {
     json!({
         "nodes": mesh.points().len(),
         "triangles": mesh.triangles().len(),
@@ -391,5 +397,7 @@ fn json_report(mesh: &Mesh, report: &FitReport) -> serde_json::Value {
         "parameterize_seconds": report.parameterize_seconds,
         "seconds": report.seconds,
         "remarks": remarks(report.remarks).collect::<Vec<_>>(),
+        "repaired": output::repairs(repairs),
+        "written": written(arguments),
     })
 }

@@ -1,11 +1,11 @@
 //! `planish info`.
 
+use crate::input::MeshInput;
 use crate::output::{self, Table};
 use crate::{Failure, Outcome};
 use clap::Args;
 use planish::curve::Curve;
 use planish::export::native::{Saved, load_any_file};
-use planish::mesh::{MeshOptions, read};
 use planish::model::{Model, Role};
 use planish::surface::d1rc::D1rcSurface;
 use planish::surface::pht::PhtSurface;
@@ -18,12 +18,8 @@ use std::path::{Path, PathBuf};
 pub struct InfoArguments {
     /// Mesh file (OFF, OBJ, PLY, STL) or what was saved (.planish): a surface, model or curve.
     file: PathBuf,
-    /// Join nodes closer than this.
-    #[arg(long, default_value_t = 0.0, value_name = "DISTANCE")]
-    weld: f64,
-    /// Repair inconsistent orientation.
-    #[arg(long)]
-    orient: bool,
+    #[command(flatten)]
+    input: MeshInput,
 }
 
 pub fn run(arguments: &InfoArguments) -> Result<Outcome, Failure> {
@@ -37,13 +33,12 @@ pub fn run(arguments: &InfoArguments) -> Result<Outcome, Failure> {
     } else {
         mesh_table(arguments)?
     };
-    print!("{table}");
+    output::print(table)?;
     Ok(Outcome::Done)
 }
 
 fn mesh_table(arguments: &InfoArguments) -> Result<Table, Failure> {
-    let options = MeshOptions::default().with_weld_distance(arguments.weld).with_orient(arguments.orient);
-    let (mesh, repairs) = read(&arguments.file, &options)?;
+    let (mesh, repairs) = arguments.input.read(&arguments.file)?;
     let mut table = Table::default();
     table.row("mesh", arguments.file.display().to_string());
     table.row("nodes", mesh.points().len().to_string());
@@ -71,9 +66,7 @@ fn mesh_table(arguments: &InfoArguments) -> Result<Table, Failure> {
             table.row(what, nodes.len().to_string());
         }
     }
-    if !repairs.is_empty() {
-        table.row("repaired", output::repairs(&repairs));
-    }
+    output::repair_rows(&mut table, &repairs);
     Ok(table)
 }
 

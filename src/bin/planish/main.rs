@@ -7,6 +7,7 @@ mod decimate;
 mod eval;
 mod fit;
 mod info;
+mod input;
 mod model;
 mod morph;
 mod output;
@@ -15,7 +16,9 @@ mod render;
 mod sample;
 mod skin;
 
+use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
+use std::io::Write;
 use std::process::ExitCode;
 
 /// Smooth spline surfaces from triangle meshes, within a stated tolerance.
@@ -73,17 +76,12 @@ impl Failure {
 fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
-        Err(error) if !error.use_stderr() => {
+        Err(error) if is_help(error.kind()) => {
             // help and version; a closed pipe is no error of ours
-            let _ = error.print();
+            let _ = write!(std::io::stdout(), "{}", error.render());
             return ExitCode::SUCCESS;
         }
-        Err(error) => {
-            let text = error.to_string();
-            let line = text.lines().next().unwrap_or_default();
-            eprintln!("planish: {} (see planish --help)", line.trim_start_matches("error: "));
-            return ExitCode::from(1);
-        }
+        Err(error) => return fail(&usage(&error.to_string())),
     };
     let outcome = match arguments.command {
         Command::Fit(arguments) => fit::run(&arguments),
@@ -99,9 +97,73 @@ fn main() -> ExitCode {
     match outcome {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
         Ok(Outcome::ToleranceNotMet) => ExitCode::from(2),
-        Err(Failure(sentence)) => {
-            eprintln!("planish: {sentence}");
-            ExitCode::from(1)
+        Err(Failure(sentence)) => fail(&sentence),
+    }
+}
+
+/// Says why, as far as somebody listens.
+fn fail(sentence: &str) -> ExitCode {
+    let _ = writeln!(std::io::stderr(), "planish: {sentence}");
+    ExitCode::from(1)
+}
+
+fn is_help(kind: ErrorKind) -> bool {
+    use ErrorKind::{DisplayHelp, DisplayHelpOnMissingArgumentOrSubcommand, DisplayVersion};
+    matches!(kind, DisplayHelp | DisplayHelpOnMissingArgumentOrSubcommand | DisplayVersion)
+}
+
+/// What clap says of a wrong call, as one sentence: what is wrong with the names it is about, the words that would do,
+/// and the one that is near; without the usage.
+fn usage(text: &str) -> String {
+    let lines = text.lines().map(str::trim).take_while(|line| !line.starts_with("Usage:"));
+    let lines = lines.filter(|line| !line.is_empty() && !line.starts_with("For more information"));
+    let mut sentence = String::new();
+    for line in lines {
+        let line = line.trim_start_matches("error: ");
+        let separator = match sentence.chars().last() {
+            None => "",
+            Some(':') => " ",
+            Some(_) if line.starts_with("tip:") || line.starts_with('[') => "; ",
+            Some(_) => ", ",
+        };
+        sentence.push_str(separator);
+        sentence.push_str(line.trim_start_matches("tip: "));
+    }
+    format!("{sentence} (see planish --help)")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sentence(words: &[&str]) -> String {
+        let error = Arguments::try_parse_from(words).expect_err("a wrong call");
+        usage(&error.to_string())
+    }
+
+    #[test]
+    fn wrong_calls_are_told_in_one_line_with_the_names() {
+        let missing = sentence(&["planish", "decimate", "a.obj"]);
+        assert!(missing.contains("<OUT>") && missing.contains("--vertices <N>"), "{missing}");
+        let near = sentence(&["planish", "fit", "a.obj", "--tolerence", "1"]);
+        assert!(near.contains("'--tolerence'") && near.contains("'--tolerance'"), "{near}");
+        let family = sentence(&["planish", "fit", "a.obj", "--family", "tenser"]);
+        for word in ["tenser", "tensor", "pht", "d1rc"] {
+            assert!(family.contains(word), "{family}");
         }
+        let command = sentence(&["planish", "fitt"]);
+        assert!(command.contains("'fitt'") && command.contains("'fit'"), "{command}");
+        let threads = sentence(&["planish", "fit", "a.obj", "--threads", "5000"]);
+        assert!(threads.contains("5000") && threads.contains("0 to 1024"), "{threads}");
+        for line in [missing, near, family, command, threads] {
+            assert!(!line.contains('\n') && !line.contains("Usage"), "{line}");
+        }
+    }
+
+    #[test]
+    fn negative_numbers_are_numbers_and_nothing_asks_for_help() {
+        assert!(Arguments::try_parse_from(["planish", "fit", "a.obj", "--tolerance", "-1"]).is_ok());
+        let error = Arguments::try_parse_from(["planish"]).expect_err("no command");
+        assert!(is_help(error.kind()), "{:?}", error.kind());
     }
 }

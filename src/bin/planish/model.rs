@@ -36,9 +36,9 @@ pub fn run(mesh: &Mesh, repairs: &MeshRepairs, arguments: &FitArguments) -> Resu
         output::write_png(&picture, path)?;
     }
     if arguments.json {
-        println!("{}", json_report(mesh, &fit));
+        output::print(format_args!("{}\n", json_report(arguments, mesh, repairs, &fit)))?;
     } else {
-        print!("{}", table(arguments, mesh, repairs, &fit));
+        output::print(table(arguments, mesh, repairs, &fit))?;
     }
     let is_met = !fit.report.remarks.has(Remarks::TOLERANCE_NOT_MET);
     Ok(if is_met { Outcome::Done } else { Outcome::ToleranceNotMet })
@@ -97,9 +97,7 @@ fn table(arguments: &FitArguments, mesh: &Mesh, repairs: &MeshRepairs, fit: &Mod
     let (points, triangles) = (mesh.points().len(), mesh.triangles().len());
     table.row("mesh", format!("{}", arguments.mesh.display()));
     table.row("nodes, triangles", format!("{points}, {triangles}, {} boundary loops", mesh.loops().len()));
-    if !repairs.is_empty() {
-        table.row("repaired", output::repairs(repairs));
-    }
+    output::repair_rows(&mut table, repairs);
     for component in &fit.components {
         let layout = match component.layout {
             None => "one chart".to_owned(),
@@ -148,10 +146,18 @@ fn table(arguments: &FitArguments, mesh: &Mesh, repairs: &MeshRepairs, fit: &Mod
     for remark in crate::fit::remarks(report.remarks) {
         table.row("remark", remark.to_owned());
     }
+    for path in crate::fit::written(arguments) {
+        table.row("written", path);
+    }
     table.to_string()
 }
 
-fn json_report(mesh: &Mesh, fit: &ModelFit) -> serde_json::Value {
+fn json_report(
+    arguments: &FitArguments,
+    mesh: &Mesh,
+    repairs: &MeshRepairs,
+    fit: &ModelFit,
+) -> serde_json::Value {
     let report = &fit.report;
     let component = |component: &planish::fit::model::ComponentReport| {
         json!({
@@ -197,5 +203,7 @@ fn json_report(mesh: &Mesh, fit: &ModelFit) -> serde_json::Value {
         "fit_seconds": report.fit_seconds,
         "seconds": fit.seconds,
         "remarks": crate::fit::remarks(report.remarks).collect::<Vec<_>>(),
+        "repaired": output::repairs(repairs),
+        "written": crate::fit::written(arguments),
     })
 }

@@ -1,6 +1,7 @@
 //! `planish morph`.
 
-use crate::output::{Step, write_png, write_surface};
+use crate::input::MeshInput;
+use crate::output::{self, Step, write_png, write_surface};
 use crate::picture::{Picture, View};
 use crate::{Failure, Outcome};
 use clap::Args;
@@ -10,7 +11,7 @@ use planish::export::vtk::on_surface;
 use planish::fit::common::Regularize;
 use planish::fit::report::{Remarks, Tolerance};
 use planish::fit::tensor::{TensorFit, TensorOptions, fit_field, fit_mesh};
-use planish::mesh::{Mesh, MeshOptions, read};
+use planish::mesh::Mesh;
 use planish::query::tessellate::{TessellateOptions, tessellate};
 use planish::surface::tensor::TensorSurface;
 use planish::surface::{Surface, normal};
@@ -39,8 +40,10 @@ pub struct MorphArguments {
     #[arg(long, value_name = "A,B", value_delimiter = ',', num_args = 1)]
     cut: Vec<u32>,
     /// Largest error allowed at the nodes, as a fraction of the diagonal of shape and of displacement.
-    #[arg(long, default_value_t = 1e-3, value_name = "T")]
+    #[arg(long, default_value_t = 1e-3, value_name = "T", allow_negative_numbers = true)]
     tolerance: f64,
+    #[command(flatten)]
+    input: MeshInput,
     /// Save the surface of the last picture: .planish, .step, .vtu, .obj.
     #[arg(long, value_name = "FILE")]
     save: Option<PathBuf>,
@@ -48,9 +51,10 @@ pub struct MorphArguments {
 
 pub fn run(arguments: &MorphArguments) -> Result<Outcome, Failure> {
     if let Some(path) = &arguments.save {
-        crate::output::check_names(&[path])?;
+        output::check_names(&[path])?;
     }
-    let mut mesh = opened(read(&arguments.mesh, &MeshOptions::default())?.0, &arguments.cut)?;
+    output::check_name(&arguments.out, output::PICTURES)?;
+    let mut mesh = opened(arguments.input.read(&arguments.mesh)?.0, &arguments.cut)?;
     let mut control = Control::default();
     let options = TensorOptions {
         tolerance: Tolerance { value: arguments.tolerance, ..Tolerance::default() },
@@ -61,8 +65,8 @@ pub fn run(arguments: &MorphArguments) -> Result<Outcome, Failure> {
     mesh.set_parameters(shape.parameters.clone())?;
     let ways = displacement(&mesh, &shape, &arguments.displacement)?;
     let way = fit_field(&mesh, &ways, 3, &options, &mut control)?;
-    say("shape", &shape);
-    say("displacement", &way);
+    say("shape", &shape)?;
+    say("displacement", &way)?;
 
     let moved = |factor: f64| TensorSurface::combine(&[(1.0, &shape.surface), (factor, &way.surface)]);
     let last = moved(arguments.to)?;
@@ -81,30 +85,33 @@ pub fn run(arguments: &MorphArguments) -> Result<Outcome, Failure> {
         let mut picture = Picture::new(1200, 900, &view, &scene);
         picture.draw_mesh(&at(&moved(factor)?)?, Some(&colors), (0.0, most));
         picture.draw_scale("displacement", (0.0, most));
-        write_png(&picture, &numbered(&arguments.out, frame))?;
+        let path = numbered(&arguments.out, frame);
+        write_png(&picture, &path)?;
+        output::print(format_args!("written  {}\n", path.display()))?;
     }
     if let Some(path) = &arguments.save {
         write_surface(&last.into(), path, &Step::default())?;
+        output::print(format_args!("written  {}\n", path.display()))?;
     }
     let is_met = [&shape, &way].iter().all(|fit| !fit.report.remarks.has(Remarks::TOLERANCE_NOT_MET));
     Ok(if is_met { Outcome::Done } else { Outcome::ToleranceNotMet })
 }
 
-fn say(what: &str, fit: &TensorFit) {
+fn say(what: &str, fit: &TensorFit) -> Result<(), Failure> {
     let report = &fit.report;
-    print!(
+    let mut line = format!(
         "{what}: {} x {} knots, max error {:.2e} of {:.2e} allowed",
         report.grid_u, report.grid_v, report.max_error, report.tolerance
     );
     for (remark, words) in [
-        (Remarks::ROUGH_BETWEEN_NODES, "rough between the nodes"),
-        (Remarks::SEGMENTATION_ADVISED, "cut it into several charts"),
+        (Remarks::ROUGH_BETWEEN_NODES, ", rough between the nodes"),
+        (Remarks::SEGMENTATION_ADVISED, ", cut it into several charts"),
     ] {
         if report.remarks.has(remark) {
-            print!(", {words}");
+            line.push_str(words);
         }
     }
-    println!();
+    output::print(line + "\n")
 }
 
 fn opened(mesh: Mesh, cut: &[u32]) -> Result<Mesh, Failure> {

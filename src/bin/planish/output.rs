@@ -5,14 +5,18 @@ use crate::picture::{Picture, View};
 use glam::DVec2;
 use planish::Control;
 use planish::export::step::{self, StepOptions};
-use planish::export::{native, obj, vtk};
+use planish::export::mesh::Encoding;
+use planish::export::{mesh as mesh_files, native, vtk};
+use planish::file;
 use planish::fit::conversion::{ConversionOptions, to_model};
 use planish::fit::report::FitReport;
-use planish::mesh::{Mesh, MeshRepairs};
+use planish::memory;
+use planish::mesh::{Format, Mesh, MeshRepairs};
 use planish::query::tessellate::{TessellateOptions, tessellate};
 use planish::surface::AnySurface;
 use std::fmt;
-use std::path::Path;
+use std::io::{self, ErrorKind, Write};
+use std::path::{Path, PathBuf};
 
 /// Names on the left, values on the right.
 #[derive(Debug, Default)]
@@ -31,36 +35,72 @@ impl fmt::Display for Table {
     }
 }
 
+/// Writes to standard output. Whoever reads may have heard enough: a closed pipe ends the output and is no failure.
+pub fn print(text: impl fmt::Display) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    match write!(out, "{text}").and_then(|()| out.flush()) {
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        Err(error) => Err(Failure::new(format!("cannot write to standard output: {error}"))),
+        Ok(()) => Ok(()),
+    }
+}
+
+/// The files that were written.
+pub fn names<'a>(paths: impl IntoIterator<Item = &'a PathBuf>) -> Vec<String> {
+    paths.into_iter().map(|path| path.display().to_string()).collect()
+}
+
 /// What was repaired while reading.
 pub fn repairs(repairs: &MeshRepairs) -> String {
-    let mut parts = Vec::new();
-    for (count, what) in [
+    let counts = [
         (repairs.welded_nodes, "nodes welded"),
-        (repairs.dropped_triangles, "triangles dropped"),
+        (repairs.dropped_triangles, "triangles without area dropped"),
+        (repairs.duplicate_triangles, "copies of triangles dropped"),
+        (repairs.parted_edges, "edges of several sheets parted"),
         (repairs.flipped_triangles, "triangles turned over"),
-    ] {
-        if count > 0 {
-            parts.push(format!("{count} {what}"));
-        }
-    }
+        (repairs.split_nodes, "nodes added where it touched itself"),
+        (repairs.unused_nodes, "unused nodes passed over"),
+    ];
+    let mut parts: Vec<String> =
+        counts.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")).collect();
     if repairs.dropped_parameters {
-        parts.push("parameters left out: they have seams".to_owned());
+        parts.push("parameters left out: they have seams, or span no area".to_owned());
+    }
+    if repairs.missing_end {
+        parts.push("the file ends too early, after a whole facet".to_owned());
     }
     parts.join(", ")
 }
 
-const KNOWN: [&str; 5] = ["step", "stp", "vtu", "obj", "planish"];
+/// Tables that begin with a mesh say what was repaired, and what was left aside.
+pub fn repair_rows(table: &mut Table, made: &MeshRepairs) {
+    if !made.is_empty() {
+        table.row("repaired", repairs(made));
+    }
+    if made.excluded_triangles > 0 {
+        table.row("left aside", format!("{} triangles of other components", made.excluded_triangles));
+    }
+}
+
+/// The formats of surfaces, by the ends of names.
+const SURFACES: &[&str] = &["step", "stp", "vtu", "obj", "off", "ply", "stl", "planish"];
+/// Those of meshes.
+pub const MESHES: &[&str] = &["obj", "off", "ply", "stl"];
+/// Those of pictures.
+pub const PICTURES: &[&str] = &["png"];
 
 /// Refuses names whose format is not known before any work is done.
 pub fn check_names(paths: &[impl AsRef<Path>]) -> Result<(), Failure> {
-    match paths.iter().map(AsRef::as_ref).find(|path| !KNOWN.contains(&extension(path).as_str())) {
-        None => Ok(()),
-        Some(path) => Err(Failure::new(format!(
-            "cannot tell the format of {}, known are .{}",
-            path.display(),
-            KNOWN.join(", .")
-        ))),
+    paths.iter().try_for_each(|path| check_name(path.as_ref(), SURFACES))
+}
+
+/// Refuses a name that does not end in one of these.
+pub fn check_name(path: &Path, known: &[&str]) -> Result<(), Failure> {
+    if known.contains(&extension(path).as_str()) {
+        return Ok(());
     }
+    let name = path.display();
+    Err(Failure::new(format!("cannot tell the format of '{name}', known are .{}", known.join(", ."))))
 }
 
 fn extension(path: &Path) -> String {
@@ -119,8 +159,8 @@ pub fn write_surface(surface: &AnySurface, path: &Path, step: &Step) -> Result<(
                 vtk::write_surface(surface.as_surface(), &options, path, Control::default().pool())?;
             }
         },
-        "obj" => obj::write(&tessellate(surface.as_surface(), &TessellateOptions::default())?.mesh, path)?,
-        _ => native::save_file(surface.as_saved(), path)?,
+        "planish" => native::save_file(surface.as_saved(), path)?,
+        _ => write_mesh(&tessellate(surface.as_surface(), &TessellateOptions::default())?.mesh, path)?,
     }
     Ok(())
 }
@@ -135,20 +175,35 @@ pub fn write_picture(mesh: &Mesh, fit: &Fit, path: &Path) -> Result<(), Failure>
     write_png(&picture, path)
 }
 
+/// Writes a mesh in the format of the name.
+pub fn write_mesh(mesh: &Mesh, path: &Path) -> Result<(), Failure> {
+    check_name(path, MESHES)?;
+    let format = Format::of_path(path).unwrap_or(Format::Obj);
+    Ok(mesh_files::write(mesh, path, format, Encoding::Binary)?)
+}
+
 /// Writes a picture.
 pub fn write_png(picture: &Picture, path: &Path) -> Result<(), Failure> {
-    let fail = |reason: &dyn fmt::Display| Failure::new(format!("cannot write {}: {reason}", path.display()));
+    check_name(path, PICTURES)?;
     let (width, height, pixels) = picture.finish();
-    let file = std::fs::File::create(path).map_err(|error| fail(&error))?;
-    let mut encoder = png::Encoder::new(std::io::BufWriter::new(file), width, height);
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);
-    let mut writer = encoder.write_header().map_err(|error| fail(&error))?;
-    writer.write_image_data(&pixels).map_err(|error| fail(&error))?;
-    writer.finish().map_err(|error| fail(&error))
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&pixels)?;
+    writer.finish()?;
+    Ok(file::write(path, &bytes)?)
 }
 
 /// Writes a text.
 pub fn write_text(text: &str, path: &Path) -> Result<(), Failure> {
-    std::fs::write(path, text)
-        .map_err(|reason| Failure::new(format!("cannot write {}: {reason}", path.display())))
+    Ok(file::write(path, text.as_bytes())?)
+}
+
+/// Reads a text.
+pub fn read_text(path: &Path) -> Result<String, Failure> {
+    let bytes = file::read(path, memory::limit(0))?;
+    String::from_utf8(bytes).map_err(|error| {
+        Failure::new(format!("'{}' is no text in UTF-8: byte {}", path.display(), error.utf8_error().valid_up_to()))
+    })
 }

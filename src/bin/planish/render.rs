@@ -1,6 +1,6 @@
 //! `planish render`.
 
-use crate::output::write_png;
+use crate::output::{self, write_png};
 use crate::picture::View;
 use crate::picture::{RenderOptions, render, render_model};
 use crate::{Failure, Outcome};
@@ -41,6 +41,7 @@ pub struct RenderArguments {
 }
 
 pub fn run(arguments: &RenderArguments) -> Result<Outcome, Failure> {
+    output::check_name(&arguments.out, output::PICTURES)?;
     let saved = native::load_any_file(&arguments.surface)?;
     let mesh = match &arguments.deviation {
         Some(path) => Some(read(path, &MeshOptions::default())?.0),
@@ -67,6 +68,7 @@ pub fn run(arguments: &RenderArguments) -> Result<Outcome, Failure> {
         Saved::Curve(_) => return Err(Failure::new("a curve cannot be drawn, only surfaces and models")),
     };
     write_png(&picture, &arguments.out)?;
+    output::print(format_args!("written  {}\n", arguments.out.display()))?;
     Ok(Outcome::Done)
 }
 

@@ -1,9 +1,7 @@
 //! `planish sample`.
 
-use crate::output::write_text;
-use crate::{Failure, Outcome};
+use crate::{Failure, Outcome, output};
 use clap::{Args, ValueEnum};
-use planish::export::obj;
 use planish::samples::{self, rows::RowSet};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -13,7 +11,7 @@ pub struct SampleArguments {
     /// Which shape.
     #[arg(value_enum)]
     shape: Shape,
-    /// Where to write it: .obj for a mesh, .txt for rows.
+    /// Where to write it: .obj, .off, .ply or .stl for a mesh, .txt for rows.
     out: PathBuf,
     /// Seed of the jitter.
     #[arg(long, default_value_t = 1)]
@@ -64,7 +62,12 @@ pub fn run(arguments: &SampleArguments) -> Result<Outcome, Failure> {
         Shape::WaveRows => return write_rows(&samples::rows::wave(), false, &arguments.out),
         Shape::HeadRows => return write_rows(&samples::rows::head(), true, &arguments.out),
     }?;
-    obj::write(&mesh, &arguments.out)?;
+    output::write_mesh(&mesh, &arguments.out)?;
+    done(&arguments.out)
+}
+
+fn done(path: &Path) -> Result<Outcome, Failure> {
+    output::print(format_args!("written  {}\n", path.display()))?;
     Ok(Outcome::Done)
 }
 
@@ -80,6 +83,7 @@ fn write_rows(rows: &RowSet, is_closed: bool, path: &Path) -> Result<Outcome, Fa
             let _ = writeln!(text, "{} {} {}", point[0], point[1], point[2]);
         }
     }
-    write_text(&text, path)?;
-    Ok(Outcome::Done)
+    output::check_name(path, &["txt"])?;
+    output::write_text(&text, path)?;
+    done(path)
 }

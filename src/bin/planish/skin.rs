@@ -1,5 +1,6 @@
 //! `planish skin`.
 
+use crate::input::threads;
 use crate::output::{self, Step, Table};
 use crate::{Failure, Outcome};
 use clap::{Args, ValueEnum};
@@ -18,7 +19,7 @@ pub struct SkinArguments {
     /// # are comments.
     rows: PathBuf,
     /// Largest error allowed at the points, as a fraction of the bounding box's diagonal.
-    #[arg(long, default_value_t = 1e-3, value_name = "T")]
+    #[arg(long, default_value_t = 1e-3, value_name = "T", allow_negative_numbers = true)]
     tolerance: f64,
     /// Take the tolerance in model units.
     #[arg(long)]
@@ -60,7 +61,7 @@ pub struct SkinArguments {
     #[arg(long)]
     compare: bool,
     /// Threads; 0 for all cores.
-    #[arg(long, default_value_t = 0, value_name = "N")]
+    #[arg(long, default_value_t = 0, value_name = "N", value_parser = threads)]
     threads: usize,
     /// Print the report as JSON.
     #[arg(long)]
@@ -79,8 +80,7 @@ enum FormName {
 
 pub fn run(arguments: &SkinArguments) -> Result<Outcome, Failure> {
     output::check_names(&arguments.out)?;
-    let text = std::fs::read_to_string(&arguments.rows)
-        .map_err(|error| Failure::new(format!("cannot read {}: {error}", arguments.rows.display())))?;
+    let text = output::read_text(&arguments.rows)?;
     let read = RowFile::parse(&text)
         .map_err(|Failure(sentence)| Failure::new(format!("{}: {sentence}", arguments.rows.display())))?;
     let rows = Rows { points: &read.points, counts: &read.counts, dim: 3 };
@@ -90,9 +90,9 @@ pub fn run(arguments: &SkinArguments) -> Result<Outcome, Failure> {
         write(&fit, &rows, &options, arguments, path)?;
     }
     if arguments.json {
-        println!("{}", json_report(&rows, &fit));
+        output::print(format_args!("{}\n", json_report(arguments, &rows, &fit)))?;
     } else {
-        print!("{}", table(arguments, &rows, &fit));
+        output::print(table(arguments, &rows, &fit))?;
     }
     let is_met = !fit.report.remarks.has(Remarks::TOLERANCE_NOT_MET);
     Ok(if is_met { Outcome::Done } else { Outcome::ToleranceNotMet })
@@ -223,6 +223,9 @@ fn table(arguments: &SkinArguments, rows: &Rows, fit: &SkinFit) -> String {
     for remark in remarks(fit) {
         table.row("remark", remark);
     }
+    for path in output::names(&arguments.out) {
+        table.row("written", path);
+    }
     table.to_string()
 }
 
@@ -246,7 +249,7 @@ fn remarks(fit: &SkinFit) -> Vec<String> {
     .collect()
 }
 
-fn json_report(rows: &Rows, fit: &SkinFit) -> serde_json::Value {
+fn json_report(arguments: &SkinArguments, rows: &Rows, fit: &SkinFit) -> serde_json::Value {
     let (report, skin) = (&fit.report, &fit.skin);
     json!({
         "points": rows.points.len() / 3,
@@ -269,6 +272,7 @@ fn json_report(rows: &Rows, fit: &SkinFit) -> serde_json::Value {
         "passes": report.passes,
         "seconds": report.seconds,
         "remarks": remarks(fit),
+        "written": output::names(&arguments.out),
     })
 }
 

@@ -15,8 +15,10 @@ pub mod report;
 pub(in crate::fit) mod rounds;
 pub(in crate::fit) mod samples;
 pub mod uniform;
+mod unused;
 
 pub use error::FitError;
 pub(in crate::fit) use frame::Frame;
 pub use parameters::Regularize;
 pub(in crate::fit) use parameters::{NodeParameters, node_parameters, trims};
+pub(in crate::fit) use unused::Used;

@@ -23,6 +23,7 @@ pub use error::D1rcFitError;
 pub use options::D1rcFitOptions;
 
 use super::common::checks::check_values;
+use super::common::Used;
 use super::common::report::FitReport;
 use crate::control::Control;
 use crate::mesh::Mesh;
@@ -57,6 +58,21 @@ pub fn fit_mesh(
     let start = Instant::now();
     options.check()?;
     let values: Vec<f64> = mesh.points().iter().flat_map(|p| p.to_array()).collect();
+    if let Some(used) = Used::of(mesh, &values, 3, options.weights)? {
+        let mut sharp_edges = options.sharp_edges.to_vec();
+        if options.control_mesh.is_none() {
+            sharp_edges.iter_mut().flatten().for_each(|node| *node = used.node(*node));
+        }
+        let parameterize = used.parameterize(options.parameterize);
+        let options =
+            D1rcFitOptions { weights: used.weights(), parameterize, sharp_edges: &sharp_edges, ..*options };
+        let mut fit = fit_mesh(used.mesh(), &options, control).map_err(|error| match error {
+            D1rcFitError::Fit(error) => used.told(error).into(),
+            error => error,
+        })?;
+        used.spread(&mut fit.report, &mut fit.parameters, &mut fit.errors);
+        return Ok(fit);
+    }
     check_values(mesh.points().len(), &values, 3, options.weights)?;
     control.set_stage(0.0, 0.2);
     let source = Source::new(mesh, options, control)?;

@@ -74,9 +74,19 @@ impl<'a> FieldNodes<'a> {
         options: &FieldOptions,
         control: &mut Control,
     ) -> Result<Self, FieldError> {
-        let map = node_parameters(mesh, &options.parameterize, Regularize::Never, control)?;
+        let mut map = node_parameters(mesh, &options.parameterize, Regularize::Never, control)?;
         options.check(map.uv.len())?;
+        // wherever unused nodes lie, it is not where the surface has to go
+        let some_place = map.uv[mesh.triangles()[0][0] as usize];
+        mesh.unused_nodes().iter().for_each(|&node| map.uv[node as usize] = some_place);
         Ok(Self { mesh: Some(mesh), map })
+    }
+
+    /// Which nodes have values, if there are unused ones among them: these have none.
+    pub fn mask(&self, options: &FieldOptions) -> Option<Vec<bool>> {
+        let mesh = self.mesh.filter(|mesh| !mesh.unused_nodes().is_empty())?;
+        let is_known = |node: usize| options.is_known.is_none_or(|is_known| is_known[node]);
+        Some((0..self.map.uv.len()).map(|node| mesh.is_used(node as u32) && is_known(node)).collect())
     }
 
     /// Scattered ones.
@@ -119,8 +129,10 @@ impl FieldFitter {
 
     /// For fields on these nodes.
     pub fn new(nodes: FieldNodes, options: &FieldOptions, control: &mut Control) -> Result<Self, FieldError> {
+        options.check(nodes.map.uv.len())?;
+        let mask = nodes.mask(options);
+        let options = &FieldOptions { is_known: mask.as_deref().or(options.is_known), ..*options };
         let FieldNodes { mesh, map: NodeParameters { uv, remarks } } = nodes;
-        options.check(uv.len())?;
         let known = known_nodes(&uv, options)?;
         let known_uv: Vec<DVec2> = match &known {
             None => uv.clone(),

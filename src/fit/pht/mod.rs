@@ -23,7 +23,7 @@ pub use options::{Estimator, PhtOptions};
 
 use super::common::checks::{check_parameters, check_values};
 use super::common::report::{FitReport, Remarks};
-use super::common::{FitError, NodeParameters, node_parameters};
+use super::common::{FitError, NodeParameters, Used, node_parameters};
 use crate::control::Control;
 use crate::mesh::Mesh;
 use crate::parameterize::{Border, ParameterizeOptions};
@@ -89,6 +89,14 @@ fn fit_on_mesh(
     options: &PhtOptions,
     control: &mut Control,
 ) -> Result<PhtFit, FitError> {
+    if let Some(used) = Used::of(mesh, values, dim, options.weights)? {
+        let parameterize = options.parameterize.map(|options| used.parameterize(options));
+        let options = PhtOptions { weights: used.weights(), parameterize, ..*options };
+        let fit = fit_on_mesh(used.mesh(), &used.values, dim, is_shape, &options, control);
+        let mut fit = fit.map_err(|error| used.told(error))?;
+        used.spread(&mut fit.report, &mut fit.parameters, &mut fit.errors);
+        return Ok(fit);
+    }
     let start = Instant::now();
     options.check()?;
     check_values(mesh.points().len(), values, dim, options.weights)?;

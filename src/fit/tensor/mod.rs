@@ -20,7 +20,7 @@ pub use options::TensorOptions;
 use super::common::checks::{check_parameters, check_values};
 use super::common::report::{FitReport, Goal};
 use super::common::uniform::energy::FreeFunctions;
-use super::common::{FitError, Frame, node_parameters};
+use super::common::{FitError, Frame, Used, node_parameters};
 use crate::control::Control;
 use crate::geometry::Bounds;
 use crate::mesh::Mesh;
@@ -83,6 +83,14 @@ fn fit_on_mesh(
     options: &TensorOptions,
     control: &mut Control,
 ) -> Result<TensorFit, FitError> {
+    if let Some(used) = Used::of(mesh, values, dim, options.weights)? {
+        let parameterize = used.parameterize(options.parameterize);
+        let options = TensorOptions { weights: used.weights(), parameterize, ..*options };
+        let fit = fit_on_mesh(used.mesh(), &used.values, dim, is_shape, &options, control);
+        let mut fit = fit.map_err(|error| used.told(error))?;
+        used.spread(&mut fit.report, &mut fit.parameters, &mut fit.errors);
+        return Ok(fit);
+    }
     let start = Instant::now();
     options.check()?;
     check_values(mesh.points().len(), values, dim, options.weights)?;

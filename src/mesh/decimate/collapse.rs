@@ -82,9 +82,9 @@ impl<'a> Collapsing<'a> {
         Self { points, map, triangles, around, quadrics, areas, features }
     }
 
-    /// The triangles that are left.
-    pub fn triangles(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
-        self.triangles.iter().copied().flatten()
+    /// The triangles that are left, with their numbers.
+    pub fn triangles(&self) -> impl Iterator<Item = (u32, [u32; 3])> + '_ {
+        (0..).zip(&self.triangles).filter_map(|(number, triangle)| Some((number, (*triangle)?)))
     }
 
     /// The feature edges that are left, each once.

@@ -197,7 +197,7 @@ impl Mesh {
         let mut collapsing = Collapsing::new(centred(self), self.triangles(), uv.zip(side), features);
         let removable = self.used_count.saturating_sub(options.target_count);
         let collapse_count = collapse_all(&mut collapsing, removable, self.points.len() as u32, control)?;
-        let piece = self.compacted(collapsing.triangles().collect()).expect("collapses keep a mesh a mesh");
+        let piece = self.compacted(collapsing.triangles()).expect("collapses keep a mesh a mesh");
         let sharp_edges = sharp_edges(&collapsing, &piece);
         let report = DecimateReport {
             collapse_count,

@@ -1,39 +1,49 @@
 //! Mesh files: OFF, OBJ, PLY and STL.
 //!
 //! A reader turns bytes into a [`Soup`]: points, polygons, and what else the file knows of its nodes. Sizes
-//! that a file claims are compared with the bytes it has left before memory is asked for.
+//! that a file claims are compared with the bytes it has left before memory is asked for. Any of them may be packed by
+//! gzip, and texts may begin with a byte order mark.
 
 mod obj;
 mod off;
 mod ply;
-mod polygon;
 mod scanner;
 mod stl;
 #[cfg(test)]
 mod tests;
+mod unpack;
 
-use super::{Field, Mesh, MeshError, MeshOptions, MeshRepairs};
+use super::{Faces, Field, Mesh, MeshError, MeshOptions, MeshRepairs};
 use crate::failure::{Classify, ErrorKind};
+use crate::file::{self, FileError};
+use crate::memory;
 use glam::{DVec2, DVec3};
-use polygon::Faces;
+use scanner::BYTE_ORDER_MARK;
 use std::path::Path;
 
 /// A mesh file cannot be read.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ReadError {
     /// The file cannot be opened or read.
-    #[error("cannot read '{path}': {reason}")]
-    File {
-        /// The path as given.
-        path: String,
-        /// What the system says.
-        reason: String,
-    },
+    #[error(transparent)]
+    File(#[from] FileError),
     /// Neither the name nor the content is that of a known format.
     #[error("'{path}' is none of OFF, OBJ, PLY and STL")]
     UnknownFormat {
         /// The path as given.
         path: String,
+    },
+    /// The content is not that of a known format.
+    #[error("the bytes are none of OFF, OBJ, PLY and STL")]
+    UnknownContent,
+    /// A text in UTF-16.
+    #[error("the text is in UTF-16: save it as UTF-8 or plain ASCII")]
+    Utf16,
+    /// The content is larger than may be read.
+    #[error("unpacked it has more than the {limit} bytes that may be read: raise the limit on memory if it is right")]
+    TooLarge {
+        /// Most bytes.
+        limit: u64,
     },
     /// A fault in a text.
     #[error("line {line}: {problem}")]
@@ -51,16 +61,6 @@ pub enum ReadError {
         /// What is wrong there.
         problem: String,
     },
-    /// A polygon that is not convex has too many corners.
-    #[error("face {face} is not convex and has {corner_count} corners, the limit is {limit}")]
-    PolygonTooLarge {
-        /// The face, counted from 0.
-        face: usize,
-        /// Its corners.
-        corner_count: usize,
-        /// The largest number of corners.
-        limit: usize,
-    },
     /// The file holds no mesh.
     #[error(transparent)]
     Mesh(#[from] MeshError),
@@ -69,21 +69,20 @@ pub enum ReadError {
 impl Classify for ReadError {
     fn kind(&self) -> ErrorKind {
         match self {
-            Self::File { .. } => ErrorKind::File,
-            Self::UnknownFormat { .. } | Self::Text { .. } | Self::Binary { .. } => ErrorKind::Format,
-            Self::PolygonTooLarge { .. } => ErrorKind::TooLarge,
+            Self::File(error) => error.kind(),
+            Self::TooLarge { .. } => ErrorKind::TooLarge,
             Self::Mesh(error) => error.kind(),
+            _ => ErrorKind::Format,
         }
     }
 
     /// The offending line, byte, face, node or triangle, counted from 0.
     fn index(&self) -> Option<usize> {
         match self {
-            Self::File { .. } | Self::UnknownFormat { .. } => None,
             Self::Text { line, .. } => Some(line - 1),
             Self::Binary { byte, .. } => Some(*byte),
-            Self::PolygonTooLarge { face, .. } => Some(*face),
             Self::Mesh(error) => error.index(),
+            _ => None,
         }
     }
 }
@@ -91,7 +90,7 @@ impl Classify for ReadError {
 /// A format of mesh files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
-    /// Object file format of Geomview, as text; `C`, `N` and `ST` variants too.
+    /// Object file format of Geomview, as text or binary; `C`, `N` and `ST` variants too, in any order.
     Off,
     /// Wavefront OBJ; `vt` become parameters if each node has one.
     Obj,
@@ -102,30 +101,33 @@ pub enum Format {
 }
 
 impl Format {
-    /// The format that a file's name ends in.
+    /// The format that a file's name ends in; a further `.gz` says nothing.
     pub fn of_path(path: &Path) -> Option<Self> {
-        match path.extension()?.to_ascii_lowercase().to_str()? {
+        let extension = path.extension()?.to_ascii_lowercase();
+        match extension.to_str()? {
             "off" => Some(Self::Off),
             "obj" => Some(Self::Obj),
             "ply" => Some(Self::Ply),
             "stl" => Some(Self::Stl),
+            "gz" => Self::of_path(Path::new(path.file_stem()?)),
             _ => None,
         }
     }
 
     /// The format that a file's content begins like.
     pub fn of_bytes(bytes: &[u8]) -> Option<Self> {
-        let start = bytes.trim_ascii_start();
-        let word = start.split(u8::is_ascii_whitespace).next()?;
+        let start = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
+        let mut lines = start.split(|byte| matches!(byte, b'\n' | b'\r')).map(<[u8]>::trim_ascii).take(1000);
+        let is_said = |line: &&[u8]| !line.is_empty() && !line.starts_with(b"#");
+        let word = lines.clone().find(is_said)?.split(u8::is_ascii_whitespace).next()?;
         if word == b"ply" {
             Some(Self::Ply)
-        } else if word.ends_with(b"OFF") {
+        } else if off::header(word).is_some() {
             Some(Self::Off)
         } else if stl::is_binary(bytes) || word.eq_ignore_ascii_case(b"solid") {
             Some(Self::Stl)
         } else {
-            let lines = start.split(|&byte| byte == b'\n').take(1000);
-            let is_obj = lines.into_iter().any(|line| line.starts_with(b"v ") || line.starts_with(b"f "));
+            let is_obj = lines.any(|line| line.starts_with(b"v ") || line.starts_with(b"f "));
             is_obj.then_some(Self::Obj)
         }
     }
@@ -135,28 +137,59 @@ impl Format {
 ///
 /// Polygons become triangles, so the triangles that errors and repairs speak of are those of the mesh.
 pub fn read(path: &Path, options: &MeshOptions) -> Result<(Mesh, MeshRepairs), ReadError> {
-    let name = || path.display().to_string();
-    let bytes =
-        std::fs::read(path).map_err(|error| ReadError::File { path: name(), reason: error.to_string() })?;
-    let format = Format::of_path(path).or_else(|| Format::of_bytes(&bytes));
-    let format = format.ok_or_else(|| ReadError::UnknownFormat { path: name() })?;
-    read_bytes(&bytes, format, options)
+    read_as(path, None, options)
 }
 
-/// Reads a mesh from the content of a file; [`MeshOptions::index_base`] has no meaning here.
-pub fn read_bytes(
-    bytes: &[u8],
-    format: Format,
+/// The same in a format that is known, whatever the name says.
+pub fn read_as(
+    path: &Path,
+    format: Option<Format>,
     options: &MeshOptions,
 ) -> Result<(Mesh, MeshRepairs), ReadError> {
+    let bytes = file::read(path, memory::limit(options.max_memory)).map_err(ReadError::from)?;
+    let content = unpack::unpacked(&bytes, memory::limit(options.max_memory))?;
+    let format = format.or_else(|| Format::of_path(path)).or_else(|| Format::of_bytes(&content));
+    let format = format.ok_or_else(|| ReadError::UnknownFormat { path: path.display().to_string() })?;
+    parse(&content, format, options)
+}
+
+/// Reads a mesh from the content of a file, in the format that it begins like if none is given;
+/// [`MeshOptions::index_base`] has no meaning here.
+pub fn read_bytes(
+    bytes: &[u8],
+    format: impl Into<Option<Format>>,
+    options: &MeshOptions,
+) -> Result<(Mesh, MeshRepairs), ReadError> {
+    let content = unpack::unpacked(bytes, memory::limit(options.max_memory))?;
+    let format = format.into().or_else(|| Format::of_bytes(&content)).ok_or(ReadError::UnknownContent)?;
+    parse(&content, format, options)
+}
+
+fn parse(bytes: &[u8], format: Format, options: &MeshOptions) -> Result<(Mesh, MeshRepairs), ReadError> {
+    // numbers of a binary file may look like anything
+    let is_text = format != Format::Stl || !stl::is_binary(bytes);
+    let text = bytes.strip_prefix(BYTE_ORDER_MARK).filter(|_| is_text).unwrap_or(bytes);
+    if is_text && is_utf16(text) {
+        return Err(ReadError::Utf16);
+    }
     let soup = match format {
-        Format::Off => off::read(bytes)?,
-        Format::Obj => obj::read(bytes)?,
-        Format::Ply => ply::read(bytes)?,
-        Format::Stl => stl::read(bytes)?,
+        Format::Off => off::read(text)?,
+        Format::Obj => obj::read(text)?,
+        Format::Ply => ply::read(text)?,
+        Format::Stl => stl::read(text)?,
     };
     let weld = (format == Format::Stl || options.weld_distance != 0.0).then_some(options.weld_distance);
     soup.into_mesh(weld, &options.with_index_base(0))
+}
+
+/// Whether a text begins with the byte order mark of UTF-16, or with two letters of it.
+fn is_utf16(bytes: &[u8]) -> bool {
+    let is_letter = |byte: u8| byte.is_ascii_graphic() || byte.is_ascii_whitespace();
+    match *bytes {
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => true,
+        [a, 0, b, 0, ..] | [0, a, 0, b, ..] => is_letter(a) && is_letter(b),
+        _ => false,
+    }
 }
 
 /// What a file holds.
@@ -168,48 +201,51 @@ struct Soup {
     parameters: Option<Vec<DVec2>>,
     /// There are texture coordinates, but not one for each node.
     dropped_parameters: bool,
+    /// The file ends before it says so.
+    missing_end: bool,
     fields: Vec<Field>,
 }
 
 impl Soup {
     fn into_mesh(self, weld: Option<f64>, options: &MeshOptions) -> Result<(Mesh, MeshRepairs), ReadError> {
-        let triangles = self.faces.into_triangles(&self.points)?;
-        let (mut mesh, mut repairs) = Mesh::repaired(self.points, triangles, weld, options)?;
+        let count = self.points.len();
+        if count > 0 && self.faces.is_empty() {
+            return Err(MeshError::PointCloud { count }.into());
+        }
+        let (mut mesh, mut repairs) = Mesh::from_faces_welded(self.points, self.faces, weld, options)?;
+        let origins: Vec<usize> = mesh.node_origins().map(|node| node as usize).collect();
         repairs.dropped_parameters = self.dropped_parameters;
-
-        // by node of the mesh, the first node of the file that became it
-        let firsts = repairs.node_map.as_ref().map(|map| {
-            let mut firsts = Vec::with_capacity(mesh.points().len());
-            for (old, &new) in map.iter().enumerate() {
-                if new as usize == firsts.len() {
-                    firsts.push(old);
-                }
-            }
-            firsts
-        });
-        if let Some(parameters) = self.parameters {
-            if let Some(node) = parameters.iter().position(|uv| !uv.is_finite()) {
-                return Err(MeshError::ParameterNotFinite { node }.into());
-            }
-            match (&firsts, &repairs.node_map) {
-                (Some(firsts), Some(map)) => {
-                    let joined: Vec<DVec2> = firsts.iter().map(|&old| parameters[old]).collect();
-                    let agree = parameters.iter().zip(map).all(|(&uv, &new)| joined[new as usize] == uv);
-                    repairs.dropped_parameters |= !agree;
-                    if agree {
-                        mesh.set_parameters(joined)?;
-                    }
-                }
-                _ => mesh.set_parameters(parameters)?,
+        repairs.missing_end = self.missing_end;
+        if let Some(given) = self.parameters {
+            let own: Vec<DVec2> = origins.iter().map(|&node| given[node]).collect();
+            // nodes that were welded must agree
+            let agrees = |map: &Vec<u32>| given.iter().zip(map).all(|(&uv, &node)| own[node as usize] == uv);
+            if repairs.node_map.as_ref().is_none_or(agrees) && has_area(&mesh, &own) {
+                mesh.set_parameters(own)?;
+            } else {
+                repairs.dropped_parameters = true;
             }
         }
         for Field { name, values } in self.fields {
-            let values = match &firsts {
-                Some(firsts) => firsts.iter().map(|&old| values[old]).collect(),
-                None => values,
-            };
-            mesh.set_field(&name, values)?;
+            mesh.set_field(&name, origins.iter().map(|&node| values[node]).collect())?;
         }
         Ok((mesh, repairs))
     }
 }
+
+/// Whether parameters are finite and some triangle has an area in their plane beyond rounding: exporters write the
+/// same pair at every node when there is no texture.
+fn has_area(mesh: &Mesh, uv: &[DVec2]) -> bool {
+    if uv.iter().any(|uv| !uv.is_finite()) {
+        return false;
+    }
+    let largest = uv.iter().fold(DVec2::ZERO, |largest, uv| largest.max(uv.abs()));
+    let rounding = AREA_ROUNDING * largest.x * largest.y;
+    mesh.triangles().iter().any(|triangle| {
+        let [a, b, c] = triangle.map(|node| uv[node as usize]);
+        (b - a).perp_dot(c - a).abs() > rounding
+    })
+}
+
+/// An area is the difference of two products of differences, each rounded a few times.
+const AREA_ROUNDING: f64 = 16.0 * f64::EPSILON;

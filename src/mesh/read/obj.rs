@@ -1,23 +1,22 @@
 //! Wavefront OBJ: `v`, `vt` and `f` lines; everything else is passed over.
 //!
-//! Corners are `v`, `v/vt`, `v//vn` or `v/vt/vn`, counted from 1, or backwards from -1 for the last so far.
+//! Corners are `v`, `v/vt`, `v//vn` or `v/vt/vn`, counted from 1, or backwards from -1 for the last so far. Texture
+//! coordinates are a gift: if those of a face are missing or no numbers there are no parameters, but a mesh there is.
 
-use super::scanner::{Scanner, shown};
+use super::scanner::{Scanner, parse, shown};
 use super::{ReadError, Soup};
 use glam::{DVec2, DVec3};
 
 /// Stands for a corner without `vt`.
 const NONE: u32 = u32::MAX;
 
-/// A largest index and the line it stands on: files may refer to what comes later.
-type Farthest = (u32, usize);
-
 pub(super) fn read(bytes: &[u8]) -> Result<Soup, ReadError> {
     let mut scanner = Scanner::new(bytes, Some(b'#'));
     let mut soup = Soup::default();
     let mut textures: Vec<DVec2> = Vec::new();
     let mut corner_textures: Vec<u32> = Vec::new();
-    let mut farthest: [Farthest; 2] = [(0, 0); 2];
+    // the largest node of a face and its line: files may refer to what comes later
+    let mut farthest = (0, 0);
     loop {
         match scanner.word_in_line() {
             Some(b"v") => {
@@ -27,30 +26,23 @@ pub(super) fn read(bytes: &[u8]) -> Result<Soup, ReadError> {
                 soup.points.push(DVec3::new(x, y, z)); // a weight or a colour may follow
             }
             Some(b"vt") => {
-                let u = scanner.number_in_line("u")?;
-                let v = match scanner.word_in_line() {
-                    Some(word) => std::str::from_utf8(word).ok().and_then(|text| text.parse().ok()),
-                    None => Some(0.0),
-                };
-                textures.push(DVec2::new(u, v.ok_or_else(|| scanner.error("v should be a number"))?));
+                let mut number = || scanner.word_in_line().map(|word| parse(word).unwrap_or(f64::NAN));
+                textures.push(DVec2::new(number().unwrap_or(f64::NAN), number().unwrap_or(0.0)));
             }
-            Some(b"f") => {
-                let before = soup.faces.corners().len();
+            Some(b"f" | b"fo") => {
                 while let Some(word) = scanner.word_in_line() {
                     let mut parts = word.split(|&byte| byte == b'/');
                     let node = parts.next().unwrap_or_default();
-                    let node = index(&scanner, node, soup.points.len(), "node", &mut farthest[0])?;
-                    let texture = match parts.next() {
-                        None | Some(b"") => NONE,
-                        Some(part) => index(&scanner, part, textures.len(), "vt", &mut farthest[1])?,
-                    };
+                    let node = node_index(&scanner, node, soup.points.len())?;
+                    if node >= farthest.0 {
+                        farthest = (node + 1, scanner.line);
+                    }
+                    let texture = parts.next().and_then(parse).and_then(|index| place(index, textures.len()));
                     soup.faces.push(node);
-                    corner_textures.push(texture);
+                    corner_textures.push(texture.unwrap_or(NONE));
                 }
-                match soup.faces.corners().len() - before {
-                    0..3 => return Err(scanner.error("a face needs three corners")),
-                    _ => soup.faces.end_face(),
-                }
+                soup.faces.end_face();
+                corner_textures.truncate(soup.faces.corners().len());
             }
             _ => {}
         }
@@ -58,13 +50,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Soup, ReadError> {
             break;
         }
     }
-    for ((last, line), count, what) in
-        [(farthest[0], soup.points.len(), "node"), (farthest[1], textures.len(), "vt")]
-    {
-        if last as usize > count {
-            let problem = format!("the face refers to {what} {last} of {count}");
-            return Err(ReadError::Text { line, problem });
-        }
+    let ((last, line), count) = (farthest, soup.points.len());
+    if last as usize > count {
+        return Err(ReadError::Text { line, problem: format!("the face refers to node {last} of {count}") });
     }
     if corner_textures.iter().any(|&texture| texture != NONE) {
         soup.parameters = parameters(&soup, &textures, &corner_textures);
@@ -73,24 +61,16 @@ pub(super) fn read(bytes: &[u8]) -> Result<Soup, ReadError> {
     Ok(soup)
 }
 
-/// The place, from 0, that an index of a face names.
-fn index(
-    scanner: &Scanner,
-    word: &[u8],
-    count: usize,
-    what: &str,
-    farthest: &mut Farthest,
-) -> Result<u32, ReadError> {
-    let value: Option<i64> = std::str::from_utf8(word).ok().and_then(|text| text.parse().ok());
-    let value = value.ok_or_else(|| scanner.error(format!("'{}' is no index", shown(word))))?;
-    let place = if value < 0 { value.checked_add(count as i64) } else { value.checked_sub(1) };
-    let place = place.and_then(|place| u32::try_from(place).ok()).filter(|&place| place < NONE);
-    let place =
-        place.ok_or_else(|| scanner.error(format!("the face refers to {what} {value} of {count}")))?;
-    if place + 1 > farthest.0 {
-        *farthest = (place + 1, scanner.line);
-    }
-    Ok(place)
+/// The place, from 0, of the node that a face names.
+fn node_index(scanner: &Scanner, word: &[u8], count: usize) -> Result<u32, ReadError> {
+    let index = parse(word).ok_or_else(|| scanner.error(format!("'{}' is no index", shown(word))))?;
+    place(index, count).ok_or_else(|| scanner.error(format!("the face refers to node {index} of {count}")))
+}
+
+/// The place, from 0, that an index of a face names when `count` things are known.
+fn place(index: i64, count: usize) -> Option<u32> {
+    let place = if index < 0 { index.checked_add(count as i64) } else { index.checked_sub(1) };
+    place.and_then(|place| u32::try_from(place).ok()).filter(|&place| place < NONE)
 }
 
 /// The one `vt` of each node; none if a node of a face has several, or has none.

@@ -2,10 +2,11 @@
 //!
 //! Nodes are the element `vertex` with x, y, z. A pair (u,v), (s,t), (texture_u,texture_v) or
 //! (texture_s,texture_t) becomes parameters, every other number a field. Faces are the lists
-//! `vertex_indices` or `vertex_index` of the element `face`. The rest is passed over.
+//! `vertex_indices` or `vertex_index` of the element `face`, or of `tristrips`: there each node makes a triangle with
+//! the two before it, every second one turned over, and -1 begins a new strip. The rest is passed over.
 
 use super::scanner::{Scanner, shown};
-use super::{Field, ReadError, Soup};
+use super::{Faces, Field, ReadError, Soup};
 use glam::{DVec2, DVec3};
 
 /// Names of parameter pairs, the best first.
@@ -90,6 +91,8 @@ fn read_header(scanner: &mut Scanner) -> Result<(Encoding, Vec<Element>), ReadEr
     if scanner.word() != Some(b"ply") {
         return Err(scanner.error("a PLY file begins with 'ply'"));
     }
+    // numbers may begin with a byte that looks like the other half of a line's end
+    let ends_in_cr = matches!(scanner.rest(), [b'\r', next, ..] if *next != b'\n');
     let mut encoding = None;
     let mut elements: Vec<Element> = Vec::new();
     loop {
@@ -122,7 +125,7 @@ fn read_header(scanner: &mut Scanner) -> Result<(Encoding, Vec<Element>), ReadEr
                 element.properties.push(property);
             }
             b"end_header" => {
-                scanner.skip_line();
+                scanner.skip_line_as(ends_in_cr);
                 break;
             }
             _ => return Err(scanner.error(format!("'{}' is no part of a header", shown(word)))),
@@ -248,9 +251,10 @@ fn read_body(source: &mut impl Source, elements: &[Element]) -> Result<Soup, Rea
                 read_points(source, element, &mut soup)?;
                 has_points = true;
             }
-            "face" => {
-                read_faces(source, element, point_count, &mut soup)?;
-                has_faces = true;
+            "face" | "tristrips" => {
+                let is_strips = element.name == "tristrips";
+                read_faces(source, element, point_count, is_strips, &mut soup.faces)?;
+                has_faces = element.count > 0;
             }
             _ => {
                 for _ in 0..element.count {
@@ -336,7 +340,8 @@ fn read_faces(
     source: &mut impl Source,
     element: &Element,
     point_count: usize,
-    soup: &mut Soup,
+    is_strips: bool,
+    faces: &mut Faces,
 ) -> Result<(), ReadError> {
     let is_nodes = |property: &Property| {
         property.length.is_some() && ["vertex_indices", "vertex_index"].contains(&property.name.as_str())
@@ -344,22 +349,61 @@ fn read_faces(
     let Some(nodes) = element.properties.iter().position(is_nodes) else {
         return Err(source.error("the faces have no list 'vertex_indices'".to_owned()));
     };
-    soup.faces.reserve(element.count);
+    faces.reserve(element.count);
     for _ in 0..element.count {
         for (i, property) in element.properties.iter().enumerate() {
-            let Some(kind) = property.length.filter(|_| i == nodes) else {
+            let Some(length) = property.length.filter(|_| i == nodes) else {
                 skip(source, property)?;
                 continue;
             };
-            for _ in 0..read_length(source, kind)? {
+            let mut strip = Strip::default();
+            for _ in 0..read_length(source, length)? {
                 let node = source.number(property.kind)?;
-                if !(node >= 0.0 && node < point_count as f64 && node.fract() == 0.0) {
+                if is_strips && ends_strip(node, property.kind) {
+                    strip = Strip::default();
+                } else if !(node >= 0.0 && node < point_count as f64 && node.fract() == 0.0) {
                     return Err(source.error(format!("the face refers to node {node} of {point_count}")));
+                } else if is_strips {
+                    strip.push(node as u32, faces);
+                } else {
+                    faces.push(node as u32);
                 }
-                soup.faces.push(node as u32);
             }
-            soup.faces.end_face();
+            if !is_strips {
+                faces.end_face();
+            }
         }
     }
     Ok(())
+}
+
+/// Whether a number is the -1 that ends a strip, also where the type has no signs.
+fn ends_strip(node: f64, kind: Kind) -> bool {
+    node == -1.0 || (kind == Kind::U32 && node == f64::from(u32::MAX))
+}
+
+/// The triangles of a strip, node by node.
+/// ```text
+///   1---3---5    0 1 2, then 1 3 2 (not 1 2 3, which turns the other way), 2 3 4, 3 5 4
+///  / \ / \ / \
+/// 0---2---4---6
+/// ```
+#[derive(Default)]
+struct Strip {
+    last: [u32; 2],
+    count: usize,
+}
+
+impl Strip {
+    fn push(&mut self, node: u32, faces: &mut Faces) {
+        let [a, b] = self.last;
+        // programs join strips by nodes that come twice: these triangles are meant to vanish
+        if self.count >= 2 && a != b && b != node && node != a {
+            let corners = if self.count.is_multiple_of(2) { [a, b, node] } else { [b, a, node] };
+            corners.into_iter().for_each(|corner| faces.push(corner));
+            faces.end_face();
+        }
+        self.last = [b, node];
+        self.count += 1;
+    }
 }

@@ -1,7 +1,9 @@
 //! STL: triangles by their corners, as text or as 50 bytes each.
 //!
 //! Binary files may begin with `solid` too, so their size decides first: 84 bytes and 50 for each triangle.
-//! Normals are passed over, the order of the corners says which side is out.
+//! Normals are passed over, the order of the corners says which side is out. Lines of a text that are not known, such as
+//! colours, are passed over between facets and within one, but not within its loop. A text may end without `endsolid`
+//! after a whole facet, which is told.
 
 use super::scanner::{Scanner, shown};
 use super::{ReadError, Soup};
@@ -20,8 +22,8 @@ pub(super) fn is_binary(bytes: &[u8]) -> bool {
 
 pub(super) fn read(bytes: &[u8]) -> Result<Soup, ReadError> {
     let start = bytes.trim_ascii_start();
-    let is_solid = start.len() >= 5 && start[..5].eq_ignore_ascii_case(b"solid");
-    let is_text = is_solid && !bytes.iter().take(512).any(|&byte| byte == 0);
+    let begins = |word: &[u8]| start.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word));
+    let is_text = (begins(b"solid") || begins(b"facet")) && !bytes.iter().take(512).any(|&byte| byte == 0);
     if is_text && !is_binary(bytes) { read_text(bytes) } else { read_binary(bytes) }
 }
 
@@ -55,45 +57,76 @@ fn read_binary(bytes: &[u8]) -> Result<Soup, ReadError> {
 fn read_text(bytes: &[u8]) -> Result<Soup, ReadError> {
     let mut scanner = Scanner::new(bytes, None);
     let mut soup = Soup::default();
-    let mut is_open = false;
-    let mut loop_corners = None; // inside a loop: how many corners it has
+    let mut place = Place::Outside;
     while let Some(word) = scanner.word() {
-        match (word.to_ascii_lowercase().as_slice(), loop_corners) {
-            (b"solid", None) if !is_open => {
-                is_open = true;
+        place = match (word.to_ascii_lowercase().as_slice(), place) {
+            (b"solid", Place::Outside | Place::Solid) => {
                 scanner.skip_line(); // its name may hold anything
+                Place::Solid
             }
-            (b"endsolid", None) if is_open => {
-                is_open = false;
+            (b"endsolid", Place::Solid) => {
                 scanner.skip_line();
+                Place::Outside
             }
-            (b"facet", None) if is_open => scanner.skip_line(), // the normal
-            (b"outer", None) if is_open => {
-                scanner.skip_line();
-                loop_corners = Some(0);
+            (b"facet", Place::Outside | Place::Solid) => Place::Facet,
+            (b"outer", Place::Facet) => {
+                if !scanner.word().is_some_and(|word| word.eq_ignore_ascii_case(b"loop")) {
+                    return Err(scanner.error("'loop' should follow 'outer'"));
+                }
+                Place::Loop(0)
             }
-            (b"vertex", Some(count)) => {
+            (b"vertex", Place::Loop(count)) => {
                 let x = scanner.number("x")?;
                 let y = scanner.number("y")?;
                 let z = scanner.number("z")?;
                 add_corner(&mut soup, DVec3::new(x, y, z));
-                loop_corners = Some(count + 1);
+                Place::Loop(count + 1)
             }
-            (b"endloop", Some(count)) => {
+            (b"endloop", Place::Loop(count)) => {
                 if count < 3 {
                     return Err(scanner.error(format!("a facet has {count} corners, it needs three")));
                 }
                 soup.faces.end_face();
-                loop_corners = None;
+                Place::AfterLoop
             }
-            (b"endfacet", None) if is_open => {}
-            _ => return Err(scanner.error(format!("'{}' should not stand here", shown(word)))),
+            (b"endfacet", Place::AfterLoop) => Place::Solid,
+            (b"solid" | b"endsolid" | b"facet" | b"outer" | b"vertex" | b"endloop" | b"endfacet" | b"inner", _)
+            | (_, Place::Loop(_)) => {
+                return Err(scanner.error(format!("'{}' should not stand here", shown(word))));
+            }
+            (b"normal", Place::Facet) => {
+                for _ in 0..3 {
+                    scanner.word_in_line(); // passed over, may be missing
+                }
+                Place::Facet
+            }
+            (_, Place::Outside) => {
+                return Err(scanner.error(format!("'{}' should not stand here", shown(word))));
+            }
+            (_, place) => {
+                scanner.skip_line(); // a colour or another program's remark
+                place
+            }
         }
     }
-    if is_open {
-        return Err(scanner.error("the file ends before 'endsolid'"));
+    match place {
+        Place::Facet | Place::Loop(_) => return Err(scanner.error("the file ends within a facet")),
+        _ if soup.points.is_empty() => return Err(scanner.error("the file ends before its first facet")),
+        Place::Solid | Place::AfterLoop => soup.missing_end = true,
+        Place::Outside => {}
     }
     Ok(soup)
+}
+
+/// Where in the text a word stands.
+#[derive(Clone, Copy)]
+enum Place {
+    Outside,
+    Solid,
+    Facet,
+    /// So many corners were read.
+    Loop(usize),
+    AfterLoop,
 }
 
 fn add_corner(soup: &mut Soup, point: DVec3) {

@@ -1,7 +1,14 @@
 use super::*;
+use crate::mesh::{Components, MeshError, Repair};
 use proptest::prelude::*;
 
-const OPTIONS: MeshOptions = MeshOptions { weld_distance: 0.0, orient: false, index_base: 0 };
+const OPTIONS: MeshOptions = MeshOptions {
+    weld_distance: 0.0,
+    repair: Repair::SAFE,
+    components: Components::All,
+    index_base: 0,
+    max_memory: 0,
+};
 
 fn mesh(text: &str, format: Format) -> (Mesh, MeshRepairs) {
     read_bytes(text.as_bytes(), format, &OPTIONS).unwrap_or_else(|error| panic!("{text}: {error}"))
@@ -26,7 +33,7 @@ fn off_is_read_with_comments_colours_normals_and_polygons() {
     assert_eq!(coloured.points()[2], DVec3::Y);
     let (normals, _) = mesh("NOFF\n3 1 3\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2\n", Format::Off);
     assert_eq!(normals.points(), coloured.points());
-    let (texture, _) = mesh("STOFF\n3 1 3\n0 0 0 .1 .2\n1 0 0 .3 .4\n0 1 0 .5 .6\n3 0 1 2\n", Format::Off);
+    let (texture, _) = mesh("STOFF\n3 1 3\n0 0 0 .1 .2\n1 0 0 .3 .1\n0 1 0 .5 .6\n3 0 1 2\n", Format::Off);
     assert_eq!(texture.parameters().unwrap()[2], DVec2::new(0.5, 0.6));
 }
 
@@ -79,13 +86,14 @@ fn faults_of_obj_name_their_line() {
         ("f 1 2 0\n", "line 4: the face refers to node 0 of 3"),
         ("f 1 2 -4\n", "line 4: the face refers to node -4 of 3"),
         ("f 1 2 x\n", "line 4: 'x' is no index"),
-        ("f 1 2\n", "line 4: a face needs three corners"),
-        ("\nf 1/1 2/1 3/1\n", "line 5: the face refers to vt 1 of 0"),
         ("v 1 2\n", "line 4: the line ends where z should stand"),
     ] {
         assert_eq!(sentence(&format!("{nodes}{tail}"), Format::Obj), expected, "{tail}");
     }
-    assert_eq!(refusal("v 0 0 nan\nf 1 1 1\n", Format::Obj), MeshError::NotFinite { node: 0 }.into());
+    let nodes = "v 0 0 nan\nv 1 0 0\nv 0 1 0\n";
+    let error = refusal(nodes.to_owned() + "f 1 2 3\n", Format::Obj);
+    assert_eq!(error, MeshError::NotFinite { node: 0 }.into());
+    assert_eq!(refusal(nodes, Format::Obj), MeshError::PointCloud { count: 3 }.into());
     assert_eq!(refusal("", Format::Obj), MeshError::NoPoints.into());
 }
 
@@ -253,7 +261,7 @@ fn concave_polygons_are_cut_into_ears() {
     let (triangle, _) = mesh("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n4 0 1 2 2\n", Format::Off);
     assert_eq!(triangle.triangles(), [[0, 1, 2]]);
     let same = refusal("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n4 1 1 1 1\n", Format::Off);
-    assert_eq!(same, MeshError::RepeatedNode { triangle: 0, node: 1 }.into());
+    assert_eq!(same, MeshError::NoArea { count: 1 }.into());
 }
 
 #[test]
@@ -274,8 +282,8 @@ fn welded_files_keep_parameters_that_agree_and_fields() {
     let seam = rows("0 1").replace("0 0 0 0 0 4", "0 0 0 9 9 4");
     let (welded, repairs) = read_bytes(seam.as_bytes(), Format::Ply, &options).unwrap();
     assert!(repairs.dropped_parameters && welded.parameters().is_none());
-    let bad = read_bytes(rows("0 nan").as_bytes(), Format::Ply, &options).unwrap_err();
-    assert_eq!(bad, MeshError::ParameterNotFinite { node: 5 }.into());
+    let (bad, repairs) = read_bytes(rows("0 nan").as_bytes(), Format::Ply, &options).unwrap();
+    assert!(repairs.dropped_parameters && bad.parameters().is_none());
 }
 
 #[test]
@@ -325,6 +333,7 @@ proptest! {
         removed in prop::collection::vec(1usize..72, 0..5),
     ) {
         let mesh = hills(side, scale, &removed);
+        prop_assume!(mesh.pinched_nodes().is_empty()); // these would be parted
         let numbers = |point: &DVec3| format!("{} {:e} {}", point.x, point.y, point.z);
         let (nodes, faces) = (mesh.points().len(), mesh.triangles().len());
         let rows = |begin: &str, end: &dyn Fn(&DVec3) -> String| -> String {
@@ -348,7 +357,7 @@ proptest! {
             prop_assert_eq!(read.triangles(), mesh.triangles());
             prop_assert_eq!(read.topology(), mesh.topology());
             prop_assert_eq!(read.field("height"), mesh.field("height").filter(|_| format == Format::Ply));
-            prop_assert!(repairs.is_empty());
+            prop_assert_eq!(repairs, MeshRepairs { unused_nodes: mesh.unused_nodes().len(), ..MeshRepairs::default() });
         }
     }
 

@@ -12,6 +12,7 @@ const ORDER: &[&str] = &[
     "status.rs",
     "progress.rs",
     "mesh.rs",
+    "mesh_file.rs",
     "decimate.rs",
     "parameterize.rs",
     "sphere.rs",

@@ -88,7 +88,8 @@ impl Picture {
     pub fn new(width: usize, height: usize, view: &View, mesh: &Mesh) -> Self {
         let axes = view.axes();
         let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for &p in mesh.points() {
+        for &node in mesh.triangles().as_flattened() {
+            let p = mesh.points()[node as usize];
             let seen = axes * p;
             (min, max) = (min.min(seen), max.max(seen));
         }
