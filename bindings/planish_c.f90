@@ -32,8 +32,8 @@ module planish_records
   integer(c_int), parameter, public :: PLANISH_STATUS_STAGNATED = 2
   !> Some points lie outside the domain; their values are NaN
   integer(c_int), parameter, public :: PLANISH_STATUS_POINTS_OUTSIDE = 3
-  !> The mesh is not what was given: nodes were welded, triangles dropped or turned over, or texture coordinates that
-  !> are no parameters left out
+  !> The mesh is not all that was given: nodes were welded, split or passed over, triangles dropped or turned over, or
+  !> texture coordinates that are no parameters left out
   integer(c_int), parameter, public :: PLANISH_STATUS_INPUT_REPAIRED = 4
   !> Some triangles are turned over or flat in the parameter plane: a surface over them may fold
   integer(c_int), parameter, public :: PLANISH_STATUS_FOLDED_PARAMETERS = 5
@@ -74,6 +74,38 @@ module planish_records
   integer(c_int32_t), parameter, public :: PLANISH_STAGE_TESSELLATE = 6 !! Makes triangles of a surface
   integer(c_int32_t), parameter, public :: PLANISH_STAGE_CONVERT = 7 !! Makes another form of a surface
   integer(c_int32_t), parameter, public :: PLANISH_STAGE_WRITE = 8 !! Writes a file
+
+  !> Faults that are mended when arrays or a file become a mesh.
+  !> All that change no shape and need no guess: the five that follow NONE
+  integer(c_int32_t), parameter, public :: PLANISH_MESH_REPAIR_SAFE = 0
+  integer(c_int32_t), parameter, public :: PLANISH_MESH_REPAIR_NONE = 1 !! None
+  !> Nodes that no triangle needs are kept and passed over, whatever their coordinates are
+  integer(c_int32_t), parameter, public :: PLANISH_MESH_REPAIR_UNUSED_NODES = 2
+  !> Triangles with a corner twice are left out, and faces of less than three corners
+  integer(c_int32_t), parameter, public :: PLANISH_MESH_REPAIR_REPEATED_CORNERS = 4
+  !> Of triangles with the same three nodes, whatever their orientation, only the first is kept
+  integer(c_int32_t), parameter, public :: PLANISH_MESH_REPAIR_DUPLICATE_TRIANGLES = 8
+  !> Nodes where the surface touches itself become one for each part; the copies come after all other nodes
+  integer(c_int32_t), parameter, public :: PLANISH_MESH_REPAIR_TOUCHING_NODES = 16
+  !> Triangles are turned over until neighbours agree, as few as that takes
+  integer(c_int32_t), parameter, public :: PLANISH_MESH_REPAIR_ORIENTATION = 32
+  !> Edges of three and more triangles are parted: sheets that meet others only there get nodes of their own
+  integer(c_int32_t), parameter, public :: PLANISH_MESH_REPAIR_SHEETS = 64
+  integer(c_int32_t), parameter, public :: PLANISH_MESH_REPAIR_ALL = 126 !! All of them
+
+  !> Which parts of a mesh that hang together by edges are taken.
+  integer(c_int32_t), parameter, public :: PLANISH_MESH_COMPONENTS_ALL = 0 !! All
+  !> The one of most triangles; of equals the first
+  integer(c_int32_t), parameter, public :: PLANISH_MESH_COMPONENTS_LARGEST = 1
+  integer(c_int32_t), parameter, public :: PLANISH_MESH_COMPONENTS_ONE = 2 !! One by its number
+
+  !> A format of mesh files.
+  !> The one that the name ends in; if that says nothing, or there is no name, the one that the content begins like
+  integer(c_int32_t), parameter, public :: PLANISH_MESH_FORMAT_AUTO = 0
+  integer(c_int32_t), parameter, public :: PLANISH_MESH_FORMAT_OFF = 1 !! Object file format of Geomview
+  integer(c_int32_t), parameter, public :: PLANISH_MESH_FORMAT_OBJ = 2 !! Wavefront OBJ
+  integer(c_int32_t), parameter, public :: PLANISH_MESH_FORMAT_PLY = 3 !! Polygon file format
+  integer(c_int32_t), parameter, public :: PLANISH_MESH_FORMAT_STL = 4 !! Stereolithography: triangles alone
 
   !> Which weights an interior node gives its neighbours.
   !> Mean value coordinates: no triangle turns over over a convex border
@@ -320,7 +352,7 @@ module planish_records
 
   !> How arrays or files become a mesh.
   type, bind(c), public :: planish_mesh_options
-    integer(c_size_t) :: struct_size = 5 * word + 16
+    integer(c_size_t) :: struct_size = 6 * word + 48
     !> Doubles from one node to the next in `points`; at least 3, or 0 (default) for 3
     integer(c_size_t) :: point_stride = 0
     !> Indices from one triangle to the next in `triangles`; at least 3, or 0 (default) for 3
@@ -330,22 +362,52 @@ module planish_records
     !> Receives for each node given the node of the mesh that it became, counted from 1: point_count elements, or NULL
     !> (default)
     type(c_ptr) :: out_node_map = c_null_ptr
-    !> 1 turns triangles over until neighbours agree; with 0 (default) disagreement is an error
+    !> 1 turns triangles over until neighbours agree, whatever repair says; 0 (default) leaves that to repair
     integer(c_int32_t) :: orient = 0
     !> The number that `triangles` uses for the first node, such as 1 from Fortran
     integer(c_int32_t) :: index_base = 0
+    !> Corners of each face, at least 3: `triangles` then holds polygons, one behind the other, and triangle_count is
+    !> their number
+    type(c_ptr) :: face_sizes = c_null_ptr
+    !> Most bytes of a file, unpacked; 0 (default) for three quarters of what the machine or its control group has
+    integer(c_int64_t) :: max_memory = 0
+    integer(c_int32_t) :: repair = 0 !! Which faults are mended: bits of planish_mesh_repair
+    !> A planish_mesh_components: which parts that hang together by edges become the mesh
+    integer(c_int32_t) :: components = PLANISH_MESH_COMPONENTS_ALL
+    !> The part for PLANISH_MESH_COMPONENTS_ONE, counted from 1 in the order of their first triangles
+    integer(c_int32_t) :: component = 0
+    integer(c_int32_t) :: format = PLANISH_MESH_FORMAT_AUTO !! A planish_mesh_format, of files and buffers
+    !> Corners of every face if face_sizes is NULL: 0 (default) or 3 for triangles, 4 for quads and so on
+    integer(c_int32_t) :: corner_count = 0
+    integer(c_int32_t) :: reserved = 0
   end type
 
   !> What was done to arrays or a file to make a mesh of them.
   type, bind(c), public :: planish_mesh_repairs
-    integer(c_size_t) :: struct_size = 4 * word + 8
+    integer(c_size_t) :: struct_size = 9 * word + 8
     integer(c_size_t) :: welded_node_count = 0 !! Nodes that vanished because they were welded to others
-    !> Triangles that vanished because welding made two of their nodes one
+    !> Triangles and faces that were left out because two of their corners are one node, as given or by welding, or
+    !> because they have less than three
     integer(c_size_t) :: dropped_triangle_count = 0
     integer(c_size_t) :: flipped_triangle_count = 0 !! Triangles that were turned over
-    !> 1 if the file has texture coordinates that are no parameters, because a node has several or none
+    !> 1 if the file has texture coordinates that are no parameters, because a node has several or none, or because
+    !> they are not finite or lie on a line
     integer(c_int32_t) :: dropped_parameters = 0
-    integer(c_int32_t) :: reserved = 0
+    integer(c_int32_t) :: missing_end = 0 !! 1 if the file ends before it says that it does; what it has is whole
+    integer(c_size_t) :: unused_node_count = 0 !! Nodes that no triangle needs
+    integer(c_size_t) :: split_node_count = 0 !! Copies of nodes that were appended
+    !> Triangles that were left out because an earlier one has the same nodes
+    integer(c_size_t) :: duplicate_triangle_count = 0
+    integer(c_size_t) :: parted_edge_count = 0 !! Edges of three and more triangles that were parted
+    !> Triangles of components that were not asked for: a choice, no repair
+    integer(c_size_t) :: excluded_triangle_count = 0
+  end type
+
+  !> How a mesh is written.
+  type, bind(c), public :: planish_mesh_write_options
+    integer(c_size_t) :: struct_size = 1 * word + 8
+    integer(c_int32_t) :: format = PLANISH_MESH_FORMAT_AUTO !! A planish_mesh_format
+    integer(c_int32_t) :: text = 0 !! 1 writes PLY and STL as text; with 0 (default) they are binary
   end type
 
   !> How coarse a mesh becomes, and what stays.
@@ -1293,14 +1355,6 @@ module planish_calls
       type(c_ptr), intent(inout) :: out_mesh
     end function
 
-    integer(c_int) function c_mesh_read(path, options, out_mesh) bind(c, name="planish_mesh_read")
-      import
-      implicit none
-      character(kind=c_char), intent(in) :: path(*)
-      type(planish_mesh_options), intent(in), optional :: options
-      type(c_ptr), intent(inout) :: out_mesh
-    end function
-
     integer(c_int) function c_mesh_clone(mesh, out_mesh) bind(c, name="planish_mesh_clone")
       import
       implicit none
@@ -1383,6 +1437,32 @@ module planish_calls
       integer(c_size_t), value :: count
     end function
 
+    integer(c_int) function c_mesh_copy_node_map(mesh, out_nodes, count) bind(c, name="planish_mesh_copy_node_map")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int32_t), intent(inout) :: out_nodes(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_mesh_copy_triangle_map( &
+        mesh, out_triangles, count) &
+        bind(c, name="planish_mesh_copy_triangle_map")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int32_t), intent(inout) :: out_triangles(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_mesh_set_points(mesh, points, count) bind(c, name="planish_mesh_set_points")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      real(c_double), intent(in) :: points(*)
+      integer(c_size_t), value :: count
+    end function
+
     integer(c_int) function c_mesh_copy_loop(mesh, loop, out_nodes, count) bind(c, name="planish_mesh_copy_loop")
       import
       implicit none
@@ -1423,6 +1503,13 @@ module planish_calls
       character(kind=c_char), intent(in) :: name(*)
       real(c_double), intent(in) :: values(*)
       integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_mesh_remove_field(mesh, name) bind(c, name="planish_mesh_remove_field")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      character(kind=c_char), intent(in) :: name(*)
     end function
 
     pure integer(c_int32_t) function c_mesh_has_parameters(mesh) bind(c, name="planish_mesh_has_parameters")
@@ -1488,6 +1575,42 @@ module planish_calls
       integer(c_int32_t), intent(inout), optional :: out_nodes(*)
       integer(c_size_t), value :: count
       integer(c_size_t), intent(inout) :: out_count
+    end function
+
+    integer(c_int) function c_mesh_write_options_init( &
+        options, struct_size) &
+        bind(c, name="planish_mesh_write_options_init")
+      import
+      implicit none
+      type(planish_mesh_write_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_mesh_read(path, options, out_mesh) bind(c, name="planish_mesh_read")
+      import
+      implicit none
+      character(kind=c_char), intent(in) :: path(*)
+      type(planish_mesh_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_mesh
+    end function
+
+    integer(c_int) function c_mesh_read_buffer( &
+        buffer, size, options, out_mesh) &
+        bind(c, name="planish_mesh_read_buffer")
+      import
+      implicit none
+      integer(c_int8_t), intent(in) :: buffer(*)
+      integer(c_size_t), value :: size
+      type(planish_mesh_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_mesh
+    end function
+
+    integer(c_int) function c_mesh_write(mesh, path, options) bind(c, name="planish_mesh_write")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      character(kind=c_char), intent(in) :: path(*)
+      type(planish_mesh_write_options), intent(in), optional :: options
     end function
 
     integer(c_int) function c_decimate_options_init( &
@@ -3361,6 +3484,7 @@ module planish_calls
   !> Puts a record back to the defaults that the library has: `call planish_options_init(options)`.
   interface planish_options_init
     module procedure init_mesh_options
+    module procedure init_mesh_write_options
     module procedure init_decimate_options
     module procedure init_parameterize_options
     module procedure init_sphere_options
@@ -3388,6 +3512,7 @@ module planish_calls
     module procedure init_d1rc_options
   end interface
   private :: init_mesh_options
+  private :: init_mesh_write_options
   private :: init_decimate_options
   private :: init_parameterize_options
   private :: init_sphere_options
@@ -3420,6 +3545,12 @@ contains
     type(planish_mesh_options), intent(inout) :: options
     integer(c_int) :: status
     status = c_mesh_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_mesh_write_options(options)
+    type(planish_mesh_write_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_mesh_write_options_init(options, c_sizeof(options)) ! which cannot fail
   end subroutine
 
   subroutine init_decimate_options(options)

@@ -7,6 +7,7 @@ find_program(PLANISH_CARGO cargo HINTS "$ENV{CARGO_HOME}/bin" "$ENV{HOME}/.cargo
 find_program(PLANISH_RUSTC rustc HINTS "$ENV{CARGO_HOME}/bin" "$ENV{HOME}/.cargo/bin" REQUIRED)
 set(PLANISH_CARGO_TARGET "" CACHE STRING "Target triple for cargo; empty builds for this machine")
 set(PLANISH_CARGO_FLAGS "" CACHE STRING "More arguments for cargo build, such as --offline")
+option(PLANISH_TRIM_PATHS "Keep the folders of this machine out of the library; compiles all dependencies anew" OFF)
 mark_as_advanced(PLANISH_CARGO PLANISH_RUSTC)
 
 # cargo's profile and the directory it builds in
@@ -82,9 +83,19 @@ else()
   endforeach()
 endif()
 separate_arguments(_more_flags NATIVE_COMMAND "${PLANISH_CARGO_FLAGS}")
+set(_environment "CARGO_TARGET_DIR=${_target_dir}")
+if(PLANISH_TRIM_PATHS)
+  # sources of the library and of its dependencies are named by the messages of panics
+  set(_cargo_home "$ENV{HOME}/.cargo")
+  if(DEFINED ENV{CARGO_HOME})
+    set(_cargo_home "$ENV{CARGO_HOME}")
+  endif()
+  list(APPEND _environment
+       "RUSTFLAGS=$ENV{RUSTFLAGS} --remap-path-prefix=${CMAKE_CURRENT_SOURCE_DIR}=/planish --remap-path-prefix=${_cargo_home}=/cargo")
+endif()
 add_custom_target(
   planish_cargo ALL
-  COMMAND ${CMAKE_COMMAND} -E env --unset=MAKEFLAGS "CARGO_TARGET_DIR=${_target_dir}" ${PLANISH_CARGO} build
+  COMMAND ${CMAKE_COMMAND} -E env --unset=MAKEFLAGS ${_environment} ${PLANISH_CARGO} build
           --locked --package planish --lib --profile ${_profile} ${_target_flag} ${_more_flags}
   COMMAND ${CMAKE_COMMAND} -E make_directory "${PLANISH_LIB_DIR}"
   ${_commands}

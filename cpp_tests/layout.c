@@ -33,11 +33,6 @@ FOLLOWS(planish_mesh_options, format, corner_count);
 FOLLOWS(planish_mesh_options, corner_count, reserved);
 LAST(planish_mesh_options, reserved);
 
-FIRST(planish_mesh_write_options);
-FOLLOWS(planish_mesh_write_options, struct_size, format);
-FOLLOWS(planish_mesh_write_options, format, text);
-LAST(planish_mesh_write_options, text);
-
 FIRST(planish_mesh_repairs);
 FOLLOWS(planish_mesh_repairs, struct_size, welded_node_count);
 FOLLOWS(planish_mesh_repairs, welded_node_count, dropped_triangle_count);
@@ -50,6 +45,11 @@ FOLLOWS(planish_mesh_repairs, split_node_count, duplicate_triangle_count);
 FOLLOWS(planish_mesh_repairs, duplicate_triangle_count, parted_edge_count);
 FOLLOWS(planish_mesh_repairs, parted_edge_count, excluded_triangle_count);
 LAST(planish_mesh_repairs, excluded_triangle_count);
+
+FIRST(planish_mesh_write_options);
+FOLLOWS(planish_mesh_write_options, struct_size, format);
+FOLLOWS(planish_mesh_write_options, format, text);
+LAST(planish_mesh_write_options, text);
 
 FIRST(planish_decimate_options);
 FOLLOWS(planish_decimate_options, struct_size, target_count);

@@ -65,8 +65,8 @@ typedef enum planish_status {
      */
     PLANISH_STATUS_POINTS_OUTSIDE = 3,
     /**
-     * The mesh is not what was given: nodes were welded, triangles dropped or turned over, or texture
-     * coordinates that are no parameters left out.
+     * The mesh is not all that was given: nodes were welded, split or passed over, triangles dropped or turned over, or
+     * texture coordinates that are no parameters left out. planish_mesh_repairs counts them.
      */
     PLANISH_STATUS_INPUT_REPAIRED = 4,
     /**
@@ -195,6 +195,92 @@ typedef enum planish_stage planish_stage;
 typedef uint32_t planish_stage;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
+
+/**
+ * Faults that are mended when arrays or a file become a mesh. All others are refused.
+ */
+typedef enum planish_mesh_repair {
+    /**
+     * All that change no shape and need no guess: the five that follow NONE.
+     */
+    PLANISH_MESH_REPAIR_SAFE = 0,
+    /**
+     * None.
+     */
+    PLANISH_MESH_REPAIR_NONE = 1,
+    /**
+     * Nodes that no triangle needs are kept and passed over, whatever their coordinates are.
+     */
+    PLANISH_MESH_REPAIR_UNUSED_NODES = 2,
+    /**
+     * Triangles with a corner twice are left out, and faces of less than three corners.
+     */
+    PLANISH_MESH_REPAIR_REPEATED_CORNERS = 4,
+    /**
+     * Of triangles with the same three nodes, whatever their orientation, only the first is kept.
+     */
+    PLANISH_MESH_REPAIR_DUPLICATE_TRIANGLES = 8,
+    /**
+     * Nodes where the surface touches itself become one for each part; the copies come after all other nodes.
+     */
+    PLANISH_MESH_REPAIR_TOUCHING_NODES = 16,
+    /**
+     * Triangles are turned over until neighbours agree, as few as that takes.
+     */
+    PLANISH_MESH_REPAIR_ORIENTATION = 32,
+    /**
+     * Edges of three and more triangles are parted: sheets that meet others only there get nodes of their own.
+     */
+    PLANISH_MESH_REPAIR_SHEETS = 64,
+    /**
+     * All of them.
+     */
+    PLANISH_MESH_REPAIR_ALL = 126,
+} planish_mesh_repair;
+
+/**
+ * Which parts of a mesh that hang together by edges are taken.
+ */
+typedef enum planish_mesh_components {
+    /**
+     * All.
+     */
+    PLANISH_MESH_COMPONENTS_ALL = 0,
+    /**
+     * The one of most triangles; of equals the first.
+     */
+    PLANISH_MESH_COMPONENTS_LARGEST = 1,
+    /**
+     * One by its number.
+     */
+    PLANISH_MESH_COMPONENTS_ONE = 2,
+} planish_mesh_components;
+
+/**
+ * A format of mesh files.
+ */
+typedef enum planish_mesh_format {
+    /**
+     * The one that the name ends in; if that says nothing, or there is no name, the one that the content begins like.
+     */
+    PLANISH_MESH_FORMAT_AUTO = 0,
+    /**
+     * Object file format of Geomview. Parameters are its texture coordinates.
+     */
+    PLANISH_MESH_FORMAT_OFF = 1,
+    /**
+     * Wavefront OBJ. Parameters are its `vt`.
+     */
+    PLANISH_MESH_FORMAT_OBJ = 2,
+    /**
+     * Polygon file format. Parameters are its numbers u and v, and every other number on its nodes is a field.
+     */
+    PLANISH_MESH_FORMAT_PLY = 3,
+    /**
+     * Stereolithography: triangles alone. Corners with equal coordinates become one node.
+     */
+    PLANISH_MESH_FORMAT_STL = 4,
+} planish_mesh_format;
 
 /**
  * Which weights an interior node gives its neighbours.
@@ -849,7 +935,7 @@ typedef struct planish_field_fitter planish_field_fitter;
 
 /**
  * A triangle mesh: manifold and consistently oriented, possibly with several components, holes and nodes
- * without triangles. Made by planish_mesh_new() and others, destroyed by planish_mesh_free().
+ * without triangles, which are passed over. Made by planish_mesh_new() and others, destroyed by planish_mesh_free().
  *
  * Calls that take it const may run at once on any threads; a call that takes it non-const needs it alone.
  */
@@ -894,7 +980,8 @@ typedef struct planish_mesh_repairs {
      */
     size_t welded_node_count;
     /**
-     * Triangles that vanished because welding made two of their nodes one.
+     * Triangles and faces that were left out because two of their corners are one node, as given or by welding,
+     * or because they have less than three.
      */
     size_t dropped_triangle_count;
     /**
@@ -902,13 +989,34 @@ typedef struct planish_mesh_repairs {
      */
     size_t flipped_triangle_count;
     /**
-     * 1 if the file has texture coordinates that are no parameters, because a node has several or none.
+     * 1 if the file has texture coordinates that are no parameters, because a node has several or none, or because
+     * they are not finite or lie on a line.
      */
     uint32_t dropped_parameters;
     /**
-     * 0.
+     * 1 if the file ends before it says that it does; what it has is whole.
      */
-    uint32_t reserved;
+    uint32_t missing_end;
+    /**
+     * Nodes that no triangle needs.
+     */
+    size_t unused_node_count;
+    /**
+     * Copies of nodes that were appended.
+     */
+    size_t split_node_count;
+    /**
+     * Triangles that were left out because an earlier one has the same nodes.
+     */
+    size_t duplicate_triangle_count;
+    /**
+     * Edges of three and more triangles that were parted.
+     */
+    size_t parted_edge_count;
+    /**
+     * Triangles of components that were not asked for: a choice, no repair.
+     */
+    size_t excluded_triangle_count;
 } planish_mesh_repairs;
 
 /**
@@ -939,12 +1047,13 @@ typedef struct planish_mesh_options {
     struct planish_mesh_repairs *out_repairs;
     /**
      * Receives for each node given the node of the mesh that it became, counted from 0: point_count
-     * elements, or NULL (default). Filled on success only. Must be NULL for files.
+     * elements, or NULL (default). Filled on success only. Must be NULL for files;
+     * planish_mesh_copy_node_map() tells the same the other way round.
      * Array: [nodes].
      */
     uint32_t *out_node_map;
     /**
-     * 1 turns triangles over until neighbours agree; with 0 (default) disagreement is an error.
+     * 1 turns triangles over until neighbours agree, whatever repair says; 0 (default) leaves that to repair.
      */
     uint32_t orient;
     /**
@@ -952,7 +1061,62 @@ typedef struct planish_mesh_options {
      * files. Everything that the library hands back counts from 0.
      */
     uint32_t index_base;
+    /**
+     * Corners of each face, at least 3: `triangles` then holds polygons, one behind the other, and
+     * triangle_count is their number. NULL (default) for corner_count each. Borrowed. Ignored for files.
+     * Array: [faces].
+     */
+    const uint32_t *face_sizes;
+    /**
+     * Most bytes of a file, unpacked; 0 (default) for three quarters of what the machine or its control group
+     * has.
+     */
+    uint64_t max_memory;
+    /**
+     * Which faults are mended: bits of planish_mesh_repair. 0 (default) is PLANISH_MESH_REPAIR_SAFE.
+     */
+    uint32_t repair;
+    /**
+     * A planish_mesh_components: which parts that hang together by edges become the mesh. The nodes of others
+     * stay, as nodes that no triangle needs. Default PLANISH_MESH_COMPONENTS_ALL.
+     */
+    uint32_t components;
+    /**
+     * The part for PLANISH_MESH_COMPONENTS_ONE, counted from 0 in the order of their first triangles. Default 0.
+     */
+    uint32_t component;
+    /**
+     * A planish_mesh_format, of files and buffers. Default PLANISH_MESH_FORMAT_AUTO.
+     */
+    uint32_t format;
+    /**
+     * Corners of every face if face_sizes is NULL: 0 (default) or 3 for triangles, 4 for quads and so on.
+     * Polygons become triangles. Ignored for files.
+     */
+    uint32_t corner_count;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
 } planish_mesh_options;
+
+/**
+ * How a mesh is written. Fill with planish_mesh_write_options_init(), then change what you need.
+ */
+typedef struct planish_mesh_write_options {
+    /**
+     * Set by planish_mesh_write_options_init().
+     */
+    size_t struct_size;
+    /**
+     * A planish_mesh_format. Default PLANISH_MESH_FORMAT_AUTO: what the name ends in.
+     */
+    uint32_t format;
+    /**
+     * 1 writes PLY and STL as text; with 0 (default) they are binary. OFF and OBJ are texts always.
+     */
+    uint32_t text;
+} planish_mesh_write_options;
 
 /**
  * Hears how far a call is and may end it. It is asked at least every 50 ms.
@@ -3483,19 +3647,20 @@ enum planish_status planish_mesh_options_init(struct planish_mesh_options *optio
  * points:         point_count rows of x, y, z in model units; rows start options->point_stride doubles apart.
  * point_count:    at least 1.
  * triangles:      triangle_count rows of three nodes, counter-clockwise seen from outside, counted from
- *                 options->index_base; rows start options->triangle_stride indices apart.
+ *                 options->index_base; rows start options->triangle_stride indices apart. Rows of more nodes with
+ *                 options->corner_count or options->face_sizes: polygons, which become triangles.
  * triangle_count: at least 1.
  * options:        NULL for the defaults.
  * out_mesh:       receives a new mesh; destroy with planish_mesh_free().
  * Arrays: points[point_count, 3], triangles[triangle_count, 3].
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_INPUT_REPAIRED (something was welded or turned over, see
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_INPUT_REPAIRED (something was welded or mended, see
  * options->out_repairs) or an error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (empty
- * arrays, a stride, the weld distance), PLANISH_STATUS_NOT_FINITE (a coordinate; the index is the node),
- * PLANISH_STATUS_INDEX (a triangle refers to a node that does not exist; the index is the triangle),
- * PLANISH_STATUS_DEGENERATE (a triangle has a node twice, or welding leaves nothing),
- * PLANISH_STATUS_TOPOLOGY (an edge of three triangles, two triangles with the same nodes, neighbours that
- * disagree in orientation, a surface of one side), PLANISH_STATUS_TOO_LARGE, PLANISH_STATUS_VERSION or
- * PLANISH_STATUS_OUT_OF_MEMORY.
+ * arrays, an option), PLANISH_STATUS_NOT_FINITE (a coordinate of a node that has triangles; the index is the node),
+ * PLANISH_STATUS_INDEX (a triangle refers to a node that does not exist; the index is the triangle; or there is no
+ * such component), PLANISH_STATUS_DEGENERATE (no triangle is left), PLANISH_STATUS_TOPOLOGY (an edge of three
+ * triangles, unless PLANISH_MESH_REPAIR_SHEETS parts it; a surface of one side), PLANISH_STATUS_TOO_LARGE,
+ * PLANISH_STATUS_VERSION or PLANISH_STATUS_OUT_OF_MEMORY. What options->repair does not mend is refused:
+ * PLANISH_STATUS_TOPOLOGY, or PLANISH_STATUS_DEGENERATE for corners that come twice.
  */
 PLANISH_API
 PLANISH_NODISCARD
@@ -3505,25 +3670,6 @@ enum planish_status planish_mesh_new(const double *points,
                                      size_t triangle_count,
                                      const struct planish_mesh_options *options,
                                      struct planish_mesh **out_mesh);
-
-/**
- * Reads a mesh from an OFF, OBJ, PLY or STL file, told by the name's end or else by the content.
- *
- * Polygons become triangles. The `vt` of an OBJ become parameters if each node has one; the numbers that a
- * PLY has on its nodes become fields.
- *
- * path:     the file, in UTF-8, terminated.
- * options:  NULL for the defaults.
- * out_mesh: receives a new mesh; destroy with planish_mesh_free().
- * Returns what planish_mesh_new() returns, or PLANISH_STATUS_FILE (cannot be read), PLANISH_STATUS_FORMAT (not
- * what it claims to be; the index is the line or the byte, counted from 0) or PLANISH_STATUS_INVALID_ARGUMENT
- * (out_node_map is not NULL, or path is not UTF-8).
- */
-PLANISH_API
-PLANISH_NODISCARD
-enum planish_status planish_mesh_read(const char *path,
-                                      const struct planish_mesh_options *options,
-                                      struct planish_mesh **out_mesh);
 
 /**
  * Makes a copy of a mesh with its parameters and fields.
@@ -3617,6 +3763,55 @@ enum planish_status planish_mesh_copy_triangles(const struct planish_mesh *mesh,
                                                 size_t count);
 
 /**
+ * Copies what each node of the mesh was in the arrays or the file that it comes from, or in the mesh that it was cut
+ * from: copies of nodes name the node that they are copies of, and welded nodes the first of those that became one.
+ *
+ * mesh:      not NULL.
+ * out_nodes: receives planish_mesh_point_count() nodes, counted from 0.
+ * count:     nodes that out_nodes has room for.
+ * Arrays: out_nodes[mesh_point_count].
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_copy_node_map(const struct planish_mesh *mesh,
+                                               uint32_t *out_nodes,
+                                               size_t count);
+
+/**
+ * Copies what each triangle of the mesh was: the triangle or polygon of the arrays, the face of the file, or the
+ * triangle of the mesh that it was cut from.
+ *
+ * mesh:          not NULL.
+ * out_triangles: receives planish_mesh_triangle_count() numbers, counted from 0.
+ * count:         numbers that out_triangles has room for.
+ * Arrays: out_triangles[mesh_triangle_count].
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_copy_triangle_map(const struct planish_mesh *mesh,
+                                                   uint32_t *out_triangles,
+                                                   size_t count);
+
+/**
+ * Moves the nodes of a mesh, which keeps its triangles, parameters and fields: a step of a simulation.
+ *
+ * mesh:   not NULL; changed.
+ * points: count rows of x, y, z in model units. Copied.
+ * count:  planish_mesh_point_count().
+ * Arrays: points[count, 3].
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (count),
+ * PLANISH_STATUS_NOT_FINITE (of a node that has triangles, which is the index), PLANISH_STATUS_TOO_LARGE or
+ * PLANISH_STATUS_OUT_OF_MEMORY.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_set_points(struct planish_mesh *mesh,
+                                            const double *points,
+                                            size_t count);
+
+/**
  * Copies the nodes of a boundary loop in order, the surface on their left. The first is not repeated.
  *
  * mesh:      not NULL.
@@ -3692,6 +3887,19 @@ enum planish_status planish_mesh_set_field(struct planish_mesh *mesh,
                                            size_t count);
 
 /**
+ * Removes a field.
+ *
+ * mesh: not NULL; changed.
+ * name: the field's name in UTF-8, terminated.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (no such field, or name is
+ * not UTF-8).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_remove_field(struct planish_mesh *mesh,
+                                              const char *name);
+
+/**
  * 1 if the nodes have parameters, else 0; 0 for NULL.
  */
 PLANISH_API uint32_t planish_mesh_has_parameters(const struct planish_mesh *mesh);
@@ -3731,8 +3939,8 @@ enum planish_status planish_mesh_copy_parameters(const struct planish_mesh *mesh
 /**
  * Makes a mesh without some of the triangles, and without the nodes that no triangle needs any more.
  *
- * Parameters and fields go with their nodes: to know which node each one was, give the mesh a field of node
- * numbers before.
+ * Parameters and fields go with their nodes, and planish_mesh_copy_node_map() of the new mesh tells which node each
+ * one was.
  *
  * mesh:      not NULL; stays as it is.
  * triangles: count triangles to leave out, counted from 0, in any order.
@@ -3809,6 +4017,74 @@ enum planish_status planish_mesh_shortest_path(const struct planish_mesh *mesh,
                                                uint32_t *out_nodes,
                                                size_t count,
                                                size_t *out_count);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_mesh_write_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+ */
+PLANISH_API
+enum planish_status planish_mesh_write_options_init(struct planish_mesh_write_options *options,
+                                                    size_t struct_size);
+
+/**
+ * Reads a mesh from an OFF, OBJ, PLY or STL file, packed by gzip or not.
+ *
+ * Polygons become triangles. The `vt` of an OBJ become parameters if each node has one; the numbers that a
+ * PLY has on its nodes become fields. Faults are mended as options->repair says; planish_mesh_copy_node_map() and
+ * planish_mesh_copy_triangle_map() tell what nodes and triangles of the mesh were in the file.
+ *
+ * path:     the file, terminated; on Unix any bytes, elsewhere UTF-8.
+ * options:  NULL for the defaults.
+ * out_mesh: receives a new mesh; destroy with planish_mesh_free().
+ * Returns what planish_mesh_new() returns, or PLANISH_STATUS_FILE (cannot be read), PLANISH_STATUS_FORMAT (not
+ * what it claims to be; the index is the line or the byte, counted from 0), PLANISH_STATUS_TOO_LARGE (more bytes than
+ * options->max_memory) or PLANISH_STATUS_INVALID_ARGUMENT (out_node_map is not NULL, or the file has points only).
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_read(const char *path,
+                                      const struct planish_mesh_options *options,
+                                      struct planish_mesh **out_mesh);
+
+/**
+ * Reads a mesh from the content of a file in memory, as planish_mesh_read() does from a file.
+ *
+ * buffer:   size bytes; borrowed for the call.
+ * size:     at least 1.
+ * options:  NULL for the defaults; with PLANISH_MESH_FORMAT_AUTO the content says what it is.
+ * out_mesh: receives a new mesh; destroy with planish_mesh_free().
+ * Arrays: buffer[size].
+ * Returns what planish_mesh_read() returns, but for PLANISH_STATUS_FILE.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_read_buffer(const void *buffer,
+                                             size_t size,
+                                             const struct planish_mesh_options *options,
+                                             struct planish_mesh **out_mesh);
+
+/**
+ * Writes a mesh as OFF, OBJ, PLY or STL. Numbers read back to the same bits, but for STL, which has floats of four
+ * bytes in its binary form, and neither numbers of nodes nor parameters. Parameters go into the others, fields into PLY.
+ *
+ * The file appears whole or not at all: it is written beside its place under another name, synced to the disk and
+ * renamed. An existing file keeps its mode and survives every failure, a symbolic link is followed; what is no regular
+ * file, such as a device or a FIFO, is written to. So it is with every function that writes a file.
+ *
+ * mesh:    not NULL.
+ * path:    ends with a NUL; on Unix any bytes, elsewhere UTF-8. An existing file is replaced.
+ * options: NULL for the defaults.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, or a name that
+ * ends in no known format without one), PLANISH_STATUS_FILE or PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_write(const struct planish_mesh *mesh,
+                                       const char *path,
+                                       const struct planish_mesh_write_options *options);
 
 /**
  * Fills options with the defaults.
@@ -5053,7 +5329,7 @@ enum planish_status planish_vtk_options_init(struct planish_vtk_options *options
  * the control net. The file appears whole or not at all.
  *
  * surface: not NULL, of dimension 3.
- * path:    UTF-8, ends with a NUL; an existing file is replaced.
+ * path:    ends with a NUL; on Unix any bytes, elsewhere UTF-8. An existing file is replaced, see planish_mesh_write().
  * options: NULL for the defaults.
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension, an
  * option, a path that is not UTF-8), PLANISH_STATUS_WRONG_KIND (a family without patches or control net, where these
@@ -5107,7 +5383,7 @@ enum planish_status planish_surface_load(const void *buffer,
  * Writes the bytes of planish_surface_save() to a file, which appears whole or not at all.
  *
  * surface: not NULL.
- * path:    UTF-8, ends with a NUL; an existing file is replaced.
+ * path:    ends with a NUL; on Unix any bytes, elsewhere UTF-8. An existing file is replaced, see planish_mesh_write().
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the path is not
  * UTF-8) or PLANISH_STATUS_FILE.
  */
@@ -5119,7 +5395,7 @@ enum planish_status planish_surface_save_file(const struct planish_surface *surf
 /**
  * Makes a surface from a file of planish_surface_save_file().
  *
- * path:        UTF-8, ends with a NUL.
+ * path:        ends with a NUL; on Unix any bytes, elsewhere UTF-8.
  * out_surface: receives a new surface; destroy with planish_surface_free().
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the path is not
  * UTF-8), PLANISH_STATUS_FILE, PLANISH_STATUS_FORMAT (the index is the byte) or PLANISH_STATUS_VERSION.
@@ -5149,7 +5425,7 @@ enum planish_status planish_step_options_init(struct planish_step_options *optio
  * not at all; equal input gives equal bytes. A D1RC-spline is written as a tensor surface fitted to it.
  *
  * surface: not NULL, of dimension 3.
- * path:    UTF-8, ends with a NUL; an existing file is replaced.
+ * path:    ends with a NUL; on Unix any bytes, elsewhere UTF-8. An existing file is replaced, see planish_mesh_write().
  * options: NULL for the defaults.
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the dimension, an
  * option, a text that is not UTF-8), PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOPOLOGY (trims that cross or
@@ -5413,7 +5689,7 @@ enum planish_status planish_model_measure(const struct planish_model *model,
  * are written once, for both faces. The file appears whole or not at all; equal input gives equal bytes.
  *
  * model:   not NULL.
- * path:    UTF-8, ends with a NUL; an existing file is replaced.
+ * path:    ends with a NUL; on Unix any bytes, elsewhere UTF-8. An existing file is replaced, see planish_mesh_write().
  * options: NULL for the defaults. What is said there of forms and tolerances is for surfaces, and not used.
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, a text that is
  * not UTF-8), PLANISH_STATUS_DEGENERATE (numbers overflow) or PLANISH_STATUS_FILE.
@@ -5485,7 +5761,7 @@ enum planish_status planish_model_load(const void *buffer,
  * Writes the bytes of planish_model_save() to a file, which appears whole or not at all.
  *
  * model: not NULL.
- * path:  UTF-8, ends with a NUL; an existing file is replaced.
+ * path:  ends with a NUL; on Unix any bytes, elsewhere UTF-8. An existing file is replaced, see planish_mesh_write().
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the path is not UTF-8) or
  * PLANISH_STATUS_FILE.
  */
@@ -5497,7 +5773,7 @@ enum planish_status planish_model_save_file(const struct planish_model *model,
 /**
  * Makes a model from a file of planish_model_save_file().
  *
- * path:      UTF-8, ends with a NUL.
+ * path:      ends with a NUL; on Unix any bytes, elsewhere UTF-8.
  * out_model: receives a new model; destroy with planish_model_free().
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the path is not UTF-8),
  * PLANISH_STATUS_FILE, PLANISH_STATUS_FORMAT (the index is the byte) or PLANISH_STATUS_VERSION.
@@ -5688,7 +5964,7 @@ enum planish_status planish_model_tessellate(const struct planish_model *model,
  * distance as point data "deviation".
  *
  * model:   not NULL.
- * path:    UTF-8, ends with a NUL; an existing file is replaced.
+ * path:    ends with a NUL; on Unix any bytes, elsewhere UTF-8. An existing file is replaced, see planish_mesh_write().
  * options: NULL for the defaults; content must be PLANISH_VTK_CONTENT_TRIANGLES.
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, a path that is
  * not UTF-8), PLANISH_STATUS_FILE, or what planish_model_tessellate() or planish_model_deviation() return.
@@ -5981,7 +6257,7 @@ enum planish_status planish_curve_load(const void *buffer,
  * Writes the bytes of planish_curve_save() to a file, which appears whole or not at all.
  *
  * curve: not NULL.
- * path:  UTF-8, ends with a NUL; an existing file is replaced.
+ * path:  ends with a NUL; on Unix any bytes, elsewhere UTF-8. An existing file is replaced, see planish_mesh_write().
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the path is not UTF-8) or
  * PLANISH_STATUS_FILE.
  */
@@ -5993,7 +6269,7 @@ enum planish_status planish_curve_save_file(const struct planish_curve *curve,
 /**
  * Makes a curve from a file of planish_curve_save_file().
  *
- * path:      UTF-8, ends with a NUL.
+ * path:      ends with a NUL; on Unix any bytes, elsewhere UTF-8.
  * out_curve: receives a new curve; destroy with planish_curve_free().
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the path is not UTF-8),
  * PLANISH_STATUS_FILE, PLANISH_STATUS_FORMAT (the index is the byte) or PLANISH_STATUS_VERSION.

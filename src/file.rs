@@ -22,7 +22,9 @@ pub enum FileError {
         reason: String,
     },
     /// The file has more bytes than may be read.
-    #[error("'{path}' has more than the {limit} bytes that may be read: raise the limit on memory if it is right")]
+    #[error(
+        "'{path}' has more than the {limit} bytes that may be read: raise the limit on memory if it is right"
+    )]
     TooLarge {
         /// The path as given.
         path: String,
@@ -88,9 +90,12 @@ fn is_device(_: &Metadata) -> bool {
 
 /// Writes a whole file. An existing one is replaced at once or stays as it was.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
-    let fail = |error: io::Error| FileError::Write { path: path.display().to_string(), reason: error.to_string() };
+    let fail =
+        |error: io::Error| FileError::Write { path: path.display().to_string(), reason: error.to_string() };
     match fs::metadata(path) {
-        Ok(metadata) if metadata.is_file() => replace(&fs::canonicalize(path).map_err(fail)?, Some(&metadata), bytes),
+        Ok(metadata) if metadata.is_file() => {
+            replace(&fs::canonicalize(path).map_err(fail)?, Some(&metadata), bytes)
+        }
         Ok(_) => write_in_place(path, bytes),
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
             link_end(path).and_then(|target| replace(&target, None, bytes))

@@ -18,7 +18,8 @@ fn available() -> u64 {
     let text = |path: &Path| std::fs::read_to_string(path).ok();
     let machine = text(Path::new("/proc/meminfo")).and_then(|text| total_of(&text));
     let groups = text(Path::new("/proc/self/cgroup")).unwrap_or_default();
-    let limits = groups.lines().flat_map(limit_files).filter_map(|path| text(Path::new(&path))?.trim().parse().ok());
+    let limits =
+        groups.lines().flat_map(limit_files).filter_map(|path| text(Path::new(&path))?.trim().parse().ok());
     limits.chain(machine).min().unwrap_or(u64::MAX)
 }
 
@@ -59,7 +60,8 @@ mod tests {
 
     #[test]
     fn groups_are_looked_for_from_the_inside_out() {
-        let files = ["/sys/fs/cgroup/a/b/memory.max", "/sys/fs/cgroup/a/memory.max", "/sys/fs/cgroup//memory.max"];
+        let files =
+            ["/sys/fs/cgroup/a/b/memory.max", "/sys/fs/cgroup/a/memory.max", "/sys/fs/cgroup//memory.max"];
         assert_eq!(limit_files("0::/a/b"), files);
         assert_eq!(limit_files("5:cpu,memory:/")[0], "/sys/fs/cgroup/memory//memory.limit_in_bytes");
         assert!(limit_files("5:cpu:/a").is_empty() && limit_files("x").is_empty());

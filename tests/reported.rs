@@ -68,7 +68,8 @@ impl Shape {
         match format {
             Format::Off => format!("OFF\n{points} {faces} 0\n{}{}", rows(""), counted()),
             Format::Obj => {
-                let faces: String = self.faces.iter().map(|face| format!("f {}\n", corners(face, 1))).collect();
+                let faces: String =
+                    self.faces.iter().map(|face| format!("f {}\n", corners(face, 1))).collect();
                 rows("v ") + &faces
             }
             Format::Ply => format!(
@@ -110,7 +111,8 @@ fn reported(name: &str) -> (Mesh, MeshRepairs) {
 fn parsed(bytes: impl AsRef<[u8]>, format: Format) -> (Mesh, MeshRepairs) {
     let bytes = bytes.as_ref();
     let text = || String::from_utf8_lossy(bytes).into_owned();
-    read_bytes(bytes, format, &MeshOptions::default()).unwrap_or_else(|error| panic!("{error} in\n{}", text()))
+    read_bytes(bytes, format, &MeshOptions::default())
+        .unwrap_or_else(|error| panic!("{error} in\n{}", text()))
 }
 
 /// What is said when nothing is to be mended.
@@ -240,7 +242,10 @@ fn unused_nodes_stay_and_are_passed_over() {
         assert_eq!(repairs.unused_nodes, count);
         assert!((area(&mesh) - shape.area()).abs() <= 1e-12 * shape.area());
         let sentence = refusal(&text, format);
-        assert!(sentence.contains(&format!("node {}", places[0])) && sentence.contains("'unused'"), "{sentence}");
+        assert!(
+            sentence.contains(&format!("node {}", places[0])) && sentence.contains("'unused'"),
+            "{sentence}"
+        );
     });
 }
 
@@ -504,7 +509,8 @@ fn texture_coordinates_that_are_no_parameters_cost_nothing() {
                 _ => format!("{} {}", p[0], p[1]),
             }
         };
-        let mut text: String = shape.points.iter().map(|p| format!("v {} {} {}\n", p[0], p[1], p[2])).collect();
+        let mut text: String =
+            shape.points.iter().map(|p| format!("v {} {} {}\n", p[0], p[1], p[2])).collect();
         // kind 5: the faces name what is not there
         let count = if kind == 5 { random.below(3) } else { shape.points.len() };
         (0..count).for_each(|node| text += &format!("vt {}\n", pair(node)));
@@ -527,7 +533,8 @@ fn nodes_where_the_surface_touches_itself_are_parted() {
         let (format, shape) = (random.of(&INDEXED), Shape::sheet_of(m, n, random));
         // two opposite triangles of the six around a node go whose neighbours lie inside too
         let inner = 2 * (m + 1) + 2 + random.below(m - 3);
-        let around: Vec<usize> = (0..shape.faces.len()).filter(|&f| shape.faces[f].contains(&inner)).collect();
+        let around: Vec<usize> =
+            (0..shape.faces.len()).filter(|&f| shape.faces[f].contains(&inner)).collect();
         let first = random.of(&around);
         let touches = |&&f: &&usize| {
             shape.faces[f].iter().filter(|node| shape.faces[first].contains(node)).count() == 1
@@ -535,7 +542,10 @@ fn nodes_where_the_surface_touches_itself_are_parted() {
         let apart: Vec<usize> = around.iter().filter(touches).copied().collect();
         let second = random.of(&apart);
         let mut holed = shape.clone();
-        holed.faces = (0..shape.faces.len()).filter(|f| *f != first && *f != second).map(|f| shape.faces[f].clone()).collect();
+        holed.faces = (0..shape.faces.len())
+            .filter(|f| *f != first && *f != second)
+            .map(|f| shape.faces[f].clone())
+            .collect();
         let text = holed.text(format);
         let (mesh, repairs) = parsed(&text, format);
         assert_eq!(sizes(&mesh), (shape.points.len() + 1, holed.faces.len()));
@@ -624,11 +634,13 @@ fn packed_files_are_unpacked_within_the_limit() {
 fn components_are_picked_from_files_too() {
     variants(22, |random| {
         let (format, small, large) = (random.of(&INDEXED), Shape::sheet(random), Shape::sheet(random));
-        let (small, large) = if small.faces.len() > large.faces.len() { (large, small) } else { (small, large) };
+        let (small, large) =
+            if small.faces.len() > large.faces.len() { (large, small) } else { (small, large) };
         let count = small.points.len();
         let mut both = small.clone();
         both.points.extend(large.points.iter().map(|p| [p[0] + 100.0, p[1], p[2]]));
-        both.faces.extend(large.faces.iter().map(|face| face.iter().map(|node| node + count).collect::<Vec<_>>()));
+        both.faces
+            .extend(large.faces.iter().map(|face| face.iter().map(|node| node + count).collect::<Vec<_>>()));
         if small.faces.len() == large.faces.len() {
             return;
         }

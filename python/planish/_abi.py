@@ -47,6 +47,29 @@ ENUMERATIONS = {
         "convert": 7,
         "write": 8,
     },
+    "planish_mesh_repair": {
+        "safe": 0,
+        "none": 1,
+        "unused_nodes": 2,
+        "repeated_corners": 4,
+        "duplicate_triangles": 8,
+        "touching_nodes": 16,
+        "orientation": 32,
+        "sheets": 64,
+        "all": 126,
+    },
+    "planish_mesh_components": {
+        "all": 0,
+        "largest": 1,
+        "one": 2,
+    },
+    "planish_mesh_format": {
+        "auto": 0,
+        "off": 1,
+        "obj": 2,
+        "ply": 3,
+        "stl": 4,
+    },
     "planish_map_method": {
         "mean_value": 0,
         "harmonic": 1,
@@ -235,12 +258,29 @@ class planish_mesh_options(Structure):
         ("out_node_map", c_void_p),
         ("orient", c_uint32),
         ("index_base", c_uint32),
+        ("face_sizes", c_void_p),
+        ("max_memory", c_uint64),
+        ("repair", c_uint32),
+        ("components", c_uint32),
+        ("component", c_uint32),
+        ("format", c_uint32),
+        ("corner_count", c_uint32),
+        ("reserved", c_uint32),
     ]
+    choices = {
+        "components": "planish_mesh_components",
+        "format": "planish_mesh_format",
+    }
+    bits = {
+        "repair": "planish_mesh_repair",
+    }
     elements = {
         "out_node_map": c_uint32,
+        "face_sizes": c_uint32,
     }
     arrays = {
         "out_node_map": ("nodes",),
+        "face_sizes": ("faces",),
     }
 
 
@@ -251,8 +291,24 @@ class planish_mesh_repairs(Structure):
         ("dropped_triangle_count", c_size_t),
         ("flipped_triangle_count", c_size_t),
         ("dropped_parameters", c_uint32),
-        ("reserved", c_uint32),
+        ("missing_end", c_uint32),
+        ("unused_node_count", c_size_t),
+        ("split_node_count", c_size_t),
+        ("duplicate_triangle_count", c_size_t),
+        ("parted_edge_count", c_size_t),
+        ("excluded_triangle_count", c_size_t),
     ]
+
+
+class planish_mesh_write_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("format", c_uint32),
+        ("text", c_uint32),
+    ]
+    choices = {
+        "format": "planish_mesh_format",
+    }
 
 
 class planish_decimate_options(Structure):
@@ -1312,8 +1368,9 @@ class planish_d1rc_options(Structure):
 
 #: Bytes of each record.
 SIZES = {
-    planish_mesh_options: 56,
-    planish_mesh_repairs: 40,
+    planish_mesh_options: 96,
+    planish_mesh_repairs: 80,
+    planish_mesh_write_options: 16,
     planish_decimate_options: 104,
     planish_decimate_report: 40,
     planish_parameterize_options: 112,
@@ -1369,7 +1426,6 @@ FUNCTIONS = {
     "planish_error_index": (c_int64,),
     "planish_mesh_options_init": (c_int32, c_void_p, c_size_t),
     "planish_mesh_new": (c_int32, c_void_p, c_size_t, c_void_p, c_size_t, c_void_p, c_void_p),
-    "planish_mesh_read": (c_int32, c_char_p, c_void_p, c_void_p),
     "planish_mesh_clone": (c_int32, c_void_p, c_void_p),
     "planish_mesh_free": (None, c_void_p),
     "planish_mesh_point_count": (c_size_t, c_void_p),
@@ -1382,11 +1438,15 @@ FUNCTIONS = {
     "planish_mesh_loop_point_count": (c_size_t, c_void_p, c_size_t),
     "planish_mesh_copy_points": (c_int32, c_void_p, c_void_p, c_size_t),
     "planish_mesh_copy_triangles": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_mesh_copy_node_map": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_mesh_copy_triangle_map": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_mesh_set_points": (c_int32, c_void_p, c_void_p, c_size_t),
     "planish_mesh_copy_loop": (c_int32, c_void_p, c_size_t, c_void_p, c_size_t),
     "planish_mesh_field_count": (c_size_t, c_void_p),
     "planish_mesh_field_name": (c_size_t, c_void_p, c_size_t, c_void_p, c_size_t),
     "planish_mesh_copy_field": (c_int32, c_void_p, c_char_p, c_void_p, c_size_t),
     "planish_mesh_set_field": (c_int32, c_void_p, c_char_p, c_void_p, c_size_t),
+    "planish_mesh_remove_field": (c_int32, c_void_p, c_char_p),
     "planish_mesh_has_parameters": (c_uint32, c_void_p),
     "planish_mesh_set_parameters": (c_int32, c_void_p, c_void_p, c_size_t),
     "planish_mesh_copy_parameters": (c_int32, c_void_p, c_void_p, c_size_t),
@@ -1394,6 +1454,10 @@ FUNCTIONS = {
     "planish_mesh_cut_along": (c_int32, c_void_p, c_void_p, c_size_t, c_void_p),
     "planish_mesh_split_components": (c_int32, c_void_p, c_void_p, c_size_t),
     "planish_mesh_shortest_path": (c_int32, c_void_p, c_uint32, c_uint32, c_void_p, c_size_t, c_void_p),
+    "planish_mesh_write_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_mesh_read": (c_int32, c_char_p, c_void_p, c_void_p),
+    "planish_mesh_read_buffer": (c_int32, c_void_p, c_size_t, c_void_p, c_void_p),
+    "planish_mesh_write": (c_int32, c_void_p, c_char_p, c_void_p),
     "planish_decimate_options_init": (c_int32, c_void_p, c_size_t),
     "planish_mesh_decimate": (c_int32, c_void_p, c_void_p, c_void_p, c_void_p),
     "planish_parameterize_options_init": (c_int32, c_void_p, c_size_t),

@@ -77,14 +77,16 @@ fn obj(mesh: &Mesh) -> String {
 }
 
 fn ply_header(mesh: &Mesh, format: &str) -> String {
-    let mut text = format!("ply\nformat {format} 1.0\ncomment planish\nelement vertex {}\n", mesh.points().len());
+    let mut text =
+        format!("ply\nformat {format} 1.0\ncomment planish\nelement vertex {}\n", mesh.points().len());
     let mut names: Vec<String> = ["x", "y", "z"].map(str::to_owned).to_vec();
     if mesh.parameters().is_some() {
         names.extend(["u", "v"].map(str::to_owned));
     }
     for field in mesh.fields() {
         // a property is one word, and a name that says something else is no field's
-        let word: String = field.name.chars().map(|c| if c.is_whitespace() || c.is_control() { '_' } else { c }).collect();
+        let word: String =
+            field.name.chars().map(|c| if c.is_whitespace() || c.is_control() { '_' } else { c }).collect();
         let mut name = if word.is_empty() { "field".to_owned() } else { word };
         while names.contains(&name) || RESERVED.contains(&name.as_str()) {
             name.insert_str(0, "field_");
@@ -187,7 +189,8 @@ mod tests {
         mesh.set_field("x", heights.clone()).unwrap();
         for _ in 0..2 {
             for (format, encoding) in FORMATS.into_iter().flat_map(|format| ENCODINGS.map(|e| (format, e))) {
-                let (read, _) = read_bytes(&bytes(&mesh, format, encoding), format, &MeshOptions::default()).unwrap();
+                let (read, _) =
+                    read_bytes(&bytes(&mesh, format, encoding), format, &MeshOptions::default()).unwrap();
                 assert_eq!(read.triangles().len(), mesh.triangles().len());
                 if format == Format::Stl {
                     let error = |(a, b): (f64, f64)| (a - b).abs();

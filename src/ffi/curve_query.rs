@@ -1,6 +1,8 @@
 //! What can be asked of curves, and their files.
 
-use super::arguments::{self, ArgumentError, array_len, copy_rows, deref, options, out, slice, slice_mut, slice_mut_or_none};
+use super::arguments::{
+    self, ArgumentError, array_len, copy_rows, deref, options, out, slice, slice_mut, slice_mut_or_none,
+};
 use super::curve::{planish_curve, query_curve};
 use super::guard::guard;
 use super::progress::thread_count;

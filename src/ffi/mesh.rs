@@ -1,8 +1,8 @@
 //! Triangle meshes.
 
 use super::arguments::{
-    ArgumentError, Record, ReportOut, choice, copy, copy_rows, deref, deref_mut, flag, options, out, rows_mut, slice,
-    slice_mut_or_none, stride, strided_len, text, write_text,
+    ArgumentError, Record, ReportOut, choice, copy, copy_rows, deref, deref_mut, flag, options, out,
+    rows_mut, slice, slice_mut_or_none, stride, strided_len, text, write_text,
 };
 use super::guard::{Failure, guard};
 use super::planish_status;
@@ -150,7 +150,8 @@ impl planish_mesh_options {
         unsafe {
             if self.face_sizes.is_null() {
                 let stride = stride(self.triangle_stride, width, "triangle_stride")?;
-                let nodes = slice(nodes, strided_len::<u32>(count, stride, width, "triangles")?, "triangles")?;
+                let nodes =
+                    slice(nodes, strided_len::<u32>(count, stride, width, "triangles")?, "triangles")?;
                 nodes.chunks(stride).for_each(|row| add(&row[..width]));
             } else {
                 if self.triangle_stride != 0 {

@@ -1,6 +1,8 @@
 //! Models: faces that share edges and vertices.
 
-use super::arguments::{self, ArgumentError, ReportOut, deref, options, out, rows_mut, rows_or_none, slice, slice_mut};
+use super::arguments::{
+    self, ArgumentError, ReportOut, deref, options, out, rows_mut, rows_or_none, slice, slice_mut,
+};
 use super::curve::planish_curve;
 use super::guard::guard;
 use super::planish_status;

@@ -1,6 +1,9 @@
 //! Questions to models: values, closest points, deviation, tessellation, VTK.
 
-use super::arguments::{self, ArgumentError, ReportOut, array_len, choice, copy_rows, deref, flag, options, out, rows_or_none, slice, slice_mut, slice_mut_or_none, stride, strided_len};
+use super::arguments::{
+    self, ArgumentError, ReportOut, array_len, choice, copy_rows, deref, flag, options, out, rows_or_none,
+    slice, slice_mut, slice_mut_or_none, stride, strided_len,
+};
 use super::export::{planish_vtk_content, planish_vtk_options};
 use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;

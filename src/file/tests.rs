@@ -7,8 +7,10 @@ fn folder() -> tempfile::TempDir {
 
 /// Nothing but these files may be left.
 fn check_names(folder: &Path, expected: &[&str]) {
-    let mut names: Vec<String> =
-        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    let mut names: Vec<String> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
     names.sort();
     assert_eq!(names, expected);
 }
@@ -119,7 +121,8 @@ mod on_unix {
 
     /// Whether a tool of the system made what was asked for; it may be missing, or need the superuser.
     fn made_by(command: &str, arguments: &[&str]) -> bool {
-        let is_made = Command::new(command).args(arguments).output().is_ok_and(|output| output.status.success());
+        let is_made =
+            Command::new(command).args(arguments).output().is_ok_and(|output| output.status.success());
         if !is_made {
             eprintln!("SKIPPED: {command} {arguments:?} does not work here");
         }

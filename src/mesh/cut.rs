@@ -261,12 +261,7 @@ impl Mesh {
     }
 
     /// A mesh whose node i is the node `nodes[i]` of this one, and whose triangle t was `numbers[t]`.
-    fn piece(
-        &self,
-        triangles: Vec<[u32; 3]>,
-        nodes: Vec<u32>,
-        numbers: Vec<u32>,
-    ) -> Result<Piece, CutError> {
+    fn piece(&self, triangles: Vec<[u32; 3]>, nodes: Vec<u32>, numbers: Vec<u32>) -> Result<Piece, CutError> {
         let points = nodes.iter().map(|&node| self.points[node as usize]).collect();
         let mut mesh = Mesh::new(points, triangles).map_err(|error| match error {
             MeshError::NoPoints => MeshError::NoTriangles, // the nodes went with the triangles

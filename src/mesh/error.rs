@@ -30,7 +30,9 @@ pub enum MeshError {
         count: usize,
     },
     /// A face has less than three corners.
-    #[error("{count} faces have less than three corners, the first is face {face}; the repair 'corners' leaves them out")]
+    #[error(
+        "{count} faces have less than three corners, the first is face {face}; the repair 'corners' leaves them out"
+    )]
     FewCorners {
         /// The first such face.
         face: usize,
@@ -243,7 +245,9 @@ impl MeshError {
         let old_node = |node: &mut u32| *node = origins.node(*node);
         let old_triangle = |triangle: &mut usize| *triangle = origins.triangle(*triangle as u32) as usize;
         match &mut self {
-            Self::DuplicateTriangle { triangle, first } => [triangle, first].into_iter().for_each(old_triangle),
+            Self::DuplicateTriangle { triangle, first } => {
+                [triangle, first].into_iter().for_each(old_triangle)
+            }
             Self::NonManifoldEdge { nodes, .. } => nodes.iter_mut().for_each(old_node),
             Self::InconsistentOrientation { nodes, triangles } | Self::NonOrientable { nodes, triangles } => {
                 nodes.iter_mut().for_each(old_node);

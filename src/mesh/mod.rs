@@ -202,12 +202,7 @@ impl Mesh {
     }
 
     /// From checked arrays: everything that follows from them.
-    fn assemble(
-        points: Vec<DVec3>,
-        triangles: Vec<[u32; 3]>,
-        topology: Topology,
-        origins: Origins,
-    ) -> Self {
+    fn assemble(points: Vec<DVec3>, triangles: Vec<[u32; 3]>, topology: Topology, origins: Origins) -> Self {
         let loops = ordered_loops(&points, &triangles, &topology);
         let (_, component_count) = topology.components();
         let used_count = (0..points.len()).filter(|&i| topology.first(i as u32).is_some()).count();

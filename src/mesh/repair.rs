@@ -206,7 +206,9 @@ impl Draft {
             Ok(topology) => return Ok(topology),
             Err(error) => error,
         };
-        if self.repair.has(Repair::DUPLICATE_TRIANGLES) && matches!(error, MeshError::DuplicateTriangle { .. }) {
+        if self.repair.has(Repair::DUPLICATE_TRIANGLES)
+            && matches!(error, MeshError::DuplicateTriangle { .. })
+        {
             let first_of_its_kind = topology::first_copies(&self.triangles);
             self.repairs.duplicate_triangles = self.keep(|t, _| first_of_its_kind[t]);
         }

@@ -90,7 +90,8 @@ fn refusals_name_the_offender() {
     assert_eq!(refusal(&[[0, 1, 2], [1, 0, 2]]), MeshError::DuplicateTriangle { triangle: 1, first: 0 });
     let page = refusal(&[[3, 1, 2], [1, 3, 4], [3, 1, 0]]);
     assert_eq!(page, MeshError::NonManifoldEdge { nodes: [1, 3], triangle_count: 3 });
-    let sentence = "the edge between nodes 1 and 3 has 3 triangles, a mesh allows two; the repair 'sheets' parts them";
+    let sentence =
+        "the edge between nodes 1 and 3 has 3 triangles, a mesh allows two; the repair 'sheets' parts them";
     assert_eq!(page.to_string(), sentence);
     assert_eq!((page.kind(), page.index()), (ErrorKind::Topology, Some(1)));
     let turned = refusal(&[[0, 1, 2], [1, 2, 3]]);
@@ -216,7 +217,12 @@ fn welding_reports_what_it_did_in_the_callers_numbers() {
 fn faults() -> [(Repair, usize, Vec<[u32; 3]>, MeshError); 6] {
     [
         (Repair::UNUSED_NODES, 4, vec![[0, 1, 2]], MeshError::UnusedNode { node: 3 }),
-        (Repair::REPEATED_CORNERS, 3, vec![[0, 1, 1], [0, 1, 2]], MeshError::RepeatedNode { triangle: 0, node: 1 }),
+        (
+            Repair::REPEATED_CORNERS,
+            3,
+            vec![[0, 1, 1], [0, 1, 2]],
+            MeshError::RepeatedNode { triangle: 0, node: 1 },
+        ),
         (
             Repair::DUPLICATE_TRIANGLES,
             3,
@@ -242,7 +248,8 @@ fn faults() -> [(Repair, usize, Vec<[u32; 3]>, MeshError); 6] {
 #[test]
 fn each_repair_mends_its_fault_and_no_other() {
     for (repair, count, triangles, fault) in faults() {
-        let others = Repair::from_bits(0b11_1111 & !(1 << faults().iter().position(|f| f.0 == repair).unwrap()));
+        let others =
+            Repair::from_bits(0b11_1111 & !(1 << faults().iter().position(|f| f.0 == repair).unwrap()));
         let make = |repair| {
             Mesh::with_options(points(count), triangles.clone(), &MeshOptions::default().with_repair(repair))
         };

@@ -346,7 +346,9 @@ impl Pairing {
             while done < group.len() {
                 let leaving = HalfEdge(group[done] as u32);
                 done += 1;
-                for mate in [leaving, leaving.previous()].into_iter().filter_map(|h| some(self.mates[h.index()])) {
+                for mate in
+                    [leaving, leaving.previous()].into_iter().filter_map(|h| some(self.mates[h.index()]))
+                {
                     let next = if mate.origin(triangles) == node { mate } else { mate.next() };
                     if !std::mem::replace(&mut seen[next.index()], true) {
                         group.push(next.index());

@@ -125,8 +125,11 @@ pub fn deviation_with(
         .parameters()
         .filter(|_| options.use_parameters)
         .map(|uv| nodes.iter().map(|&node| uv[node]).collect());
-    let project =
-        ProjectOptions { guesses: guesses.as_deref(), keep_trims: options.keep_trims, ..ProjectOptions::default() };
+    let project = ProjectOptions {
+        guesses: guesses.as_deref(),
+        keep_trims: options.keep_trims,
+        ..ProjectOptions::default()
+    };
     let (mut nearest, mut distances) = (vec![DVec2::ZERO; nodes.len()], vec![0.0; nodes.len()]);
     projector.project(&points, &project, &mut nearest, &mut distances, pool)?;
     let (max_back_distance, worst_back_uv, back_count) = match options.measure_back {
@@ -214,7 +217,11 @@ mod tests {
         let guessed = deviation(&square(), &mesh, &DeviationOptions::default(), &Pool::new(2)).unwrap();
         for (node, (a, b)) in report.nodes.each.iter().zip(&guessed.nodes.each).enumerate() {
             // nodes without triangles, here in the hole, are none of the shape's
-            assert!(if mesh.is_used(node as u32) { (a - b).abs() <= 1e-12 } else { a.is_nan() && b.is_nan() });
+            assert!(if mesh.is_used(node as u32) {
+                (a - b).abs() <= 1e-12
+            } else {
+                a.is_nan() && b.is_nan()
+            });
         }
     }
 

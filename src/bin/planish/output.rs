@@ -4,8 +4,8 @@ use crate::Failure;
 use crate::picture::{Picture, View};
 use glam::DVec2;
 use planish::Control;
-use planish::export::step::{self, StepOptions};
 use planish::export::mesh::Encoding;
+use planish::export::step::{self, StepOptions};
 use planish::export::{mesh as mesh_files, native, vtk};
 use planish::file;
 use planish::fit::conversion::{ConversionOptions, to_model};
@@ -61,8 +61,11 @@ pub fn repairs(repairs: &MeshRepairs) -> String {
         (repairs.split_nodes, "nodes added where it touched itself"),
         (repairs.unused_nodes, "unused nodes passed over"),
     ];
-    let mut parts: Vec<String> =
-        counts.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")).collect();
+    let mut parts: Vec<String> = counts
+        .iter()
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, what)| format!("{count} {what}"))
+        .collect();
     if repairs.dropped_parameters {
         parts.push("parameters left out: they have seams, or span no area".to_owned());
     }
@@ -204,6 +207,10 @@ pub fn write_text(text: &str, path: &Path) -> Result<(), Failure> {
 pub fn read_text(path: &Path) -> Result<String, Failure> {
     let bytes = file::read(path, memory::limit(0))?;
     String::from_utf8(bytes).map_err(|error| {
-        Failure::new(format!("'{}' is no text in UTF-8: byte {}", path.display(), error.utf8_error().valid_up_to()))
+        Failure::new(format!(
+            "'{}' is no text in UTF-8: byte {}",
+            path.display(),
+            error.utf8_error().valid_up_to()
+        ))
     })
 }

@@ -8,9 +8,9 @@ mod grid;
 pub use bezier::write_patches;
 
 use super::error::ExportError;
-use crate::file;
 use crate::control::Pool;
 use crate::failure::{Classify, ErrorKind};
+use crate::file;
 use crate::mesh::{Mesh, MeshError};
 use crate::model::{Model, ModelTessellation};
 use crate::query::deviation::{DeviationError, DeviationOptions, deviation};
@@ -165,7 +165,8 @@ pub fn on_surface(surface: &dyn Surface, mesh: &Mesh, uv: &[DVec2]) -> Result<Me
     let mut rows = vec![0.0; 3 * uv.len()];
     surface.eval_rows(&uv, 0, &mut rows);
     let place = |(node, row)| if is_used(node) { DVec3::from_slice(row) } else { mesh.points()[node] };
-    let mut moved = Mesh::new(rows.chunks_exact(3).enumerate().map(place).collect(), mesh.triangles().to_vec())?;
+    let mut moved =
+        Mesh::new(rows.chunks_exact(3).enumerate().map(place).collect(), mesh.triangles().to_vec())?;
     moved.set_parameters(uv)?;
     Ok(moved)
 }

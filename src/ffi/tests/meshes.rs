@@ -146,7 +146,12 @@ fn repairs_are_told() {
     sheet.triangles.swap(0, 1);
     let mut out = canary();
     let none = planish_mesh_options { repair: planish_mesh_repair::None as u32, ..record() };
-    refused(sheet.mesh_with(&none, &mut out), planish_status::Topology, 1, &["same direction", "'orientation'"]);
+    refused(
+        sheet.mesh_with(&none, &mut out),
+        planish_status::Topology,
+        1,
+        &["same direction", "'orientation'"],
+    );
     assert_untouched(&out);
 
     // one more node on the place of node 8, used by the last triangle

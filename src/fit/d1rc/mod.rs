@@ -22,8 +22,8 @@ mod tests;
 pub use error::D1rcFitError;
 pub use options::D1rcFitOptions;
 
-use super::common::checks::check_values;
 use super::common::Used;
+use super::common::checks::check_values;
 use super::common::report::FitReport;
 use crate::control::Control;
 use crate::mesh::Mesh;

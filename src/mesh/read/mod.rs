@@ -40,7 +40,9 @@ pub enum ReadError {
     #[error("the text is in UTF-16: save it as UTF-8 or plain ASCII")]
     Utf16,
     /// The content is larger than may be read.
-    #[error("unpacked it has more than the {limit} bytes that may be read: raise the limit on memory if it is right")]
+    #[error(
+        "unpacked it has more than the {limit} bytes that may be read: raise the limit on memory if it is right"
+    )]
     TooLarge {
         /// Most bytes.
         limit: u64,

@@ -90,7 +90,11 @@ fn read_text(bytes: &[u8]) -> Result<Soup, ReadError> {
                 Place::AfterLoop
             }
             (b"endfacet", Place::AfterLoop) => Place::Solid,
-            (b"solid" | b"endsolid" | b"facet" | b"outer" | b"vertex" | b"endloop" | b"endfacet" | b"inner", _)
+            (
+                b"solid" | b"endsolid" | b"facet" | b"outer" | b"vertex" | b"endloop" | b"endfacet"
+                | b"inner",
+                _,
+            )
             | (_, Place::Loop(_)) => {
                 return Err(scanner.error(format!("'{}' should not stand here", shown(word))));
             }

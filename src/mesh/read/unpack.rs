@@ -16,9 +16,10 @@ pub(super) fn unpacked(bytes: &[u8], limit: u64) -> Result<Cow<'_, [u8]>, ReadEr
     let mut content = Vec::new();
     let mut packed = MultiGzDecoder::new(bytes).take(limit.saturating_add(1));
     let byte = bytes.len();
-    packed
-        .read_to_end(&mut content)
-        .map_err(|error| ReadError::Binary { byte, problem: format!("the packed file cannot be unpacked: {error}") })?;
+    packed.read_to_end(&mut content).map_err(|error| ReadError::Binary {
+        byte,
+        problem: format!("the packed file cannot be unpacked: {error}"),
+    })?;
     if content.len() as u64 > limit {
         return Err(ReadError::TooLarge { limit });
     }
