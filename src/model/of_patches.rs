@@ -295,8 +295,10 @@ fn to_parameters(at: Vertex) -> DVec2 {
 /// The cubic of a surface along a line of constant u (`is_upright`) or v, over the parameter that varies.
 fn side_curve(surface: &TensorSurface, is_upright: bool, [from, to]: [DVec2; 2]) -> Curve {
     let (axis, along, across) = if is_upright { (Axis::V, 1, 0) } else { (Axis::U, 0, 1) };
-    let mut breaks: Vec<f64> = surface.knots(axis).breaks();
-    breaks.retain(|&t| from[along] <= t && t <= to[along]);
+    // the line may be cut where only its other side has a knot
+    let (first, end) = (from[along], to[along]);
+    let inner = surface.knots(axis).breaks().into_iter().filter(|&t| first < t && t < end);
+    let breaks: Vec<f64> = [first].into_iter().chain(inner).chain([end]).collect();
     let places: Vec<DVec2> = breaks
         .iter()
         .map(|&t| if is_upright { DVec2::new(from[across], t) } else { DVec2::new(t, from[across]) })

@@ -115,6 +115,6 @@ fn wrong_options_leave_everything_as_it_was() {
     unsafe {
         null_refused(planish_model_fit(null(), null(), &mut model, null_mut()), "mesh");
         null_refused(planish_model_fit(mesh.0, null(), null_mut(), null_mut()), "out_model");
-        null_refused(planish_model_options_init(null_mut(), 176), "options");
+        null_refused(planish_model_options_init(null_mut(), 152), "options");
     }
 }

@@ -55,7 +55,7 @@ fn every_init_refuses_null() {
         null_refused(planish_mesh_options_init(null_mut(), 56), "options");
         null_refused(planish_parameterize_options_init(null_mut(), 96), "options");
         null_refused(planish_decimate_options_init(null_mut(), 88), "options");
-        null_refused(planish_model_options_init(null_mut(), 176), "options");
+        null_refused(planish_model_options_init(null_mut(), 152), "options");
         null_refused(planish_sphere_options_init(null_mut(), 32), "options");
         null_refused(planish_eval_options_init(null_mut(), 40), "options");
         null_refused(planish_tensor_options_init(null_mut(), 136), "options");
