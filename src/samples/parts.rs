@@ -72,7 +72,7 @@ pub fn bracket() -> Result<Mesh, MeshError> {
     Mesh::new(points, triangles)
 }
 
-/// A limb: a bent tube of varying girth, closed at its far end. 1,369 nodes, no parameters.
+/// A limb: a bent tube of varying girth with a sinew, closed at its far end. 1,369 nodes, no parameters.
 pub fn limb(seed: u64) -> Result<Mesh, MeshError> {
     /// Nodes around, and rings along.
     const AROUND: usize = 36;
@@ -106,8 +106,10 @@ pub(super) fn limb_place(share: f64, around: f64) -> DVec3 {
     let along = LENGTH * share;
     let girth = 0.42 + 0.1 * (1.8 * along).cos() * share;
     let round = if along < END { (1.0 - (1.0 - along / END).powi(2)).sqrt() } else { 1.0 };
-    // flatter on one side, as limbs are
-    let radius = girth * round * (1.0 + 0.12 * (2.0 * around).cos());
+    // flatter on one side, with a sinew that winds around it
+    let beside = (around - 5.0 * share + PI).rem_euclid(TAU) - PI;
+    let sinew = 0.15 * share * (-(beside / 0.3).powi(2)).exp();
+    let radius = girth * round * (1.0 + 0.12 * (2.0 * around).cos() + sinew);
     let axis = DVec2::new(0.5 * (0.6 * along).sin(), 0.1 * along);
     (axis + radius * DVec2::from_angle(around)).extend(-along)
 }
