@@ -32,6 +32,11 @@ const FEATURE_WEIGHT: f64 = 10.0;
 /// short edges go first. A hundred times more would thin out bends like plains.
 const LENGTH_SHARE: f64 = 1e-5;
 
+/// A node with more triangles, as the tip of a cone has, is a hub: others are collapsed onto it, but it stays, and a
+/// collapse beside it is not followed all around it, so that a hub of many neighbours costs no more than others do.
+/// Nodes of scans and parts have some ten triangles.
+const HUB: u32 = 64;
+
 /// The mesh in its present state.
 pub struct Collapsing<'a> {
     /// Around the middle of the box, where quadrics keep their digits.
@@ -40,8 +45,10 @@ pub struct Collapsing<'a> {
     map: Option<(&'a [DVec2], Orientation)>,
     /// None: vanished.
     triangles: Vec<Option<[u32; 3]>>,
-    /// By node: its triangles; none when it is gone.
+    /// By node: its triangles, and some that have vanished.
     around: Vec<Vec<u32>>,
+    /// By node: its triangles that have not; none when it is gone.
+    live: Vec<u32>,
     quadrics: Vec<Quadric>,
     /// By node: area around it when the mesh was whole, with that of the nodes collapsed onto it.
     areas: Vec<f64>,
@@ -79,7 +86,8 @@ impl<'a> Collapsing<'a> {
             }
         }
         let triangles = triangles.iter().copied().map(Some).collect();
-        Self { points, map, triangles, around, quadrics, areas, features }
+        let live = around.iter().map(|triangles| triangles.len() as u32).collect();
+        Self { points, map, triangles, around, live, quadrics, areas, features }
     }
 
     /// The triangles that are left, with their numbers.
@@ -94,7 +102,12 @@ impl<'a> Collapsing<'a> {
     }
 
     pub fn is_present(&self, node: u32) -> bool {
-        !self.around[node as usize].is_empty()
+        self.live[node as usize] > 0
+    }
+
+    /// Whether a node has so many triangles that going through them again and again would take too long.
+    pub fn is_hub(&self, node: u32) -> bool {
+        self.live[node as usize] > HUB
     }
 
     /// Nodes joined to a node by edges, in increasing order.
@@ -109,6 +122,7 @@ impl<'a> Collapsing<'a> {
     /// The nodes that a node may be collapsed onto, as far as features have a say.
     pub fn targets(&self, node: u32) -> Vec<u32> {
         match self.features.roles[node as usize] {
+            _ if self.is_hub(node) => Vec::new(),
             Role::Corner => Vec::new(),
             Role::Chain => self.features.neighbours[node as usize].clone(),
             Role::Smooth => self.neighbours(node),
@@ -129,17 +143,20 @@ impl<'a> Collapsing<'a> {
 
     /// The link condition.
     fn keeps_topology(&self, from: u32, to: u32) -> bool {
-        let [of_from, of_to] = [self.neighbours(from), self.neighbours(to)];
-        let common: Vec<u32> = of_from.into_iter().filter(|node| of_to.binary_search(node).is_ok()).collect();
+        let are_joined =
+            |a: u32, b: u32| self.smaller_fan(&[a, b]).any(|other| other.contains(&a) && other.contains(&b));
+        let beside = self.neighbours(from).into_iter();
+        let common: Vec<u32> = beside.filter(|&node| node != to && are_joined(node, to)).collect();
         let at_edge = self.fan(from).filter(|(_, triangle)| triangle.contains(&to)).count();
         // one triangle less on both sides of the edge, or chains would lie upon one another
         let is_feature = |a: u32, b: u32| self.features.neighbours[a as usize].contains(&b);
         let merges_chains = common.iter().any(|&node| is_feature(from, node) && is_feature(to, node));
         // links share an edge where both nodes have a triangle over it
         let doubles_triangle = self.fan(from).any(|(_, triangle)| {
-            let others = || triangle.into_iter().filter(|&node| node != from);
-            others().all(|node| common.contains(&node))
-                && self.fan(to).any(|(_, other)| others().all(|node| other.contains(&node)))
+            let over_edge = triangle.map(|node| if node == from { to } else { node });
+            !triangle.contains(&to)
+                && triangle.iter().all(|node| *node == from || common.contains(node))
+                && self.smaller_fan(&over_edge).any(|other| over_edge.iter().all(|node| other.contains(node)))
         });
         common.len() == at_edge && !merges_chains && !doubles_triangle
     }
@@ -180,15 +197,16 @@ impl<'a> Collapsing<'a> {
         for t in std::mem::take(&mut self.around[u]) {
             let Some(triangle) = &mut self.triangles[t as usize] else { continue };
             if triangle.contains(&to) {
-                for node in *triangle {
-                    self.around[node as usize].retain(|&other| other != t);
-                }
+                let nodes = *triangle;
                 self.triangles[t as usize] = None;
+                nodes.into_iter().for_each(|node| self.forget_one(node));
             } else {
                 triangle.iter_mut().filter(|node| **node == from).for_each(|node| *node = to);
                 self.around[v].push(t);
+                self.live[v] += 1;
             }
         }
+        self.live[u] = 0;
         self.quadrics[v] = self.quadrics[u] + self.quadrics[v];
         self.areas[v] += self.areas[u];
         for end in std::mem::take(&mut self.features.neighbours[u]) {
@@ -200,6 +218,21 @@ impl<'a> Collapsing<'a> {
                 self.features.neighbours[v].push(end);
             }
         }
+    }
+
+    /// Counts a triangle of a node that has vanished; when they are many, their numbers go.
+    fn forget_one(&mut self, node: u32) {
+        let (live, around) = (&mut self.live[node as usize], &mut self.around[node as usize]);
+        *live -= 1;
+        if around.len() > 2 * *live as usize + 8 {
+            around.retain(|&t| self.triangles[t as usize].is_some());
+        }
+    }
+
+    /// The triangles of that of some nodes which has the fewest.
+    fn smaller_fan(&self, nodes: &[u32]) -> impl Iterator<Item = [u32; 3]> + '_ {
+        let node = nodes.iter().copied().min_by_key(|&node| self.live[node as usize]);
+        node.into_iter().flat_map(move |node| self.fan(node).map(|(_, triangle)| triangle))
     }
 
     fn fan(&self, node: u32) -> impl Iterator<Item = (u32, [u32; 3])> + '_ {

@@ -325,10 +325,13 @@ fn collapse_all(
                 queue.renew(from, collapsing);
                 continue;
             }
+            // all around the node that is left, or of a hub what was beside the other one
+            let beside = collapsing.is_hub(to).then(|| collapsing.neighbours(from));
             collapsing.collapse(from, to);
             queue.versions[from as usize] += 1;
             queue.renew(to, collapsing);
-            collapsing.neighbours(to).into_iter().for_each(|node| queue.renew(node, collapsing));
+            let changed = beside.unwrap_or_else(|| collapsing.neighbours(to)).into_iter();
+            changed.filter(|&node| node != to).for_each(|node| queue.renew(node, collapsing));
             done += 1;
             if done.is_multiple_of(REPORT_INTERVAL) {
                 control.report(done as f64 / count as f64, f64::NAN)?;

@@ -255,3 +255,25 @@ fn all_sharp_edges_of_a_bracket_stay() {
     // straight chains keep their length, but for the roundoff of its sum
     assert!((short - long).abs() <= 1e-12 * long, "{short} of {long} is left");
 }
+
+#[test]
+fn a_hub_of_many_neighbours_stays_and_costs_no_more_than_others() {
+    // a flat fan of two rings around a tip: with the cube of its neighbours this would not end
+    const COUNT: u32 = 20_000;
+    let on_ring = |ring: u32, k: u32| 1 + ring * COUNT + k % COUNT;
+    let mut points = vec![DVec3::ZERO];
+    for ring in 1..=2 {
+        let place = |k: u32| DVec2::from_angle(std::f64::consts::TAU * f64::from(k) / f64::from(COUNT));
+        points.extend((0..COUNT).map(|k| (f64::from(ring) * place(k)).extend(0.0)));
+    }
+    let mut triangles = Vec::new();
+    for k in 0..COUNT {
+        let [p, q, r, s] = [on_ring(0, k), on_ring(1, k), on_ring(1, k + 1), on_ring(0, k + 1)];
+        triangles.extend([[0, p, s], [p, q, r], [p, r, s]]);
+    }
+    let mesh = Mesh::new(points, triangles).unwrap();
+    let coarse = decimate(&mesh, &to(COUNT as usize));
+    assert_same_kind(&mesh, &coarse);
+    assert_eq!(coarse.piece.nodes[0], 0, "the tip stays");
+    assert!(coarse.report.collapse_count > COUNT as usize / 2, "{:?}", coarse.report);
+}
