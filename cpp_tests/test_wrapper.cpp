@@ -408,6 +408,25 @@ TEST(WrapperProgress, HearsAndCancels) {
   CHECK(error.status() == PLANISH_STATUS_CANCELLED);
 }
 
+TEST(WrapperProgress, ReachesProjectionAndTessellation) {
+  const std::vector<double> knots = {0, 0, 0, 1, 1, 1};
+  const planish::surface saddle = planish::tensor_new(
+      3, 2, 2, knots, knots,
+      std::vector<double>{0, 0, 0, 0, 1, 1, 0, 2, 0, 1, 0, 1, 1, 1, 3, 1, 2, 1, 2, 0, 0, 2, 1, 1, 2, 2, 0});
+  auto fine = planish::defaults<planish_tessellate_options>();
+  fine.chord_tolerance = 1e-6;
+  std::uint32_t stage = 99;
+  fine.out_stage = &stage;
+  CHECK(thrown_by([&] { saddle.tessellate(fine, [](double, double) { return false; }); }).status() ==
+        PLANISH_STATUS_CANCELLED);
+  CHECK_EQUAL(stage, static_cast<std::uint32_t>(PLANISH_STAGE_TESSELLATE));
+  std::int32_t flag = 1;
+  auto many = planish::defaults<planish_project_options>();
+  many.cancel = &flag;
+  const std::vector<double> points(3000000, 0.25);
+  CHECK(thrown_by([&] { saddle.project(planish::values<double>(points), many); }).status() == PLANISH_STATUS_CANCELLED);
+}
+
 TEST(WrapperProgress, ExceptionsComeBackUnchanged) {
   planish::mesh mesh = make(shapes::graph(30, 30, 0.2, 6), false);
   for (int last : {1, 2, 5}) {

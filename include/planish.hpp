@@ -255,6 +255,14 @@ class listener {
   std::exception_ptr thrown_;
 };
 
+// A call whose options carry a user's function.
+template <class Options, class Call>
+planish_status heard(Options options, const progress &hear, const Call &call) {
+  listener ear(hear);
+  ear.attach(options);
+  return ear.checked(call(&options));
+}
+
 // The numbers that `call` writes for `count` points of `width` numbers, at the stride of the options.
 template <class Call>
 std::vector<double> filled(std::size_t count, std::size_t width, const planish_eval_options &options,
@@ -691,9 +699,12 @@ class surface {
   }
 
   /// The area of the part inside the trims of a surface in space; options say how finely it is divided.
-  double area(const planish_tessellate_options &options = defaults<planish_tessellate_options>()) const {
+  double area(const planish_tessellate_options &options = defaults<planish_tessellate_options>(),
+              const progress &hear = {}) const {
     double area = 0;
-    detail::checked(planish_surface_area(get(), &options, &area));
+    detail::heard(options, hear, [&](const planish_tessellate_options *given) {
+      return planish_surface_area(get(), given, &area);
+    });
     return area;
   }
 
@@ -808,45 +819,58 @@ class surface {
 
   /// The nearest places of points, rows of dim numbers, anywhere on the surface.
   projected project(const values<double> &points,
-                    const planish_project_options &options = defaults<planish_project_options>()) const {
+                    const planish_project_options &options = defaults<planish_project_options>(),
+                    const progress &hear = {}) const {
     const std::size_t width = std::max<std::size_t>(dim(), 1), count = points.count() / width;
     if (points.count() % width != 0) {
       const std::string text = std::to_string(points.count()) + " numbers are not rows of " + std::to_string(width);
       throw error(PLANISH_STATUS_INVALID_ARGUMENT, text, -1);
     }
     projected result{std::vector<point2>(count), std::vector<double>(count), PLANISH_STATUS_OK};
-    result.status = detail::checked(planish_surface_project(
-        get(), points.data(), count, &options, detail::flat(result.uv), result.distances.data()));
+    result.status = detail::heard(options, hear, [&](const planish_project_options *given) {
+      return planish_surface_project(get(), points.data(), count, given, detail::flat(result.uv),
+                                     result.distances.data());
+    });
     return result;
   }
 
   /// The nearest places of points in space.
   projected project(const std::vector<point3> &points,
-                    const planish_project_options &options = defaults<planish_project_options>()) const {
+                    const planish_project_options &options = defaults<planish_project_options>(),
+                    const progress &hear = {}) const {
     const rows<double, 3> flat(points);
-    return project(values<double>(flat.data(), 3 * flat.count()), options);
+    return project(values<double>(flat.data(), 3 * flat.count()), options, hear);
   }
 
   /// How far the nodes of a mesh lie from a surface in space.
   deviated deviation(const mesh &mesh,
-                     const planish_deviation_options &options = defaults<planish_deviation_options>()) const {
+                     const planish_deviation_options &options = defaults<planish_deviation_options>(),
+                     const progress &hear = {}) const {
     deviated result{std::vector<double>(mesh.point_count()), detail::sized<planish_deviation_report>()};
-    detail::checked(planish_surface_deviation(get(), mesh.get(), &options, result.distances.data(),
-                                              result.distances.size(), &result.report));
+    detail::heard(options, hear, [&](const planish_deviation_options *given) {
+      return planish_surface_deviation(get(), mesh.get(), given, result.distances.data(), result.distances.size(),
+                                       &result.report);
+    });
     return result;
   }
 
   /// A triangle mesh of a surface in space, with its (u,v) as parameters.
-  mesh tessellate(const planish_tessellate_options &options = defaults<planish_tessellate_options>()) const {
+  mesh tessellate(const planish_tessellate_options &options = defaults<planish_tessellate_options>(),
+                  const progress &hear = {}) const {
     planish_mesh *made = nullptr;
-    detail::checked(planish_surface_tessellate(get(), &options, &made));
+    detail::heard(options, hear, [&](const planish_tessellate_options *given) {
+      return planish_surface_tessellate(get(), given, &made);
+    });
     return mesh(made);
   }
 
   /// Writes a VTK file (.vtu) of triangles, patches or the control net; `path` is UTF-8.
   void write_vtk(const std::string &path,
-                 const planish_vtk_options &options = defaults<planish_vtk_options>()) const {
-    detail::checked(planish_surface_write_vtk(get(), path.c_str(), &options));
+                 const planish_vtk_options &options = defaults<planish_vtk_options>(),
+                 const progress &hear = {}) const {
+    detail::heard(options, hear, [&](const planish_vtk_options *given) {
+      return planish_surface_write_vtk(get(), path.c_str(), given);
+    });
   }
 
   /// Measures the surface against a mesh and writes the result as one HTML page; `path` is UTF-8.
@@ -857,10 +881,13 @@ class surface {
 
   /// Writes a STEP file of one trimmed face, or of a T-spline in strips; `path` is UTF-8.
   planish_step_report write_step(const std::string &path,
-                                 planish_step_options options = defaults<planish_step_options>()) const {
+                                 planish_step_options options = defaults<planish_step_options>(),
+                                 const progress &hear = {}) const {
     auto report = detail::sized<planish_step_report>();
     if (!options.out_report) options.out_report = &report;
-    detail::checked(planish_surface_write_step(get(), path.c_str(), &options));
+    detail::heard(options, hear, [&](const planish_step_options *given) {
+      return planish_surface_write_step(get(), path.c_str(), given);
+    });
     return options.out_report == &report ? report : *options.out_report;
   }
 
@@ -907,9 +934,12 @@ class surface {
   }
 
   /// The same surface as a tensor surface.
-  surface to_tensor(const planish_convert_options &options = defaults<planish_convert_options>()) const {
+  surface to_tensor(const planish_convert_options &options = defaults<planish_convert_options>(),
+                    const progress &hear = {}) const {
     planish_surface *made = nullptr;
-    detail::checked(planish_surface_to_tensor(get(), &options, &made));
+    detail::heard(options, hear, [&](const planish_convert_options *given) {
+      return planish_surface_to_tensor(get(), given, &made);
+    });
     return surface(made);
   }
 
@@ -1186,10 +1216,10 @@ class model {
     return loops;
   }
 
-  /// Where an edge lies in the parameter plane of a face's surface; `coedge` counts through all loops.
-  planish::curve pcurve(std::size_t face, std::size_t coedge) const {
+  /// Where an edge lies in the parameter plane of a face's surface; `index` counts its edges through all loops.
+  planish::curve pcurve(std::size_t face, std::size_t index) const {
     planish_curve *made = nullptr;
-    detail::checked(planish_model_copy_pcurve(get(), face, coedge, &made));
+    detail::checked(planish_model_copy_pcurve(get(), face, index, &made));
     return planish::curve(made);
   }
 
@@ -1522,9 +1552,12 @@ inline surface pht_new(std::size_t dim, bool is_rational, const values<double> &
 
 /// Makes a PHT-spline of a tensor surface, with its weights and trims.
 inline surface pht_from_surface(
-    const surface &tensor, const planish_pht_convert_options &options = defaults<planish_pht_convert_options>()) {
+    const surface &tensor, const planish_pht_convert_options &options = defaults<planish_pht_convert_options>(),
+    const progress &hear = {}) {
   planish_surface *made = nullptr;
-  detail::checked(planish_pht_from_surface(tensor.get(), &options, &made));
+  detail::heard(options, hear, [&](const planish_pht_convert_options *given) {
+    return planish_pht_from_surface(tensor.get(), given, &made);
+  });
   return surface(made);
 }
 
@@ -1541,13 +1574,16 @@ using edge = std::array<std::uint32_t, 2>;
 /// sharp, the nodes in `corners` are interpolated.
 inline surface d1rc_new(const mesh &control_mesh,
                         planish_d1rc_options options = defaults<planish_d1rc_options>(),
-                        const std::vector<edge> &sharp_edges = {}, const std::vector<std::uint32_t> &corners = {}) {
+                        const std::vector<edge> &sharp_edges = {}, const std::vector<std::uint32_t> &corners = {},
+                        const progress &hear = {}) {
   if (!sharp_edges.empty()) options.sharp_edges = sharp_edges.front().data();
   if (!sharp_edges.empty()) options.sharp_edge_count = sharp_edges.size();
   if (!corners.empty()) options.corners = corners.data();
   if (!corners.empty()) options.corner_count = corners.size();
   planish_surface *made = nullptr;
-  detail::checked(planish_d1rc_new(control_mesh.get(), &options, &made));
+  detail::heard(options, hear, [&](const planish_d1rc_options *given) {
+    return planish_d1rc_new(control_mesh.get(), given, &made);
+  });
   return surface(made);
 }
 
@@ -1774,9 +1810,13 @@ class pht {
   }
 
   /// Merges what it can while no point moves by more than `tolerance`; returns a bound of how far one has.
-  double simplify(double tolerance) {
+  double simplify(double tolerance,
+                  const planish_pht_simplify_options &options = defaults<planish_pht_simplify_options>(),
+                  const progress &hear = {}) {
     double deviation = 0;
-    detail::checked(planish_pht_simplify(surface_, tolerance, nullptr, &deviation));
+    detail::heard(options, hear, [&](const planish_pht_simplify_options *given) {
+      return planish_pht_simplify(surface_, tolerance, given, &deviation);
+    });
     return deviation;
   }
 

@@ -3,6 +3,7 @@
 use super::*;
 use crate::failure::Classify;
 use crate::fit::common::uniform::Ends;
+use crate::fit::tensor::{TensorOptions, fit_field};
 use crate::samples::{self, Random};
 
 fn nodes(count: usize) -> Vec<DVec2> {
