@@ -129,6 +129,14 @@ module planish_records
   !> No border at all: unrolled so that lengths are kept best, in the units of the mesh
   integer(c_int32_t), parameter, public :: PLANISH_BORDER_FREE = 6
 
+  !> Which layout a mesh gets.
+  !> The cube for closed meshes of genus 0, else the base complex
+  integer(c_int32_t), parameter, public :: PLANISH_LAYOUT_KIND_AUTO = 0
+  !> The six faces of a cube; for closed meshes of genus 0 only
+  integer(c_int32_t), parameter, public :: PLANISH_LAYOUT_KIND_CUBE = 1
+  !> Pairs of triangles of a coarse mesh that follows the shape
+  integer(c_int32_t), parameter, public :: PLANISH_LAYOUT_KIND_COMPLEX = 2
+
   !> Things worth knowing about a map or a fit: the bits of `remarks` in reports, several may hold.
   integer(c_int64_t), parameter, public :: PLANISH_REMARK_TOLERANCE_NOT_MET = 1 !! The surface misses the tolerance
   !> The fit ended because refinement no longer lowered the error
@@ -520,6 +528,87 @@ module planish_records
     real(c_double) :: low_area_ratio = 0
     real(c_double) :: high_area_ratio = 0 !! 5 percent of the area have more than this
     real(c_double) :: seconds = 0 !! Wall time in seconds
+  end type
+
+  !> How features of a mesh are found.
+  type, bind(c), public :: planish_feature_options
+    integer(c_size_t) :: struct_size = 6 * word + 40
+    !> Edges whose facets turn by more than this are features, in radians, at most pi; 0 looks for none
+    real(c_double) :: sharp_angle = 0.7_c_double
+    !> Chains of feature edges that end go on along edges whose facets turn by more than this, in radians, at most pi,
+    !> which lets none go on
+    real(c_double) :: weak_angle = 0.26_c_double
+    !> Where a chain turns by more than this, in radians, at most pi, it has a corner
+    real(c_double) :: corner_angle = 0.6_c_double
+    !> Bits of chains that end in nothing and are shorter than this part of the diagonal, 0 to 1, are dropped
+    real(c_double) :: least_length = 0.04_c_double
+    !> Edges that are features whatever their angle: two nodes each, counted from 1; NULL (default) for none
+    type(c_ptr) :: sharp_edges = c_null_ptr
+    integer(c_size_t) :: sharp_edge_count = 0 !! Edges in sharp_edges
+    !> A number for each triangle: edges between triangles of different numbers are features; NULL (default) for none
+    type(c_ptr) :: labels = c_null_ptr
+    !> Receives 1 for each node that is a corner: the end of a chain, a junction, a turn; 0 for all others; or NULL
+    !> (default)
+    type(c_ptr) :: out_is_corner = c_null_ptr
+    type(c_ptr) :: out_report = c_null_ptr !! Receives what was found, or NULL (default)
+    !> 1 (default) filters the normals of a noisy mesh before angles are measured; 0 takes them as they are
+    integer(c_int32_t) :: filter_noise = 1
+    integer(c_int32_t) :: reserved = 0
+  end type
+
+  !> What was found of features.
+  type, bind(c), public :: planish_feature_report
+    integer(c_size_t) :: struct_size = 8 * word + 8
+    integer(c_size_t) :: edge_count = 0 !! Feature edges
+    integer(c_size_t) :: border_edge_count = 0 !! Those of them on the border
+    integer(c_size_t) :: chain_count = 0 !! Chains of feature edges between corners, and closed ones
+    integer(c_size_t) :: closed_chain_count = 0 !! Chains without ends
+    integer(c_size_t) :: corner_count = 0 !! Nodes that are no part of a smooth chain
+    integer(c_size_t) :: prolonged_edge_count = 0 !! Edges by which chains were made longer
+    integer(c_size_t) :: dropped_edge_count = 0 !! Edges that were dropped in short bits
+    !> Noise of the nodes along the normal, as standard deviation by the mean edge length: an estimate
+    real(c_double) :: noise = 0
+  end type
+
+  !> How quads make a layout.
+  type, bind(c), public :: planish_layout_options
+    integer(c_size_t) :: struct_size = 2 * word
+    !> The number of the edge of each side, where two edges join the same vertices; NULL (default) for edges that are
+    !> told by their ends
+    type(c_ptr) :: edges = c_null_ptr
+  end type
+
+  !> How a mesh gets a layout.
+  type, bind(c), public :: planish_mesh_layout_options
+    integer(c_size_t) :: struct_size = 5 * word + 16
+    type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
+    type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag
+    type(c_ptr) :: cancel = c_null_ptr
+    !> Shows what the call is doing, before progress hears of it: a planish_stage
+    type(c_ptr) :: out_stage = c_null_ptr
+    integer(c_int32_t) :: kind = PLANISH_LAYOUT_KIND_AUTO !! A planish_layout_kind
+    integer(c_int32_t) :: patches = 40 !! About how many patches a base complex has, at least 6
+    integer(c_int32_t) :: sweeps = 300 !! Most sweeps over all nodes at the end
+    integer(c_int32_t) :: thread_count = 0 !! Threads that share the work; 0 (default) for all cores
+  end type
+
+  !> How good the layout of a mesh is.
+  type, bind(c), public :: planish_mesh_layout_report
+    integer(c_size_t) :: struct_size = 5 * word + 32
+    !> Symmetric Dirichlet energy of the node map by area: 4 if all lengths are kept; of a cube that of the map to the
+    !> sphere
+    real(c_double) :: energy = 0
+    real(c_double) :: first_energy = 0 !! The same before nodes moved over the layout
+    integer(c_size_t) :: folded_node_count = 0 !! Nodes with a triangle whose image is turned over
+    !> Nodes whose triangles are spread over patches without a common corner
+    integer(c_size_t) :: spread_node_count = 0
+    integer(c_size_t) :: doublet_count = 0 !! Vertices of only two patches that were removed, each with one patch
+    !> Edges of the coarse mesh that were split because its triangles could not be paired; 0 for closed meshes
+    integer(c_size_t) :: split_count = 0
+    real(c_double) :: seconds = 0 !! Wall time in seconds
+    integer(c_int32_t) :: kind = 0 !! The kind that was made: a planish_layout_kind
+    integer(c_int32_t) :: reserved = 0
   end type
 
   !> What a fit did and how good it is.
@@ -1665,6 +1754,136 @@ module planish_calls
       real(c_double), intent(inout) :: out_points(*)
       integer(c_size_t), value :: count
       type(planish_sphere_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_feature_options_init(options, struct_size) bind(c, name="planish_feature_options_init")
+      import
+      implicit none
+      type(planish_feature_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_mesh_find_features( &
+        mesh, options, out_edges, count, out_count) &
+        bind(c, name="planish_mesh_find_features")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      type(planish_feature_options), intent(in), optional :: options
+      integer(c_int32_t), intent(inout), optional :: out_edges(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), intent(inout) :: out_count
+    end function
+
+    integer(c_int) function c_layout_options_init(options, struct_size) bind(c, name="planish_layout_options_init")
+      import
+      implicit none
+      type(planish_layout_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_mesh_layout_options_init( &
+        options, struct_size) &
+        bind(c, name="planish_mesh_layout_options_init")
+      import
+      implicit none
+      type(planish_mesh_layout_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_layout_new(corners, quad_count, options, out_layout) bind(c, name="planish_layout_new")
+      import
+      implicit none
+      integer(c_int32_t), intent(in) :: corners(*)
+      integer(c_size_t), value :: quad_count
+      type(planish_layout_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_layout
+    end function
+
+    integer(c_int) function c_layout_cube(out_layout) bind(c, name="planish_layout_cube")
+      import
+      implicit none
+      type(c_ptr), intent(inout) :: out_layout
+    end function
+
+    integer(c_int) function c_layout_of_mesh( &
+        mesh, options, out_layout, out_report) &
+        bind(c, name="planish_layout_of_mesh")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      type(planish_mesh_layout_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_layout
+      type(planish_mesh_layout_report), intent(inout), optional :: out_report
+    end function
+
+    subroutine c_layout_free(layout) bind(c, name="planish_layout_free")
+      import
+      implicit none
+      type(c_ptr), value :: layout
+    end subroutine
+
+    pure integer(c_size_t) function c_layout_quad_count(layout) bind(c, name="planish_layout_quad_count")
+      import
+      implicit none
+      type(c_ptr), value :: layout
+    end function
+
+    pure integer(c_size_t) function c_layout_vertex_count(layout) bind(c, name="planish_layout_vertex_count")
+      import
+      implicit none
+      type(c_ptr), value :: layout
+    end function
+
+    pure integer(c_size_t) function c_layout_edge_count(layout) bind(c, name="planish_layout_edge_count")
+      import
+      implicit none
+      type(c_ptr), value :: layout
+    end function
+
+    pure integer(c_size_t) function c_layout_node_count(layout) bind(c, name="planish_layout_node_count")
+      import
+      implicit none
+      type(c_ptr), value :: layout
+    end function
+
+    integer(c_int) function c_layout_copy_corners( &
+        layout, out_corners, count) &
+        bind(c, name="planish_layout_copy_corners")
+      import
+      implicit none
+      type(c_ptr), value :: layout
+      integer(c_int32_t), intent(inout) :: out_corners(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_layout_copy_edges(layout, out_edges, count) bind(c, name="planish_layout_copy_edges")
+      import
+      implicit none
+      type(c_ptr), value :: layout
+      integer(c_int32_t), intent(inout) :: out_edges(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_layout_copy_valences( &
+        layout, out_valences, count) &
+        bind(c, name="planish_layout_copy_valences")
+      import
+      implicit none
+      type(c_ptr), value :: layout
+      integer(c_int32_t), intent(inout) :: out_valences(*)
+      integer(c_size_t), value :: count
+    end function
+
+    integer(c_int) function c_layout_copy_node_map( &
+        layout, out_quads, out_uv, count) &
+        bind(c, name="planish_layout_copy_node_map")
+      import
+      implicit none
+      type(c_ptr), value :: layout
+      integer(c_int32_t), intent(inout) :: out_quads(*)
+      real(c_double), intent(inout) :: out_uv(*)
+      integer(c_size_t), value :: count
     end function
 
     integer(c_int) function c_eval_options_init(options, struct_size) bind(c, name="planish_eval_options_init")
@@ -3488,6 +3707,9 @@ module planish_calls
     module procedure init_decimate_options
     module procedure init_parameterize_options
     module procedure init_sphere_options
+    module procedure init_feature_options
+    module procedure init_layout_options
+    module procedure init_mesh_layout_options
     module procedure init_eval_options
     module procedure init_convert_options
     module procedure init_tensor_options
@@ -3516,6 +3738,9 @@ module planish_calls
   private :: init_decimate_options
   private :: init_parameterize_options
   private :: init_sphere_options
+  private :: init_feature_options
+  private :: init_layout_options
+  private :: init_mesh_layout_options
   private :: init_eval_options
   private :: init_convert_options
   private :: init_tensor_options
@@ -3569,6 +3794,24 @@ contains
     type(planish_sphere_options), intent(inout) :: options
     integer(c_int) :: status
     status = c_sphere_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_feature_options(options)
+    type(planish_feature_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_feature_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_layout_options(options)
+    type(planish_layout_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_layout_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_mesh_layout_options(options)
+    type(planish_mesh_layout_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_mesh_layout_options_init(options, c_sizeof(options)) ! which cannot fail
   end subroutine
 
   subroutine init_eval_options(options)

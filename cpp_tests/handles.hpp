@@ -11,11 +11,13 @@ struct Free {
   void operator()(planish_surface *surface) const { planish_surface_free(surface); }
   void operator()(planish_curve *curve) const { planish_curve_free(curve); }
   void operator()(planish_model *model) const { planish_model_free(model); }
+  void operator()(planish_layout *layout) const { planish_layout_free(layout); }
 };
 using Mesh = std::unique_ptr<planish_mesh, Free>;
 using Surface = std::unique_ptr<planish_surface, Free>;
 using Curve = std::unique_ptr<planish_curve, Free>;
 using Model = std::unique_ptr<planish_model, Free>;
+using Layout = std::unique_ptr<planish_layout, Free>;
 
 inline planish_mesh_options mesh_options() {
   planish_mesh_options options;

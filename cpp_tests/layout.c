@@ -125,6 +125,58 @@ FOLLOWS(planish_sphere_report, low_area_ratio, high_area_ratio);
 FOLLOWS(planish_sphere_report, high_area_ratio, seconds);
 LAST(planish_sphere_report, seconds);
 
+FIRST(planish_feature_options);
+FOLLOWS(planish_feature_options, struct_size, sharp_angle);
+FOLLOWS(planish_feature_options, sharp_angle, weak_angle);
+FOLLOWS(planish_feature_options, weak_angle, corner_angle);
+FOLLOWS(planish_feature_options, corner_angle, least_length);
+FOLLOWS(planish_feature_options, least_length, sharp_edges);
+FOLLOWS(planish_feature_options, sharp_edges, sharp_edge_count);
+FOLLOWS(planish_feature_options, sharp_edge_count, labels);
+FOLLOWS(planish_feature_options, labels, out_is_corner);
+FOLLOWS(planish_feature_options, out_is_corner, out_report);
+FOLLOWS(planish_feature_options, out_report, filter_noise);
+FOLLOWS(planish_feature_options, filter_noise, reserved);
+LAST(planish_feature_options, reserved);
+
+FIRST(planish_feature_report);
+FOLLOWS(planish_feature_report, struct_size, edge_count);
+FOLLOWS(planish_feature_report, edge_count, border_edge_count);
+FOLLOWS(planish_feature_report, border_edge_count, chain_count);
+FOLLOWS(planish_feature_report, chain_count, closed_chain_count);
+FOLLOWS(planish_feature_report, closed_chain_count, corner_count);
+FOLLOWS(planish_feature_report, corner_count, prolonged_edge_count);
+FOLLOWS(planish_feature_report, prolonged_edge_count, dropped_edge_count);
+FOLLOWS(planish_feature_report, dropped_edge_count, noise);
+LAST(planish_feature_report, noise);
+
+FIRST(planish_layout_options);
+FOLLOWS(planish_layout_options, struct_size, edges);
+LAST(planish_layout_options, edges);
+
+FIRST(planish_mesh_layout_options);
+FOLLOWS(planish_mesh_layout_options, struct_size, progress);
+FOLLOWS(planish_mesh_layout_options, progress, user);
+FOLLOWS(planish_mesh_layout_options, user, cancel);
+FOLLOWS(planish_mesh_layout_options, cancel, out_stage);
+FOLLOWS(planish_mesh_layout_options, out_stage, kind);
+FOLLOWS(planish_mesh_layout_options, kind, patches);
+FOLLOWS(planish_mesh_layout_options, patches, sweeps);
+FOLLOWS(planish_mesh_layout_options, sweeps, thread_count);
+LAST(planish_mesh_layout_options, thread_count);
+
+FIRST(planish_mesh_layout_report);
+FOLLOWS(planish_mesh_layout_report, struct_size, energy);
+FOLLOWS(planish_mesh_layout_report, energy, first_energy);
+FOLLOWS(planish_mesh_layout_report, first_energy, folded_node_count);
+FOLLOWS(planish_mesh_layout_report, folded_node_count, spread_node_count);
+FOLLOWS(planish_mesh_layout_report, spread_node_count, doublet_count);
+FOLLOWS(planish_mesh_layout_report, doublet_count, split_count);
+FOLLOWS(planish_mesh_layout_report, split_count, seconds);
+FOLLOWS(planish_mesh_layout_report, seconds, kind);
+FOLLOWS(planish_mesh_layout_report, kind, reserved);
+LAST(planish_mesh_layout_report, reserved);
+
 FIRST(planish_fit_report);
 FOLLOWS(planish_fit_report, struct_size, max_error);
 FOLLOWS(planish_fit_report, max_error, rms_error);

@@ -92,6 +92,12 @@ module planish_types
     final :: finalize_transfer
   end type
 
+  type :: layout_owner
+    type(c_ptr) :: handle = c_null_ptr
+  contains
+    final :: finalize_layout
+  end type
+
   !> A triangle mesh. One that nothing was done to yet is no mesh: its counts are 0 and calls refuse it.
   type, public :: planish_mesh_t
     private
@@ -136,6 +142,7 @@ module planish_types
     procedure :: sample_rows => mesh_sample_rows
     procedure :: parameterize => mesh_parameterize
     procedure :: map_to_sphere => mesh_map_to_sphere
+    procedure :: find_features => mesh_find_features
   end type
 
   !> A surface: a map from a rectangle of parameters (u,v) to dim() numbers.
@@ -317,6 +324,30 @@ module planish_types
     procedure, private :: apply_transpose_scalars => transfer_apply_transpose_scalars
     generic :: apply_transpose => apply_transpose_rows, apply_transpose_scalars
     procedure :: balance => transfer_balance
+  end type
+
+  !> Quadrilateral patches and how they meet; made for a mesh, also the places of its nodes. It has no copies: `=` stops
+  !> the program.
+  type, public :: planish_layout_t
+    private
+    class(layout_owner), allocatable :: owner
+  contains
+    procedure :: new => layout_new
+    procedure :: cube => layout_cube
+    procedure :: of_mesh => layout_of_mesh
+    procedure, private :: assign => layout_assign
+    generic :: assignment(=) => assign
+    procedure :: free => layout_free
+    procedure :: get => layout_get
+    procedure :: take => layout_take
+    procedure :: quad_count => layout_quad_count
+    procedure :: vertex_count => layout_vertex_count
+    procedure :: edge_count => layout_edge_count
+    procedure :: node_count => layout_node_count
+    procedure :: copy_corners => layout_copy_corners
+    procedure :: copy_edges => layout_copy_edges
+    procedure :: copy_valences => layout_copy_valences
+    procedure :: copy_node_map => layout_copy_node_map
   end type
 
   !> Fits a surface to values(dim,n), or with dim = 1 values(n), at parameters uv(2,n).
@@ -1071,6 +1102,52 @@ contains
       call_options%user = c_loc(user)
     end if
     call conclude(c_mesh_parameterize(self%get(), call_options, report), stat, errmsg)
+  end subroutine
+
+  !> Finds the edges(2,n) where the mesh is not smooth: sharp ones, those between labels, those given, and the border.
+  !> Nodes count from 1.
+  !>
+  !> sharp_edges: (2,n), edges that are features whatever their angle; nodes count from 1.
+  !> labels:      a number for each triangle.
+  !> is_corner:   receives whether each node is the end of a chain, a junction or a turn.
+  subroutine mesh_find_features(self, edges, options, report, sharp_edges, labels, is_corner, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: self
+    integer(c_int32_t), allocatable, intent(inout) :: edges(:, :)
+    type(planish_feature_options), intent(in), optional :: options
+    type(planish_feature_report), intent(inout), optional, target :: report
+    integer(c_int32_t), intent(in), optional :: sharp_edges(:, :)
+    integer(c_int32_t), intent(in), optional, target, contiguous :: labels(:)
+    logical, allocatable, intent(inout), optional :: is_corner(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_feature_options) :: call_options
+    type(planish_feature_report), target :: found
+    integer(c_int32_t), allocatable, target :: given(:, :)
+    integer(c_int32_t), allocatable :: taken(:, :)
+    integer(c_int8_t), allocatable, target :: corners(:)
+    integer(c_size_t) :: count
+    integer(c_int) :: status
+    if (present(options)) call_options = options
+    if (present(sharp_edges)) then
+      if (refuse_pairs(sharp_edges, "sharp_edges", stat, errmsg)) return
+      given = sharp_edges - 1
+      call_options%sharp_edges = c_loc(given)
+      call_options%sharp_edge_count = size(given, 2, c_size_t)
+    end if
+    if (present(labels)) then
+      if (refuse_extent(size(labels, kind=c_size_t), self%triangle_count(), "the extent of labels", stat, errmsg)) return
+      call_options%labels = c_loc(labels)
+    end if
+    allocate (taken(2, self%edge_count()), corners(self%point_count()))
+    call_options%out_is_corner = c_loc(corners)
+    call_options%out_report = c_loc(found)
+    status = c_mesh_find_features(self%get(), call_options, taken, size(taken, 2, c_size_t), count)
+    if (status >= 0) then
+      edges = taken(:, :count) + 1
+      if (present(report)) report = found
+      if (present(is_corner)) is_corner = corners /= 0
+    end if
+    call conclude(status, stat, errmsg)
   end subroutine
 
   !> Maps a closed mesh of one component and genus 0 on to the unit sphere, one to one.
@@ -4113,6 +4190,180 @@ contains
     real(c_double), pointer, contiguous :: rows(:, :)
     rows(1:1, 1:size(values)) => values
     call self%update(surface, rows, stat, errmsg)
+  end subroutine
+
+  ! ---------------------------------------------------------------------------------------------------------
+  ! Layout
+  ! ---------------------------------------------------------------------------------------------------------
+
+  !> Makes a layout of quads with these corners(4,n), counter-clockwise seen from outside; vertices count from 1.
+  !>
+  !> edges: (4,n), the number of the edge of each side, where two edges join the same vertices.
+  subroutine layout_new(self, corners, edges, stat, errmsg)
+    class(planish_layout_t), intent(inout) :: self
+    integer(c_int32_t), intent(in) :: corners(:, :)
+    integer(c_int32_t), intent(in), optional, target, contiguous :: edges(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_layout_options) :: options
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    if (refuse_extent(size(corners, 1, c_size_t), 4_c_size_t, "the first extent of corners", stat, errmsg)) return
+    if (present(edges)) then
+      if (refuse_extent(size(edges, kind=c_size_t), size(corners, kind=c_size_t), "the size of edges", stat, errmsg)) &
+          return
+      options%edges = c_loc(edges)
+    end if
+    status = c_layout_new(corners - 1, size(corners, 2, c_size_t), options, handle)
+    if (status >= 0) call self%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Makes the layout of the six faces of a cube.
+  subroutine layout_cube(self, stat, errmsg)
+    class(planish_layout_t), intent(inout) :: self
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    status = c_layout_cube(handle)
+    if (status >= 0) call self%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Makes a layout for a closed mesh of one component and any genus, with the places of its nodes.
+  subroutine layout_of_mesh(self, mesh, options, report, progress, stat, errmsg)
+    class(planish_layout_t), intent(inout) :: self
+    class(planish_mesh_t), intent(in) :: mesh
+    type(planish_mesh_layout_options), intent(in), optional :: options
+    type(planish_mesh_layout_report), intent(inout), optional :: report
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_mesh_layout_options) :: call_options
+    type(listener), target :: user
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    if (present(options)) call_options = options
+    if (present(progress)) then
+      user%hear => progress
+      call_options%progress = c_funloc(relay)
+      call_options%user = c_loc(user)
+    end if
+    status = c_layout_of_mesh(mesh%get(), call_options, handle, report)
+    if (status >= 0) call self%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  impure elemental subroutine layout_assign(self, other)
+    class(planish_layout_t), intent(inout) :: self
+    class(planish_layout_t), intent(in) :: other
+    if (allocated(other%owner)) call fail(PLANISH_STATUS_INVALID_ARGUMENT, "a layout has no copies")
+    call self%free()
+  end subroutine
+
+  subroutine finalize_layout(self)
+    type(layout_owner), intent(inout) :: self
+    call c_layout_free(self%handle)
+    self%handle = c_null_ptr
+  end subroutine
+
+  !> Frees the layout before the variable ends.
+  subroutine layout_free(self)
+    class(planish_layout_t), intent(inout) :: self
+    if (allocated(self%owner)) deallocate (self%owner)
+  end subroutine
+
+  !> The handle, for C; it stays this layout's.
+  pure type(c_ptr) function layout_get(self) result(handle)
+    class(planish_layout_t), intent(in) :: self
+    handle = c_null_ptr
+    if (allocated(self%owner)) handle = self%owner%handle
+  end function
+
+  !> Takes over a handle of C, which is freed by this layout from now on.
+  subroutine layout_take(self, handle)
+    class(planish_layout_t), intent(inout) :: self
+    type(c_ptr), intent(in) :: handle
+    call self%free()
+    if (.not. c_associated(handle)) return
+    allocate (self%owner)
+    self%owner%handle = handle
+  end subroutine
+
+  !> Number of quads.
+  pure integer(c_size_t) function layout_quad_count(self) result(count)
+    class(planish_layout_t), intent(in) :: self
+    count = c_layout_quad_count(self%get())
+  end function
+
+  !> Largest number of a vertex.
+  pure integer(c_size_t) function layout_vertex_count(self) result(count)
+    class(planish_layout_t), intent(in) :: self
+    count = c_layout_vertex_count(self%get())
+  end function
+
+  !> Number of edges.
+  pure integer(c_size_t) function layout_edge_count(self) result(count)
+    class(planish_layout_t), intent(in) :: self
+    count = c_layout_edge_count(self%get())
+  end function
+
+  !> Number of nodes with places; 0 if the layout was not made for a mesh.
+  pure integer(c_size_t) function layout_node_count(self) result(count)
+    class(planish_layout_t), intent(in) :: self
+    count = c_layout_node_count(self%get())
+  end function
+
+  !> The corners(4,n) of the quads, at (0,0), (1,0), (1,1), (0,1); vertices count from 1.
+  subroutine layout_copy_corners(self, corners, stat, errmsg)
+    class(planish_layout_t), intent(in) :: self
+    integer(c_int32_t), intent(inout), contiguous :: corners(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int) :: status
+    if (refuse_extent(size(corners, 1, c_size_t), 4_c_size_t, "the first extent of corners", stat, errmsg)) return
+    status = c_layout_copy_corners(self%get(), corners, size(corners, 2, c_size_t))
+    if (status >= 0) corners(:, :self%quad_count()) = corners(:, :self%quad_count()) + 1
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> The edges(6,n): two vertices, the quad and the side that run this way, the quad and the side that run the other way,
+  !> which are 0 at a border; all count from 1.
+  subroutine layout_copy_edges(self, edges, stat, errmsg)
+    class(planish_layout_t), intent(in) :: self
+    integer(c_int32_t), intent(inout), contiguous :: edges(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int) :: status
+    if (refuse_extent(size(edges, 1, c_size_t), 6_c_size_t, "the first extent of edges", stat, errmsg)) return
+    status = c_layout_copy_edges(self%get(), edges, size(edges, 2, c_size_t))
+    if (status >= 0) edges(:, :self%edge_count()) = edges(:, :self%edge_count()) + 1
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> The number of quads around each vertex.
+  subroutine layout_copy_valences(self, valences, stat, errmsg)
+    class(planish_layout_t), intent(in) :: self
+    integer(c_int32_t), intent(inout), contiguous :: valences(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    call conclude(c_layout_copy_valences(self%get(), valences, size(valences, kind=c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> Where the nodes of the mesh lie: their quads, which count from 1, 0 for a node without triangles, and uv(2,n) there.
+  subroutine layout_copy_node_map(self, quads, uv, stat, errmsg)
+    class(planish_layout_t), intent(in) :: self
+    integer(c_int32_t), intent(inout), contiguous :: quads(:)
+    real(c_double), intent(inout), contiguous :: uv(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int) :: status
+    if (refuse_extent(size(uv, 1, c_size_t), 2_c_size_t, "the first extent of uv", stat, errmsg)) return
+    if (refuse_extent(size(uv, 2, c_size_t), size(quads, kind=c_size_t), "the second extent of uv", stat, errmsg)) return
+    status = c_layout_copy_node_map(self%get(), quads, uv, size(quads, kind=c_size_t))
+    if (status >= 0) quads(:self%node_count()) = quads(:self%node_count()) + 1
+    call conclude(status, stat, errmsg)
   end subroutine
 
   ! ---------------------------------------------------------------------------------------------------------

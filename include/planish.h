@@ -333,6 +333,24 @@ typedef enum planish_border {
 } planish_border;
 
 /**
+ * Which layout a mesh gets.
+ */
+typedef enum planish_layout_kind {
+    /**
+     * The cube for closed meshes of genus 0, else the base complex.
+     */
+    PLANISH_LAYOUT_KIND_AUTO = 0,
+    /**
+     * The six faces of a cube; for closed meshes of genus 0 only.
+     */
+    PLANISH_LAYOUT_KIND_CUBE = 1,
+    /**
+     * Pairs of triangles of a coarse mesh that follows the shape.
+     */
+    PLANISH_LAYOUT_KIND_COMPLEX = 2,
+} planish_layout_kind;
+
+/**
  * Things worth knowing about a map or a fit: the bits of `remarks` in reports, several may hold.
  */
 typedef enum planish_remark {
@@ -934,6 +952,13 @@ typedef struct planish_curve planish_curve;
 typedef struct planish_field_fitter planish_field_fitter;
 
 /**
+ * Quadrilateral patches and how they meet; made for a mesh, also the places of its nodes on them.
+ *
+ * Const calls may run at once on any threads.
+ */
+typedef struct planish_layout planish_layout;
+
+/**
  * A triangle mesh: manifold and consistently oriented, possibly with several components, holes and nodes
  * without triangles, which are passed over. Made by planish_mesh_new() and others, destroyed by planish_mesh_free().
  *
@@ -1430,6 +1455,219 @@ typedef struct planish_sphere_report {
      */
     double seconds;
 } planish_sphere_report;
+
+/**
+ * What was found of features. Set struct_size to sizeof(planish_feature_report) before the call; the report is
+ * filled as far as that goes, on success only.
+ */
+typedef struct planish_feature_report {
+    /**
+     * sizeof(planish_feature_report) as the caller sees it.
+     */
+    size_t struct_size;
+    /**
+     * Feature edges.
+     */
+    size_t edge_count;
+    /**
+     * Those of them on the border.
+     */
+    size_t border_edge_count;
+    /**
+     * Chains of feature edges between corners, and closed ones.
+     */
+    size_t chain_count;
+    /**
+     * Chains without ends.
+     */
+    size_t closed_chain_count;
+    /**
+     * Nodes that are no part of a smooth chain.
+     */
+    size_t corner_count;
+    /**
+     * Edges by which chains were made longer.
+     */
+    size_t prolonged_edge_count;
+    /**
+     * Edges that were dropped in short bits.
+     */
+    size_t dropped_edge_count;
+    /**
+     * Noise of the nodes along the normal, as standard deviation by the mean edge length: an estimate.
+     */
+    double noise;
+} planish_feature_report;
+
+/**
+ * How features of a mesh are found. Fill with planish_feature_options_init(), then change what you need.
+ */
+typedef struct planish_feature_options {
+    /**
+     * Set by planish_feature_options_init().
+     */
+    size_t struct_size;
+    /**
+     * Edges whose facets turn by more than this are features, in radians, at most pi; 0 looks for none. Default
+     * 0.7, which is 40 degrees.
+     */
+    double sharp_angle;
+    /**
+     * Chains of feature edges that end go on along edges whose facets turn by more than this, in radians, at most
+     * pi, which lets none go on. Default 0.26, which is 15 degrees; none goes on if sharp_angle is 0.
+     */
+    double weak_angle;
+    /**
+     * Where a chain turns by more than this, in radians, at most pi, it has a corner. Default 0.6, which is
+     * 34 degrees.
+     */
+    double corner_angle;
+    /**
+     * Bits of chains that end in nothing and are shorter than this part of the diagonal, 0 to 1, are dropped.
+     * Default 0.04.
+     */
+    double least_length;
+    /**
+     * Edges that are features whatever their angle: two nodes each, counted from 0; NULL (default) for none.
+     * Array: [sharp_edge_count, 2].
+     */
+    const uint32_t *sharp_edges;
+    /**
+     * Edges in sharp_edges. Default 0.
+     */
+    size_t sharp_edge_count;
+    /**
+     * A number for each triangle: edges between triangles of different numbers are features; NULL (default) for
+     * none.
+     * Array: [mesh_triangle_count].
+     */
+    const uint32_t *labels;
+    /**
+     * Receives 1 for each node that is a corner: the end of a chain, a junction, a turn; 0 for all others; or NULL
+     * (default). Written on success only.
+     * Array: [mesh_point_count].
+     */
+    uint8_t *out_is_corner;
+    /**
+     * Receives what was found, or NULL (default). Set its struct_size before. Filled on success only.
+     */
+    struct planish_feature_report *out_report;
+    /**
+     * 1 (default) filters the normals of a noisy mesh before angles are measured; 0 takes them as they are.
+     */
+    uint32_t filter_noise;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} planish_feature_options;
+
+/**
+ * How quads make a layout. Fill with planish_layout_options_init(), then change what you need.
+ */
+typedef struct planish_layout_options {
+    /**
+     * Set by planish_layout_options_init().
+     */
+    size_t struct_size;
+    /**
+     * The number of the edge of each side, where two edges join the same vertices; NULL (default) for edges that
+     * are told by their ends. Numbers need not be without gaps.
+     * Array: [quad_count, 4].
+     */
+    const uint32_t *edges;
+} planish_layout_options;
+
+/**
+ * How a mesh gets a layout. Fill with planish_mesh_layout_options_init(), then change what you need.
+ */
+typedef struct planish_mesh_layout_options {
+    /**
+     * Set by planish_mesh_layout_options_init().
+     */
+    size_t struct_size;
+    /**
+     * Hears of the progress and may cancel; NULL (default) for nobody.
+     */
+    planish_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *user;
+    /**
+     * Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+     */
+    const volatile int32_t *cancel;
+    /**
+     * Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+     * Array: [1].
+     */
+    uint32_t *out_stage;
+    /**
+     * A planish_layout_kind. Default PLANISH_LAYOUT_KIND_AUTO.
+     */
+    uint32_t kind;
+    /**
+     * About how many patches a base complex has, at least 6. Default 40.
+     */
+    uint32_t patches;
+    /**
+     * Most sweeps over all nodes at the end. Default 300.
+     */
+    uint32_t sweeps;
+    /**
+     * Threads that share the work; 0 (default) for all cores. The result does not depend on it.
+     */
+    uint32_t thread_count;
+} planish_mesh_layout_options;
+
+/**
+ * How good the layout of a mesh is. Set struct_size to sizeof(planish_mesh_layout_report) before the call; the
+ * report is filled as far as that goes, on success only.
+ */
+typedef struct planish_mesh_layout_report {
+    /**
+     * sizeof(planish_mesh_layout_report) as the caller sees it.
+     */
+    size_t struct_size;
+    /**
+     * Symmetric Dirichlet energy of the node map by area: 4 if all lengths are kept; of a cube that of the map to
+     * the sphere.
+     */
+    double energy;
+    /**
+     * The same before nodes moved over the layout.
+     */
+    double first_energy;
+    /**
+     * Nodes with a triangle whose image is turned over.
+     */
+    size_t folded_node_count;
+    /**
+     * Nodes whose triangles are spread over patches without a common corner.
+     */
+    size_t spread_node_count;
+    /**
+     * Vertices of only two patches that were removed, each with one patch.
+     */
+    size_t doublet_count;
+    /**
+     * Edges of the coarse mesh that were split because its triangles could not be paired; 0 for closed meshes.
+     */
+    size_t split_count;
+    /**
+     * Wall time in seconds.
+     */
+    double seconds;
+    /**
+     * The kind that was made: a planish_layout_kind.
+     */
+    uint32_t kind;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} planish_mesh_layout_report;
 
 /**
  * How points are evaluated. Fill with planish_eval_options_init(), then change what you need.
@@ -4187,6 +4425,218 @@ enum planish_status planish_mesh_map_to_sphere(const struct planish_mesh *mesh,
                                                double *out_points,
                                                size_t count,
                                                struct planish_sphere_report *out_report);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_feature_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+ */
+PLANISH_API
+enum planish_status planish_feature_options_init(struct planish_feature_options *options,
+                                                 size_t struct_size);
+
+/**
+ * Finds the edges where a mesh is not smooth: sharp ones, those between labels, those given, and the border.
+ *
+ * They are what sharp_edges of other calls want. Call it once without out_edges for their number, then with room for
+ * all, or ask with room for planish_mesh_edge_count() at once.
+ *
+ * mesh:      not NULL; stays as it is.
+ * options:   NULL for the defaults.
+ * out_edges: receives the nodes of each edge, counted from 0, the smaller first, in increasing order; NULL to learn the
+ *            number only.
+ * count:     edges that out_edges has room for.
+ * out_count: receives the number of edges.
+ * Arrays: out_edges[count, 2], out_count[1].
+ * Returns PLANISH_STATUS_OK or an error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option),
+ * PLANISH_STATUS_INDEX (a sharp edge has a node that does not exist; the index is the edge), PLANISH_STATUS_TOPOLOGY
+ * (a sharp edge is no edge; it is the index), PLANISH_STATUS_BUFFER_TOO_SMALL (count), PLANISH_STATUS_TOO_LARGE or
+ * PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_find_features(const struct planish_mesh *mesh,
+                                               const struct planish_feature_options *options,
+                                               uint32_t *out_edges,
+                                               size_t count,
+                                               size_t *out_count);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_layout_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+ */
+PLANISH_API
+enum planish_status planish_layout_options_init(struct planish_layout_options *options,
+                                                size_t struct_size);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_mesh_layout_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+ */
+PLANISH_API
+enum planish_status planish_mesh_layout_options_init(struct planish_mesh_layout_options *options,
+                                                     size_t struct_size);
+
+/**
+ * Makes a layout of quads whose sides meet.
+ *
+ * corners:    four vertices of each quad, counted from 0, counter-clockwise seen from outside.
+ * quad_count: at least 1.
+ * options:    NULL for the defaults.
+ * out_layout: receives a new layout; destroy with planish_layout_free().
+ * Arrays: corners[quad_count, 4].
+ * Returns PLANISH_STATUS_OK or an error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (no quads),
+ * PLANISH_STATUS_INDEX (numbers of vertices with gaps so large that they cannot be meant), PLANISH_STATUS_TOPOLOGY (a
+ * vertex twice in a quad, three sides at an edge, sides that run the same way: the index is the quad; quads that touch
+ * in a vertex only, or fewer than three around a vertex inside: the index is the vertex), PLANISH_STATUS_TOO_LARGE,
+ * PLANISH_STATUS_VERSION or PLANISH_STATUS_OUT_OF_MEMORY.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_layout_new(const uint32_t *corners,
+                                       size_t quad_count,
+                                       const struct planish_layout_options *options,
+                                       struct planish_layout **out_layout);
+
+/**
+ * Makes the layout of the six faces of a cube: -x, x, -y, y, -z, z.
+ *
+ * out_layout: receives a new layout; destroy with planish_layout_free().
+ * Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
+ */
+PLANISH_API PLANISH_NODISCARD enum planish_status planish_layout_cube(struct planish_layout **out_layout);
+
+/**
+ * Makes a layout for a closed mesh of one component and any genus, with the places of its nodes.
+ *
+ * A cube keeps to the sphere; a base complex follows the shape: its patches are nearly square and of nearly equal
+ * size. The same mesh gives the same bits on any number of threads.
+ *
+ * mesh:       not NULL; stays as it is.
+ * options:    NULL for the defaults.
+ * out_layout: receives a new layout; destroy with planish_layout_free().
+ * out_report: receives how good it is; NULL for no report.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_FOLDED_PARAMETERS (some nodes have triangles that are turned over, or spread
+ * over too many patches; out_layout is there) or an error: PLANISH_STATUS_NULL_POINTER,
+ * PLANISH_STATUS_INVALID_ARGUMENT (an option), PLANISH_STATUS_TOPOLOGY (several components; for a cube handles, or a
+ * boundary, with one of its nodes as the index; a node where the surface touches itself, which is the index),
+ * PLANISH_STATUS_DEGENERATE (no triangle has an area, or coarse triangles make no layout), PLANISH_STATUS_VERSION or
+ * PLANISH_STATUS_CANCELLED.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_layout_of_mesh(const struct planish_mesh *mesh,
+                                           const struct planish_mesh_layout_options *options,
+                                           struct planish_layout **out_layout,
+                                           struct planish_mesh_layout_report *out_report);
+
+/**
+ * Destroys a layout.
+ *
+ * layout: from a call that makes layouts, or NULL.
+ */
+PLANISH_API void planish_layout_free(struct planish_layout *layout);
+
+/**
+ * The number of quads; 0 for NULL.
+ *
+ * layout: a layout, or NULL.
+ */
+PLANISH_API size_t planish_layout_quad_count(const struct planish_layout *layout);
+
+/**
+ * One more than the largest number of a vertex; 0 for NULL.
+ *
+ * layout: a layout, or NULL.
+ */
+PLANISH_API size_t planish_layout_vertex_count(const struct planish_layout *layout);
+
+/**
+ * The number of edges; 0 for NULL.
+ *
+ * layout: a layout, or NULL.
+ */
+PLANISH_API size_t planish_layout_edge_count(const struct planish_layout *layout);
+
+/**
+ * The number of nodes that have places on the layout; 0 if it was not made for a mesh, and for NULL.
+ *
+ * layout: a layout, or NULL.
+ */
+PLANISH_API size_t planish_layout_node_count(const struct planish_layout *layout);
+
+/**
+ * Copies the corners of the quads.
+ *
+ * layout:      not NULL.
+ * out_corners: receives four vertices of each quad, counted from 0, counter-clockwise: at (0,0), (1,0), (1,1), (0,1).
+ * count:       quads that out_corners has room for, at least planish_layout_quad_count().
+ * Arrays: out_corners[count, 4].
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_layout_copy_corners(const struct planish_layout *layout,
+                                                uint32_t *out_corners,
+                                                size_t count);
+
+/**
+ * Copies the edges.
+ *
+ * layout:    not NULL.
+ * out_edges: receives six numbers of each edge, counted from 0: the vertices at its begin and its end, the quad and the
+ *            side (from corner k to corner k + 1) that run this way, the quad and the side that run the other way, which
+ *            are PLANISH_NONE at a border.
+ * count:     edges that out_edges has room for, at least planish_layout_edge_count().
+ * Arrays: out_edges[count, 6].
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_layout_copy_edges(const struct planish_layout *layout,
+                                              uint32_t *out_edges,
+                                              size_t count);
+
+/**
+ * Copies the valences of the vertices.
+ *
+ * layout:       not NULL.
+ * out_valences: receives the number of quads around each vertex; 0 for a number that no quad has.
+ * count:        vertices that out_valences has room for, at least planish_layout_vertex_count().
+ * Arrays: out_valences[count].
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_layout_copy_valences(const struct planish_layout *layout,
+                                                 uint32_t *out_valences,
+                                                 size_t count);
+
+/**
+ * Copies where the nodes of the mesh lie on the layout.
+ *
+ * layout:    not NULL, made by planish_layout_of_mesh().
+ * out_quads: receives the quad of each node, counted from 0; PLANISH_NONE for a node without triangles.
+ * out_uv:    receives the parameters of each node on its quad, 0 to 1; NaN for a node without triangles.
+ * count:     nodes that both have room for, at least planish_layout_node_count().
+ * Arrays: out_quads[count], out_uv[count, 2].
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (the layout was not made for
+ * a mesh) or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_layout_copy_node_map(const struct planish_layout *layout,
+                                                 uint32_t *out_quads,
+                                                 double *out_uv,
+                                                 size_t count);
 
 /**
  * Fills options with the defaults.

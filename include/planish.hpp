@@ -132,6 +132,15 @@ inline planish_status init(planish_sphere_options &options) {
 inline planish_status init(planish_model_options &options) {
   return planish_model_options_init(&options, sizeof options);
 }
+inline planish_status init(planish_feature_options &options) {
+  return planish_feature_options_init(&options, sizeof options);
+}
+inline planish_status init(planish_layout_options &options) {
+  return planish_layout_options_init(&options, sizeof options);
+}
+inline planish_status init(planish_mesh_layout_options &options) {
+  return planish_mesh_layout_options_init(&options, sizeof options);
+}
 inline planish_status init(planish_decimate_options &options) {
   return planish_decimate_options_init(&options, sizeof options);
 }
@@ -287,6 +296,7 @@ struct destroy {
   void operator()(planish_model *model) const noexcept { planish_model_free(model); }
   void operator()(planish_field_fitter *fitter) const noexcept { planish_field_fitter_free(fitter); }
   void operator()(planish_transfer *transfer) const noexcept { planish_transfer_free(transfer); }
+  void operator()(planish_layout *layout) const noexcept { planish_layout_free(layout); }
 };
 
 } // namespace detail
@@ -501,6 +511,16 @@ class mesh {
     parameterized result{detail::sized<planish_parameterize_report>(), PLANISH_STATUS_OK};
     result.status = listener.checked(planish_mesh_parameterize(get(), &options, &result.report));
     return result;
+  }
+
+  /// Finds the edges where the mesh is not smooth, as nodes: sharp ones, those between labels, those given, the border.
+  std::vector<std::array<std::uint32_t, 2>> find_features(
+      const planish_feature_options &options = defaults<planish_feature_options>()) const {
+    std::size_t count = 0;
+    std::vector<std::array<std::uint32_t, 2>> edges(edge_count());
+    detail::checked(planish_mesh_find_features(get(), &options, detail::flat(edges), edges.size(), &count));
+    edges.resize(count);
+    return edges;
   }
 
   /// Maps a closed mesh of one component and genus 0 on to the unit sphere, one to one.
@@ -1994,6 +2014,85 @@ class transfer {
  private:
   std::unique_ptr<planish_transfer, detail::destroy> handle_;
   planish_transfer_report report_;
+};
+
+/// Quadrilateral patches and how they meet; made for a mesh, also the places of its nodes on them.
+///
+/// Const members may run at once on any threads. It can be moved, not copied.
+class layout {
+ public:
+  /// Of quads with these corners, counter-clockwise seen from outside, whose sides meet.
+  explicit layout(const rows<std::uint32_t, 4> &corners,
+                  const planish_layout_options &options = defaults<planish_layout_options>()) {
+    planish_layout *made = nullptr;
+    detail::checked(planish_layout_new(corners.data(), corners.count(), &options, &made));
+    handle_.reset(made);
+  }
+
+  /// Takes over a handle of C.
+  explicit layout(planish_layout *handle) noexcept : handle_(handle) {}
+
+  /// The six faces of a cube.
+  static layout cube() {
+    planish_layout *made = nullptr;
+    detail::checked(planish_layout_cube(&made));
+    return layout(made);
+  }
+
+  /// For a closed mesh of any genus, with the places of its nodes. The report is filled if it is given.
+  static layout of_mesh(const mesh &mesh, planish_mesh_layout_options options = defaults<planish_mesh_layout_options>(),
+                        const progress &hear = {}, planish_mesh_layout_report *report = nullptr) {
+    detail::listener listener(hear);
+    listener.attach(options);
+    auto found = detail::sized<planish_mesh_layout_report>();
+    planish_layout *made = nullptr;
+    listener.checked(planish_layout_of_mesh(mesh.get(), &options, &made, &found));
+    if (report) *report = found;
+    return layout(made);
+  }
+
+  /// The handle, for calls of planish.h; it stays this object's.
+  const planish_layout *get() const noexcept { return handle_.get(); }
+  /// Number of quads.
+  std::size_t quad_count() const noexcept { return planish_layout_quad_count(get()); }
+  /// One more than the largest number of a vertex.
+  std::size_t vertex_count() const noexcept { return planish_layout_vertex_count(get()); }
+  /// Number of edges.
+  std::size_t edge_count() const noexcept { return planish_layout_edge_count(get()); }
+  /// Number of nodes with places; 0 if it was not made for a mesh.
+  std::size_t node_count() const noexcept { return planish_layout_node_count(get()); }
+
+  /// The corners of the quads, at (0,0), (1,0), (1,1), (0,1).
+  std::vector<std::array<std::uint32_t, 4>> corners() const {
+    std::vector<std::array<std::uint32_t, 4>> corners(quad_count());
+    detail::checked(planish_layout_copy_corners(get(), detail::flat(corners), corners.size()));
+    return corners;
+  }
+
+  /// The edges: two vertices, quad and side that run this way, quad and side that run the other way or all bits set.
+  std::vector<std::array<std::uint32_t, 6>> edges() const {
+    std::vector<std::array<std::uint32_t, 6>> edges(edge_count());
+    detail::checked(planish_layout_copy_edges(get(), detail::flat(edges), edges.size()));
+    return edges;
+  }
+
+  /// The number of quads around each vertex.
+  std::vector<std::uint32_t> valences() const {
+    std::vector<std::uint32_t> valences(vertex_count());
+    detail::checked(planish_layout_copy_valences(get(), valences.data(), valences.size()));
+    return valences;
+  }
+
+  /// The quad of each node of the mesh, and its parameters there.
+  std::pair<std::vector<std::uint32_t>, std::vector<point2>> node_map() const {
+    std::vector<std::uint32_t> quads(node_count());
+    std::vector<point2> uv(quads.size());
+    detail::checked(planish_layout_copy_node_map(get(), quads.data(), detail::flat(uv), quads.size()));
+    return {std::move(quads), std::move(uv)};
+  }
+
+ private:
+  std::unique_ptr<planish_layout, detail::destroy> handle_;
 };
 
 /// The sum of polynomial tensor surfaces over one domain, each times its factor.

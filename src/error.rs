@@ -18,7 +18,7 @@ use crate::fit::skin::SkinError;
 use crate::knots::KnotError;
 use crate::layout::LayoutError;
 use crate::layout::of_mesh::MeshLayoutError;
-use crate::mesh::{CutError, DecimateError, MeshError, ReadError};
+use crate::mesh::{CutError, DecimateError, FeatureError, MeshError, ReadError};
 use crate::model::{ModelError, ModelEvalError};
 use crate::parameterize::ParameterizeError;
 use crate::parameterize::sphere::SphereError;
@@ -64,6 +64,8 @@ union! {
     Layout(LayoutError),
     /// A mesh cannot be parameterized.
     Parameterize(ParameterizeError),
+    /// Features of a mesh cannot be found as asked.
+    Feature(FeatureError),
     /// A mesh gets no layout.
     MeshLayout(MeshLayoutError),
     /// A mesh cannot be mapped on to the sphere.

@@ -48,6 +48,7 @@ program test_calls
   call fields_have_names()
   call parameters_are_set_and_made()
   call closed_meshes_become_spheres()
+  call closed_meshes_get_layouts()
   call shapes_are_fitted()
   call scattered_points_are_fitted()
   call fields_are_fitted()
@@ -241,6 +242,34 @@ contains
     call check(mesh%has_parameters() .and. report%flipped_count == 0, "parameterize")
     call mesh%copy_parameters(uv)
     call check(all(uv(:, 1) == 0) .and. all(uv(:, side**2) == 1), "corners count from 1")
+  end subroutine
+
+  subroutine closed_meshes_get_layouts()
+    type(planish_mesh_t) :: mesh
+    type(planish_layout_t) :: layout, cube
+    type(planish_mesh_layout_report) :: report
+    real(real64) :: corners(3, 4), uv(2, 4)
+    integer(int32) :: quads(4), of_cube(4, 6), edges(6, 12), valences(8)
+    integer(int32), allocatable :: sharp(:, :)
+    integer :: stat
+    corners = reshape([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 4])
+    call mesh%new(corners, reshape([1, 3, 2, 1, 2, 4, 2, 3, 4, 1, 4, 3], [3, 4]))
+    call layout%of_mesh(mesh, report=report)
+    call layout%copy_node_map(quads, uv)
+    call check(report%kind == PLANISH_LAYOUT_KIND_CUBE .and. layout%node_count() == 4, "of_mesh")
+    call check(all(quads >= 1 .and. quads <= 6) .and. all(uv >= 0 .and. uv <= 1), "copy_node_map")
+    call cube%cube()
+    call cube%copy_corners(of_cube)
+    call cube%copy_edges(edges)
+    call cube%copy_valences(valences)
+    call check(minval(of_cube) == 1 .and. maxval(of_cube) == 8 .and. minval(edges) == 1, "a cube counts from 1")
+    call check(all(valences == 3) .and. cube%edge_count() == 12 .and. cube%vertex_count() == 8, "valences")
+    call layout%new(of_cube)
+    call check(layout%quad_count() == 6, "layout%new")
+    call layout%new(of_cube(1:3, :), stat=stat)
+    call check(stat == PLANISH_STATUS_INVALID_ARGUMENT, "quads have four corners")
+    call mesh%find_features(sharp)
+    call check(size(sharp, 2) == 6 .and. minval(sharp) == 1 .and. maxval(sharp) == 4, "find_features")
   end subroutine
 
   subroutine closed_meshes_become_spheres()

@@ -83,6 +83,11 @@ ENUMERATIONS = {
         "kept": 5,
         "free": 6,
     },
+    "planish_layout_kind": {
+        "auto": 0,
+        "cube": 1,
+        "complex": 2,
+    },
     "planish_remark": {
         "tolerance_not_met": 1,
         "stagnated": 2,
@@ -442,6 +447,102 @@ class planish_sphere_report(Structure):
         ("high_area_ratio", c_double),
         ("seconds", c_double),
     ]
+
+
+class planish_feature_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("sharp_angle", c_double),
+        ("weak_angle", c_double),
+        ("corner_angle", c_double),
+        ("least_length", c_double),
+        ("sharp_edges", c_void_p),
+        ("sharp_edge_count", c_size_t),
+        ("labels", c_void_p),
+        ("out_is_corner", c_void_p),
+        ("out_report", c_void_p),
+        ("filter_noise", c_uint32),
+        ("reserved", c_uint32),
+    ]
+    elements = {
+        "sharp_edges": c_uint32,
+        "labels": c_uint32,
+        "out_is_corner": c_uint8,
+    }
+    arrays = {
+        "sharp_edges": ("sharp_edge_count", "2",),
+        "labels": ("mesh_triangle_count",),
+        "out_is_corner": ("mesh_point_count",),
+    }
+
+
+class planish_feature_report(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("edge_count", c_size_t),
+        ("border_edge_count", c_size_t),
+        ("chain_count", c_size_t),
+        ("closed_chain_count", c_size_t),
+        ("corner_count", c_size_t),
+        ("prolonged_edge_count", c_size_t),
+        ("dropped_edge_count", c_size_t),
+        ("noise", c_double),
+    ]
+
+
+class planish_layout_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("edges", c_void_p),
+    ]
+    elements = {
+        "edges": c_uint32,
+    }
+    arrays = {
+        "edges": ("quad_count", "4",),
+    }
+
+
+class planish_mesh_layout_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("progress", planish_progress),
+        ("user", c_void_p),
+        ("cancel", c_void_p),
+        ("out_stage", c_void_p),
+        ("kind", c_uint32),
+        ("patches", c_uint32),
+        ("sweeps", c_uint32),
+        ("thread_count", c_uint32),
+    ]
+    choices = {
+        "out_stage": "planish_stage",
+        "kind": "planish_layout_kind",
+    }
+    elements = {
+        "out_stage": c_uint32,
+    }
+    arrays = {
+        "out_stage": ("1",),
+    }
+
+
+class planish_mesh_layout_report(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("energy", c_double),
+        ("first_energy", c_double),
+        ("folded_node_count", c_size_t),
+        ("spread_node_count", c_size_t),
+        ("doublet_count", c_size_t),
+        ("split_count", c_size_t),
+        ("seconds", c_double),
+        ("kind", c_uint32),
+        ("reserved", c_uint32),
+    ]
+    choices = {
+        "kind": "planish_layout_kind",
+    }
 
 
 class planish_fit_report(Structure):
@@ -1377,6 +1478,11 @@ SIZES = {
     planish_parameterize_report: 88,
     planish_sphere_options: 48,
     planish_sphere_report: 56,
+    planish_feature_options: 88,
+    planish_feature_report: 72,
+    planish_layout_options: 16,
+    planish_mesh_layout_options: 56,
+    planish_mesh_layout_report: 72,
     planish_fit_report: 192,
     planish_eval_options: 40,
     planish_patch: 72,
@@ -1464,6 +1570,22 @@ FUNCTIONS = {
     "planish_mesh_parameterize": (c_int32, c_void_p, c_void_p, c_void_p),
     "planish_sphere_options_init": (c_int32, c_void_p, c_size_t),
     "planish_mesh_map_to_sphere": (c_int32, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p),
+    "planish_feature_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_mesh_find_features": (c_int32, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p),
+    "planish_layout_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_mesh_layout_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_layout_new": (c_int32, c_void_p, c_size_t, c_void_p, c_void_p),
+    "planish_layout_cube": (c_int32, c_void_p),
+    "planish_layout_of_mesh": (c_int32, c_void_p, c_void_p, c_void_p, c_void_p),
+    "planish_layout_free": (None, c_void_p),
+    "planish_layout_quad_count": (c_size_t, c_void_p),
+    "planish_layout_vertex_count": (c_size_t, c_void_p),
+    "planish_layout_edge_count": (c_size_t, c_void_p),
+    "planish_layout_node_count": (c_size_t, c_void_p),
+    "planish_layout_copy_corners": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_layout_copy_edges": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_layout_copy_valences": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_layout_copy_node_map": (c_int32, c_void_p, c_void_p, c_void_p, c_size_t),
     "planish_eval_options_init": (c_int32, c_void_p, c_size_t),
     "planish_surface_kind": (c_uint32, c_void_p),
     "planish_surface_dim": (c_size_t, c_void_p),

@@ -41,6 +41,8 @@ pub(super) enum ArgumentError {
     NoField { name: String },
     #[error("the mesh has no parameters")]
     NoParameters,
+    #[error("the layout was not made for a mesh, so no nodes have places on it")]
+    NoNodeMap,
     #[error("{name} is not UTF-8: byte {byte} is wrong")]
     NotUtf8 { name: &'static str, byte: usize },
     #[error("struct_size of {record} is {size}, it must be sizeof({record})")]

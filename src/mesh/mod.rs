@@ -9,6 +9,7 @@
 mod cut;
 mod decimate;
 mod error;
+mod features;
 mod polygon;
 mod read;
 mod repair;
@@ -22,6 +23,7 @@ pub use cut::{CutError, Piece};
 pub(crate) use decimate::Quadric;
 pub use decimate::{DecimateError, DecimateOptions, DecimateReport, Decimation};
 pub use error::MeshError;
+pub use features::{Chain, FeatureError, FeatureOptions, Features};
 pub use polygon::Faces;
 pub use read::{Format, ReadError, read, read_as, read_bytes};
 pub use repair::{Components, MeshRepairs, Repair};

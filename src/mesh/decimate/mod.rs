@@ -15,6 +15,7 @@ mod quadric;
 #[cfg(test)]
 mod tests;
 
+pub(super) use features::{half_edges, normal};
 pub(crate) use quadric::Quadric;
 
 use super::{Mesh, Piece};

@@ -16,6 +16,8 @@ const ORDER: &[&str] = &[
     "decimate.rs",
     "parameterize.rs",
     "sphere.rs",
+    "features.rs",
+    "layout.rs",
     "report.rs",
     "surface.rs",
     "patch.rs",

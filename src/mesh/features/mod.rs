@@ -1,0 +1,247 @@
+//! Features of a mesh: edges where the surface is not smooth, as chains between corners (`theory/creases.md` 11.1).
+//!
+//! ```text
+//!   c --- x --- x --- x .. o        c  corner: not exactly two feature edges, or a turn
+//!    \                              x  inside a chain
+//!     x -- d                        o  a chain's end goes on along edges that turn less, but still turn
+//!                                   d  a bit that ends in nothing and is short: dropped
+//! ```
+//! Feature edges are those whose facets turn by more than an angle, edges between different labels, edges given, and
+//! the border. Normals of noisy facets are filtered first (`noise`).
+
+mod chains;
+mod noise;
+#[cfg(test)]
+mod tests;
+
+use super::decimate::{half_edges, normal};
+use super::{HalfEdge, Mesh};
+use crate::failure::{Classify, ErrorKind};
+use chains::Net;
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// How features are found. Angles are in radians.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FeatureOptions<'a> {
+    /// Edges whose facets turn by more than this are features; none for only those given. Default 0.7, 40 degrees.
+    pub sharp_angle: Option<f64>,
+    /// Chains that end go on along edges whose facets turn by more than this. Default 0.26, 15 degrees; at pi, or without a
+    /// `sharp_angle`, none does.
+    pub weak_angle: f64,
+    /// Where a chain turns by more than this it has a corner. Default 0.6, 34 degrees.
+    pub corner_angle: f64,
+    /// Bits of chains that end in nothing are dropped if they are shorter than this part of the diagonal. Default 0.04.
+    pub least_length: f64,
+    /// Further feature edges, two nodes each.
+    pub sharp_edges: &'a [[u32; 2]],
+    /// A number for each triangle: edges between different ones are features. Empty for none.
+    pub labels: &'a [u32],
+    /// Whether the normals of a noisy mesh are filtered before angles are measured. Default: yes.
+    pub filter_noise: bool,
+}
+
+impl Default for FeatureOptions<'_> {
+    fn default() -> Self {
+        Self {
+            sharp_angle: Some(0.7),
+            weak_angle: 0.26,
+            corner_angle: 0.6,
+            least_length: 0.04,
+            sharp_edges: &[],
+            labels: &[],
+            filter_noise: true,
+        }
+    }
+}
+
+impl<'a> FeatureOptions<'a> {
+    /// The same with another angle of sharp edges.
+    pub const fn with_sharp_angle(self, sharp_angle: Option<f64>) -> Self {
+        Self { sharp_angle, ..self }
+    }
+
+    /// The same with another angle of edges along which chains go on.
+    pub const fn with_weak_angle(self, weak_angle: f64) -> Self {
+        Self { weak_angle, ..self }
+    }
+
+    /// The same with further feature edges.
+    pub const fn with_sharp_edges(self, sharp_edges: &'a [[u32; 2]]) -> Self {
+        Self { sharp_edges, ..self }
+    }
+
+    /// The same with labels.
+    pub const fn with_labels(self, labels: &'a [u32]) -> Self {
+        Self { labels, ..self }
+    }
+
+    fn check(&self, mesh: &Mesh) -> Result<(), FeatureError> {
+        let angles = [
+            ("sharp_angle", self.sharp_angle.unwrap_or(0.0)),
+            ("weak_angle", self.weak_angle),
+            ("corner_angle", self.corner_angle),
+        ];
+        if let Some(&(option, value)) = angles.iter().find(|(_, value)| !(0.0..=PI).contains(value)) {
+            return Err(FeatureError::Option { option, value, range: "between 0 and pi" });
+        }
+        if !(0.0..=1.0).contains(&self.least_length) {
+            let (option, range) = ("least_length", "between 0 and 1");
+            return Err(FeatureError::Option { option, value: self.least_length, range });
+        }
+        let (given, count) = (self.labels.len(), mesh.triangles().len());
+        if given != 0 && given != count {
+            return Err(FeatureError::LabelCount { given, count });
+        }
+        Ok(())
+    }
+}
+
+/// Feature edges one after the other.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Chain {
+    /// Its nodes in order; of a closed chain the first is not repeated.
+    pub nodes: Vec<u32>,
+    /// Whether it has no ends.
+    pub is_closed: bool,
+}
+
+/// The features of a mesh.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Features {
+    /// All feature edges as nodes, the smaller first, in increasing order.
+    pub edges: Vec<[u32; 2]>,
+    /// The same edges as chains, by their first nodes.
+    pub chains: Vec<Chain>,
+    /// Nodes that are no part of a smooth chain, in increasing order.
+    pub corners: Vec<u32>,
+    /// Edges among them that lie on the border.
+    pub border_count: usize,
+    /// Edges by which chains were made longer.
+    pub prolonged_count: usize,
+    /// Edges that were dropped in short bits.
+    pub dropped_count: usize,
+    /// Noise along the normal, as standard deviation by mean edge length: an estimate from differences of differences.
+    pub noise: f64,
+}
+
+/// Features cannot be found as asked.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum FeatureError {
+    /// An option is out of its range.
+    #[error("{option} is {value}, it must be {range}")]
+    Option {
+        /// Name of the option.
+        option: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it may be.
+        range: &'static str,
+    },
+    /// There must be one label for each triangle.
+    #[error("{given} labels do not fit {count} triangles")]
+    LabelCount {
+        /// Labels given.
+        given: usize,
+        /// Triangles of the mesh.
+        count: usize,
+    },
+    /// A sharp edge has a node that does not exist.
+    #[error("sharp edge {index} has node {node}, the mesh has {count}")]
+    NoSuchNode {
+        /// The sharp edge.
+        index: usize,
+        /// Its node.
+        node: u32,
+        /// Nodes of the mesh.
+        count: usize,
+    },
+    /// A sharp edge is no edge of the mesh.
+    #[error("sharp edge {index} from node {} to node {} is no edge of the mesh", nodes[0], nodes[1])]
+    NotAnEdge {
+        /// The sharp edge.
+        index: usize,
+        /// Its nodes.
+        nodes: [u32; 2],
+    },
+}
+
+impl Classify for FeatureError {
+    fn kind(&self) -> ErrorKind {
+        match self {
+            Self::Option { .. } | Self::LabelCount { .. } => ErrorKind::InvalidArgument,
+            Self::NoSuchNode { .. } => ErrorKind::Index,
+            Self::NotAnEdge { .. } => ErrorKind::Topology,
+        }
+    }
+
+    /// The offending sharp edge.
+    fn index(&self) -> Option<usize> {
+        match *self {
+            Self::NoSuchNode { index, .. } | Self::NotAnEdge { index, .. } => Some(index),
+            _ => None,
+        }
+    }
+}
+
+impl Mesh {
+    /// Finds edges where the surface is not smooth.
+    pub fn find_features(&self, options: &FeatureOptions) -> Result<Features, FeatureError> {
+        options.check(self)?;
+        let noise = noise::estimate(self);
+        let turns = turns(self, options.filter_noise && noise > noise::WORTH_FILTERING);
+        let kept = given_edges(self, options)?;
+        let is_sharp = |edge: &HalfEdge| options.sharp_angle.is_some_and(|angle| turns[edge.index()] > angle);
+        let mut net = Net::new(self, |edge| is_sharp(&edge), kept);
+        let is_searched = options.sharp_angle.is_some();
+        let prolonged_count = if is_searched { net.prolong(&turns, options.weak_angle) } else { 0 };
+        let dropped_count = net.drop_bits(options.least_length * self.diagonal());
+        let corners = net.corners(options.corner_angle);
+        Ok(Features {
+            edges: net.edges(),
+            chains: net.chains(&corners),
+            corners,
+            border_count: self.topology().boundary_edge_count(),
+            prolonged_count,
+            dropped_count,
+            noise,
+        })
+    }
+}
+
+/// By half-edge: the angle by which the facets at it turn; 0 at the border and where one has no area.
+fn turns(mesh: &Mesh, is_noisy: bool) -> Vec<f64> {
+    let mut normals: Vec<DVec3> =
+        mesh.triangles().iter().map(|t| normal(mesh.points(), t).normalize_or_zero()).collect();
+    if is_noisy {
+        normals = noise::filtered(mesh, normals);
+    }
+    let turn = |edge: HalfEdge| {
+        let [m, n] = [edge, mesh.topology().twin(edge)?].map(|edge| normals[edge.triangle()]);
+        Some(m.cross(n).length().atan2(m.dot(n)))
+    };
+    half_edges(mesh).map(|edge| turn(edge).unwrap_or(0.0)).collect()
+}
+
+/// The half-edges that are features whatever their angle: border, between labels, given by the caller.
+fn given_edges(mesh: &Mesh, options: &FeatureOptions) -> Result<Vec<bool>, FeatureError> {
+    let label = |edge: HalfEdge| options.labels.get(edge.triangle());
+    let is_kept = |edge: HalfEdge| match mesh.topology().twin(edge) {
+        None => true,
+        Some(twin) => label(edge) != label(twin),
+    };
+    let mut kept: Vec<bool> = half_edges(mesh).map(is_kept).collect();
+    let count = mesh.points().len();
+    for (index, &nodes) in options.sharp_edges.iter().enumerate() {
+        if let Some(node) = nodes.into_iter().find(|&node| node as usize >= count) {
+            return Err(FeatureError::NoSuchNode { index, node, count });
+        }
+        let edge = mesh.edge_between(nodes[0], nodes[1]);
+        let edge = edge.ok_or(FeatureError::NotAnEdge { index, nodes })?;
+        [Some(edge), mesh.topology().twin(edge)]
+            .into_iter()
+            .flatten()
+            .for_each(|side| kept[side.index()] = true);
+    }
+    Ok(kept)
+}

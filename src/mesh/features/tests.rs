@@ -1,0 +1,208 @@
+use super::*;
+use crate::failure::{Classify, ErrorKind};
+use crate::samples::{self, Random};
+use std::collections::BTreeSet;
+
+/// A mesh of the sides of a box from 0 to `size`, with nodes one apart.
+fn block(size: [u32; 3]) -> Mesh {
+    let mut numbers = std::collections::BTreeMap::new();
+    let mut points = Vec::new();
+    let mut triangles = Vec::new();
+    for axis in 0..3 {
+        let [i, j] = [(axis + 1) % 3, (axis + 2) % 3];
+        for (side, a, b) in
+            (0..2).flat_map(|s| (0..size[i]).flat_map(move |a| (0..size[j]).map(move |b| (s, a, b))))
+        {
+            let mut corner = |da: u32, db: u32| {
+                let mut at = [0; 3];
+                (at[axis], at[i], at[j]) = (side * size[axis], a + da, b + db);
+                *numbers.entry(at).or_insert_with(|| {
+                    points.push(DVec3::from(at.map(f64::from)));
+                    points.len() as u32 - 1
+                })
+            };
+            let [p, q, r, s] = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
+            triangles.extend(if side == 1 { [[p, q, r], [p, r, s]] } else { [[p, r, q], [p, s, r]] });
+        }
+    }
+    Mesh::new(points, triangles).unwrap()
+}
+
+/// A cylinder of `n` sides with lids, and its nodes moved along a random normal by about `noise` edges.
+fn cylinder(n: u32, rings: u32) -> Mesh {
+    let mut points = vec![DVec3::ZERO];
+    let height = f64::from(rings) * std::f64::consts::TAU / f64::from(n);
+    for k in 0..=rings {
+        points.extend((0..n).map(|i| {
+            let angle = std::f64::consts::TAU * f64::from(i) / f64::from(n);
+            DVec3::new(angle.cos(), angle.sin(), height * f64::from(k) / f64::from(rings))
+        }));
+    }
+    points.push(DVec3::Z * height);
+    let node = |k: u32, i: u32| 1 + k * n + i % n;
+    let mut triangles = Vec::new();
+    for i in 0..n {
+        triangles.push([0, node(0, i + 1), node(0, i)]);
+        for k in 0..rings {
+            triangles.extend([
+                [node(k, i), node(k, i + 1), node(k + 1, i + 1)],
+                [node(k, i), node(k + 1, i + 1), node(k + 1, i)],
+            ]);
+        }
+        triangles.push([points.len() as u32 - 1, node(rings, i), node(rings, i + 1)]);
+    }
+    Mesh::new(points, triangles).unwrap()
+}
+
+/// Nodes moved along the mean normal by a normal variable of this deviation, in mean edges of length 1.
+fn noisy(mesh: &Mesh, deviation: f64, seed: u64) -> Mesh {
+    let mut random = Random::new(seed);
+    // the sum of twelve uniform variables is as good as normal
+    let mut variable = || (0..12).map(|_| random.unit()).sum::<f64>() - 6.0;
+    let along = |node: u32| {
+        let facets =
+            mesh.outgoing(node).map(|edge| normal(mesh.points(), &mesh.triangles()[edge.triangle()]));
+        facets.map(DVec3::normalize_or_zero).sum::<DVec3>().normalize_or_zero()
+    };
+    let moved = (0..).zip(mesh.points()).map(|(node, &point)| point + deviation * variable() * along(node));
+    Mesh::new(moved.collect(), mesh.triangles().to_vec()).unwrap()
+}
+
+fn find(mesh: &Mesh, options: FeatureOptions) -> Features {
+    mesh.find_features(&options).unwrap()
+}
+
+/// The edges of a block's twelve sides.
+fn sides(mesh: &Mesh, size: [u32; 3]) -> Vec<[u32; 2]> {
+    let bounds = |node: u32| -> BTreeSet<usize> {
+        let p = mesh.points()[node as usize].to_array();
+        (0..3).filter(|&k| p[k] == 0.0 || p[k] == f64::from(size[k])).collect()
+    };
+    let edges = mesh.triangles().iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+    let is_side = |&[a, b]: &[u32; 2]| bounds(a).intersection(&bounds(b)).count() >= 2 && a < b;
+    // a facet's diagonal at a corner may join two sides
+    let is_straight =
+        |&[a, b]: &[u32; 2]| mesh.points()[a as usize].distance(mesh.points()[b as usize]) == 1.0;
+    let mut sides: Vec<[u32; 2]> = edges.filter(is_side).filter(is_straight).collect();
+    sides.sort_unstable();
+    sides.dedup();
+    sides
+}
+
+#[test]
+fn a_block_has_twelve_chains_between_eight_corners() {
+    let size = [12, 9, 7];
+    let mesh = block(size);
+    let features = find(&mesh, FeatureOptions::default());
+    assert_eq!(features.edges, sides(&mesh, size));
+    assert_eq!((features.chains.len(), features.corners.len()), (12, 8));
+    assert!(features.chains.iter().all(|chain| !chain.is_closed));
+    assert_eq!((features.prolonged_count, features.dropped_count, features.border_count), (0, 0, 0));
+    assert!(features.noise < 1e-12);
+}
+
+#[test]
+fn rims_are_closed_chains() {
+    let mesh = cylinder(60, 12);
+    let features = find(&mesh, FeatureOptions::default());
+    assert_eq!(features.chains.len(), 2);
+    assert!(features.chains.iter().all(|chain| chain.is_closed && chain.nodes.len() == 60));
+    assert!(features.corners.is_empty());
+}
+
+#[test]
+fn noise_is_measured_and_hides_no_edge() {
+    let size = [20, 16, 12];
+    let clean = block(size);
+    for seed in 1..4 {
+        // edges of the grid are 1 and sqrt 2 long: noise in parts of their mean
+        let mean = (2.0 + 2.0_f64.sqrt()) / 3.0;
+        let mesh = noisy(&clean, 0.1 * mean, seed);
+        let features = find(&mesh, FeatureOptions::default());
+        assert!((features.noise - 0.1).abs() < 0.03, "noise {}", features.noise);
+        assert_eq!(features.edges, sides(&clean, size), "seed {seed}");
+        assert_eq!(features.corners.len(), 8);
+    }
+}
+
+#[test]
+fn smooth_shapes_have_no_features() {
+    for mesh in [samples::ball(2000, 1), samples::handles(1, 3000, 2)] {
+        let features = find(&mesh.unwrap(), FeatureOptions::default());
+        assert!(features.edges.is_empty(), "{features:?}");
+    }
+}
+
+#[test]
+fn borders_labels_and_given_edges_are_features() {
+    let sheet = samples::planar(1).unwrap();
+    let features = find(&sheet, FeatureOptions::default().with_sharp_angle(None));
+    assert_eq!(features.edges.len(), sheet.topology().boundary_edge_count());
+    assert_eq!(features.border_count, features.edges.len());
+    // two labels on a ball: one closed chain between them, wherever it turns
+    let ball = samples::ball(1500, 4).unwrap();
+    let is_high = |t: &[u32; 3]| t.iter().map(|&node| ball.points()[node as usize].z).sum::<f64>() > 0.0;
+    let labels: Vec<u32> = ball.triangles().iter().map(|t| u32::from(is_high(t))).collect();
+    let options = FeatureOptions { corner_angle: PI, ..FeatureOptions::default().with_labels(&labels) };
+    let features = find(&ball, options);
+    assert_eq!(features.chains.len(), 1);
+    assert!(features.chains[0].is_closed);
+    assert_eq!(features.chains[0].nodes.len(), features.edges.len());
+    // one edge of the caller's, short as it is
+    let given = [ball.triangles()[0][0], ball.triangles()[0][1]];
+    let features = find(&ball, FeatureOptions::default().with_sharp_angle(None).with_sharp_edges(&[given]));
+    assert_eq!(features.edges, [[given[0].min(given[1]), given[0].max(given[1])]]);
+    assert_eq!(features.corners.len(), 2);
+}
+
+#[test]
+fn chains_go_on_along_weak_edges_and_short_bits_go() {
+    // a roof whose ridge flattens out: 60 degrees at one end, 10 at the other
+    let (n, m) = (20, 10);
+    let slope = |x: f64| (60.0 - 50.0 * x / f64::from(n)).to_radians() / 2.0;
+    let mut points = Vec::new();
+    for i in 0..=n {
+        for j in -m..=m {
+            let x = f64::from(i);
+            points.push(DVec3::new(x, f64::from(j), -f64::from(i32::abs(j)) * slope(x).tan()));
+        }
+    }
+    let node = |i: i32, j: i32| (i * (2 * m + 1) + j + m) as u32;
+    let mut triangles = Vec::new();
+    for i in 0..n {
+        for j in -m..m {
+            triangles.extend([
+                [node(i, j), node(i + 1, j), node(i + 1, j + 1)],
+                [node(i, j), node(i + 1, j + 1), node(i, j + 1)],
+            ]);
+        }
+    }
+    let mesh = Mesh::new(points, triangles).unwrap();
+    let ridge = |features: &Features| {
+        let on_ridge = |edge: &&[u32; 2]| edge.iter().all(|&node| mesh.points()[node as usize].y == 0.0);
+        features.edges.iter().filter(on_ridge).count()
+    };
+    let options = FeatureOptions { filter_noise: false, ..FeatureOptions::default() };
+    let sharp = find(&mesh, options.with_weak_angle(PI));
+    let long = find(&mesh, options);
+    assert_eq!(ridge(&sharp) + long.prolonged_count, ridge(&long));
+    assert!(ridge(&sharp) >= 7 && ridge(&long) > ridge(&sharp) + 5, "{} {}", ridge(&sharp), ridge(&long));
+    // a bit is shorter than half the diagonal
+    let bits = find(&mesh, FeatureOptions { least_length: 0.9, ..options });
+    assert_eq!(ridge(&bits), 0);
+    assert_eq!(bits.dropped_count, ridge(&long));
+}
+
+#[test]
+fn refusals_name_the_offender() {
+    let mesh = block([3, 3, 3]);
+    let refuse = |options: FeatureOptions| mesh.find_features(&options).unwrap_err();
+    let base = FeatureOptions::default();
+    assert_eq!(refuse(base.with_sharp_angle(Some(4.0))).kind(), ErrorKind::InvalidArgument);
+    assert_eq!(refuse(FeatureOptions { least_length: f64::NAN, ..base }).kind(), ErrorKind::InvalidArgument);
+    assert_eq!(refuse(base.with_labels(&[1, 2])), FeatureError::LabelCount { given: 2, count: 108 });
+    let far = refuse(base.with_sharp_edges(&[[0, 1], [0, 999]]));
+    assert_eq!((far.kind(), far.index()), (ErrorKind::Index, Some(1)));
+    let none = refuse(base.with_sharp_edges(&[[0, 0]]));
+    assert_eq!((none.kind(), none.index()), (ErrorKind::Topology, Some(0)));
+}
