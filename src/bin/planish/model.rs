@@ -11,14 +11,11 @@ use planish::fit::model::{Family, MeshModelOptions, ModelFit, ModelOptions, fit_
 use planish::fit::report::Remarks;
 use planish::layout::of_mesh::{LayoutKind, MeshLayoutOptions};
 use planish::mesh::{Mesh, MeshRepairs};
+use planish::query::tessellate::TessellateOptions;
 use serde_json::json;
 use std::path::Path;
 
 pub fn run(mesh: &Mesh, repairs: &MeshRepairs, arguments: &FitArguments) -> Result<Outcome, Failure> {
-    if let Some(path) = arguments.out.iter().find(|path| output::is_tessellation(path)) {
-        let path = path.display();
-        return Err(Failure::new(format!("a model is not written to {path}; take .step, .vtu or .planish")));
-    }
     let options = options(arguments);
     let fit = with_bar(arguments.threads, |control| fit_mesh(mesh, &options, control))?;
     let stem = arguments.mesh.file_stem().unwrap_or_default().to_string_lossy();
@@ -74,6 +71,9 @@ fn write(mesh: &Mesh, fit: &ModelFit, path: &Path, text: &StepOptions) -> Result
         }
         _ if output::is_step(path) => {
             step::write(&fit.model, text, path)?;
+        }
+        _ if output::is_tessellation(path) => {
+            output::write_mesh(&fit.model.tessellate(&TessellateOptions::default())?.mesh, path)?;
         }
         _ => native::save_file(&fit.model, path)?,
     }

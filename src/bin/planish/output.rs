@@ -117,7 +117,7 @@ pub fn is_step(path: &Path) -> bool {
 
 /// Whether a name asks for triangles of the surface.
 pub fn is_tessellation(path: &Path) -> bool {
-    extension(path) == "obj"
+    MESHES.contains(&extension(path).as_str())
 }
 
 /// A fit by any method.
