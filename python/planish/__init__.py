@@ -15,7 +15,7 @@ from ._fields import FieldFitter, Transfer
 from ._d1rc import D1rcSurface, smooth_creased
 from ._fit import fit, fit_field, fit_points, skin, skin_curves
 from ._library import Cancelled, Error, FileError, InvalidError, OutOfMemoryError, RangeError
-from ._mesh import Mesh, read_mesh
+from ._mesh import Mesh, read_mesh, read_mesh_bytes
 from ._records import Report
 from ._pht import Extraction, PhtSurface, pht, pht_from_surface
 from ._surface import BezierPatch, Curvatures, Surface, load, loads
@@ -54,6 +54,7 @@ __all__ = [
     "pht",
     "pht_from_surface",
     "read_mesh",
+    "read_mesh_bytes",
     "skin",
     "skin_curves",
     "smooth_creased",

@@ -18,10 +18,10 @@ class Mesh(Handle):
     """A triangle mesh with its boundary loops, parameters and fields on the nodes.
 
     points: (n, 3) coordinates.
-    triangles: (m, 3) numbers of nodes, counted from 0; all turned the same way, or ``orient=True``.
+    triangles: (m, 3) numbers of nodes, counted from 0; faults are mended as ``repair`` says, see `repaired`.
     uv: (n, 2) parameters of the nodes, or None.
     fields: names and (n,) values on the nodes.
-    options: those of `planish_mesh_options`, such as ``weld_distance`` and ``orient``.
+    options: those of `planish_mesh_options`, such as ``weld_distance`` and ``repair``.
 
     Raises a ValueError that names the offender if the triangles do not make a surface.
     """
@@ -118,6 +118,24 @@ class Mesh(Handle):
     def uv(self, uv: Any) -> None:
         uv = array(uv, width=2, what="uv")
         call("planish_mesh_set_parameters", self, pointer(uv), len(uv))
+
+    @property
+    def node_map(self) -> np.ndarray:
+        """What each node was in the arrays or the file, or in the mesh that this one was cut from."""
+        return self._copied("planish_mesh_copy_node_map", self.n_points, 1, np.uint32)[:, 0]
+
+    @property
+    def triangle_map(self) -> np.ndarray:
+        """What each triangle was: the triangle of the arrays, the face of the file, the triangle of the other mesh."""
+        return self._copied("planish_mesh_copy_triangle_map", self.n_triangles, 1, np.uint32)[:, 0]
+
+    def write(self, path: str | os.PathLike, **write_options: Any) -> None:
+        """Writes OFF, OBJ, PLY or STL, as the name ends; uv where the format can, fields in PLY.
+
+        options: those of `planish_mesh_write_options`, such as ``text=True``.
+        """
+        record = options("mesh_write_options", write_options)
+        call("planish_mesh_write", self, path_of(path), by_reference(record))
 
     @property
     def loops(self) -> list[np.ndarray]:
@@ -317,11 +335,23 @@ def _names(fields: Any) -> Iterable[str]:
 def read_mesh(path: str | os.PathLike, **mesh_options: Any) -> Mesh:
     """Reads OBJ, OFF, PLY or STL. What had to be mended stands in the mesh's `repaired`.
 
+    options: those of `planish_mesh_options`, such as ``repair={"sheets", ...}`` and ``components="largest"``.
+    """
+    return _read("planish_mesh_read", path_of(path), mesh_options=mesh_options)
+
+
+def read_mesh_bytes(content: bytes, **mesh_options: Any) -> Mesh:
+    """Reads the content of such a file; ``format="ply"`` says what it is, or else the content itself.
+
     options: those of `planish_mesh_options`.
     """
+    return _read("planish_mesh_read_buffer", content, len(content), mesh_options=mesh_options)
+
+
+def _read(function: str, *source: Any, mesh_options: Mapping[str, Any]) -> Mesh:
     repairs = report_record("mesh_repairs")
     record = options("mesh_options", mesh_options, out_repairs=repairs)
-    _, handle = made("planish_mesh_read", path_of(path), by_reference(record), OUT)
+    _, handle = made(function, *source, by_reference(record), OUT)
     mesh = Mesh._own(handle)
     mesh.repaired = Report(repairs)
     return mesh

@@ -128,3 +128,23 @@ def _tube(n=24, m=12):
     right = np.roll(node, -1, axis=1)
     a, b, c, d = node[:-1].ravel(), right[:-1].ravel(), right[1:].ravel(), node[1:].ravel()
     return points, np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)]).astype(np.uint32)
+
+
+def test_files_and_bytes_come_back(tmp_path):
+    mesh = planish.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+    mesh["width"] = [1, 2, 3, 4]
+    for name in ["a.off", "a.obj", "a.ply", "a.stl"]:
+        mesh.write(tmp_path / name)
+        read = planish.read_mesh(tmp_path / name)
+        assert read.n_triangles == 2
+        assert planish.read_mesh_bytes((tmp_path / name).read_bytes(), format=name[2:]).n_triangles == 2
+    assert list(planish.read_mesh(tmp_path / "a.ply")["width"]) == [1, 2, 3, 4]
+
+
+def test_repairs_are_told_and_chosen():
+    points, triangles = np.eye(4, 3), [[0, 1, 2], [0, 1, 2]]
+    mesh = planish.Mesh(points, triangles)
+    assert (mesh.repaired.duplicate_triangle_count, mesh.repaired.unused_node_count) == (1, 1)
+    assert list(mesh.triangle_map) == [0] and list(mesh.node_map) == [0, 1, 2, 3]
+    with pytest.raises(ValueError, match="'copies'"):
+        planish.Mesh(points, triangles, repair="none")

@@ -68,6 +68,9 @@ enum SharpName {
 pub fn run(arguments: &D1rcArguments) -> Result<Outcome, Failure> {
     output::check_names(&arguments.out)?;
     let (mut mesh, repairs) = arguments.input.read(&arguments.mesh)?;
+    if let Some(piece) = mesh.without_unused_nodes() {
+        mesh = piece.mesh; // a control point that no face needs moves nothing
+    }
     if arguments.ignore_parameters {
         mesh.clear_parameters();
     }

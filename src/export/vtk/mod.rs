@@ -156,7 +156,8 @@ pub fn write_model(
     Ok(write_mesh(&moved, &[deviation], path)?)
 }
 
-/// A mesh with its nodes on a surface in space, at these parameters. Nodes without triangles stay where they are.
+/// A mesh with its nodes on a surface in space, at these parameters. Nodes without triangles stay where they are, if they
+/// are anywhere.
 pub fn on_surface(surface: &dyn Surface, mesh: &Mesh, uv: &[DVec2]) -> Result<Mesh, MeshError> {
     let some_place = uv[mesh.triangles()[0][0] as usize];
     let is_used = |node: usize| mesh.is_used(node as u32);
@@ -164,7 +165,10 @@ pub fn on_surface(surface: &dyn Surface, mesh: &Mesh, uv: &[DVec2]) -> Result<Me
         uv.iter().enumerate().map(|(node, &uv)| if is_used(node) { uv } else { some_place }).collect();
     let mut rows = vec![0.0; 3 * uv.len()];
     surface.eval_rows(&uv, 0, &mut rows);
-    let place = |(node, row)| if is_used(node) { DVec3::from_slice(row) } else { mesh.points()[node] };
+    let place = |(node, row): (usize, &[f64])| match mesh.points()[node] {
+        point if point.is_finite() && !is_used(node) => point,
+        _ => DVec3::from_slice(row),
+    };
     let mut moved =
         Mesh::new(rows.chunks_exact(3).enumerate().map(place).collect(), mesh.triangles().to_vec())?;
     moved.set_parameters(uv)?;
