@@ -26,6 +26,7 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -632,6 +633,15 @@ struct curvature {
   point3 d1;
   /// Unit tangent along which the curvature is k2.
   point3 d2;
+
+  /// From eight numbers, as C has them.
+  static curvature of(const std::array<double, 8> &c) {
+    return {c[0], c[1], {c[2], c[3], c[4]}, {c[5], c[6], c[7]}};
+  }
+  /// Whether all numbers are equal.
+  friend bool operator==(const curvature &a, const curvature &b) {
+    return a.k1 == b.k1 && a.k2 == b.k2 && a.d1 == b.d1 && a.d2 == b.d2;
+  }
 };
 
 /// Where points lie on a surface.
@@ -809,10 +819,7 @@ class surface {
     std::vector<std::array<double, 8>> all(uv.count());
     detail::checked(planish_surface_curvatures(get(), uv.data(), uv.count(), &options, detail::flat(all)));
     std::vector<curvature> curvatures;
-    curvatures.reserve(all.size());
-    for (const auto &c : all) {
-      curvatures.push_back({c[0], c[1], {c[2], c[3], c[4]}, {c[5], c[6], c[7]}});
-    }
+    std::transform(all.begin(), all.end(), std::back_inserter(curvatures), curvature::of);
     return curvatures;
   }
 
@@ -1286,21 +1293,27 @@ class model {
   }
 
   /// Unit normals at parameters on faces, out of the fronts of the faces.
-  std::vector<double> normals(const values<std::uint32_t> &faces, const rows<double, 2> &uv,
-                              const planish_eval_options &options = defaults<planish_eval_options>()) const {
+  std::vector<point3> normals(const values<std::uint32_t> &faces, const rows<double, 2> &uv,
+                              planish_eval_options options = defaults<planish_eval_options>()) const {
     detail::check_rows(faces.count(), uv.count(), 1);
-    return detail::filled(uv.count(), 3, options, [&](double *out) {
-      return planish_model_normals(get(), faces.data(), uv.data(), uv.count(), &options, out);
-    });
+    options.out_stride = 0;
+    std::vector<point3> normals(uv.count());
+    detail::checked(
+        planish_model_normals(get(), faces.data(), uv.data(), uv.count(), &options, detail::flat(normals)));
+    return normals;
   }
 
-  /// Rows of 8 numbers: the principal curvatures k1 >= k2 and the unit tangents d1, d2.
-  std::vector<double> curvatures(const values<std::uint32_t> &faces, const rows<double, 2> &uv,
-                                 const planish_eval_options &options = defaults<planish_eval_options>()) const {
+  /// Principal curvatures and directions at parameters on faces.
+  std::vector<curvature> curvatures(const values<std::uint32_t> &faces, const rows<double, 2> &uv,
+                                    planish_eval_options options = defaults<planish_eval_options>()) const {
     detail::check_rows(faces.count(), uv.count(), 1);
-    return detail::filled(uv.count(), 8, options, [&](double *out) {
-      return planish_model_curvatures(get(), faces.data(), uv.data(), uv.count(), &options, out);
-    });
+    options.out_stride = 0;
+    std::vector<std::array<double, 8>> all(uv.count());
+    detail::checked(
+        planish_model_curvatures(get(), faces.data(), uv.data(), uv.count(), &options, detail::flat(all)));
+    std::vector<curvature> curvatures;
+    std::transform(all.begin(), all.end(), std::back_inserter(curvatures), curvature::of);
+    return curvatures;
   }
 
   /// The places nearest to points.
