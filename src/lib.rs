@@ -18,7 +18,7 @@
 //!
 //! The tree is the architecture; arrows run downwards only, a module knows what stands above it:
 //!
-//! * [`error`], [`control`]: what can go wrong; threads, progress and cancelling.
+//! * [`failure`], [`control`]: what a failure is; threads, progress and cancelling.
 //! * [`file`], [`memory`]: files read and written as a whole, and how much of them there is room for.
 //! * [`geometry`]: boxes, exact predicates.
 //! * [`knots`], [`basis`], [`refinement`], [`bezier`], [`hermite`]: one-dimensional building blocks, and patches
@@ -35,6 +35,7 @@
 //! * [`model`]: faces that share edges and vertices.
 //! * [`fit`]: one measure of error for all, and the methods.
 //! * [`export`]: files for other programs, the library's own format.
+//! * [`error`]: the errors of all modules as one.
 //! * [`samples`]: seeded shapes for demonstrations, tests and benchmarks.
 //! * [`ffi`]: the C ABI, documented in `include/planish.h`.
 

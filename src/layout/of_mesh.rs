@@ -1,7 +1,7 @@
 //! Layouts made for meshes, with the places of their nodes: `theory/closed.md` 3.
 //!
 //! A closed mesh of genus 0 may become a cube: its nodes go on to the sphere and from there on to the cube's faces. Any
-//! closed mesh has a base complex ([`complex`](super::complex)), whose patches follow the shape.
+//! closed mesh has a base complex (`complex`), whose patches follow the shape.
 
 use super::{Layout, LayoutError, NodeMap, complex, cube_place};
 use crate::Control;

@@ -7,8 +7,8 @@
 //! 2. Nodes come back in the reverse order. The place of a node is one from which all edges of its ring are seen from
 //!    inside (`place`): there is one beside the node it had gone to, whose triangles were positive.
 //! 3. Guarded Newton steps lower the symmetric Dirichlet energy of the triangles around one node
-//!    ([`dirichlet`](super::dirichlet)): of each new node, of its ring now and then, and in sweeps over all nodes whenever
-//!    their number has grown by [`GROWTH`]. Nodes of one colour are no neighbours and move at the same time.
+//!    (`dirichlet`): of each new node, of its ring now and then, and in sweeps over all nodes whenever
+//!    their number has grown by `GROWTH`. Nodes of one colour are no neighbours and move at the same time.
 //!
 //! No step ever turns a triangle over, so the map is one to one however far it has come. Areas in space are scaled to
 //! those of the sphere: the energy per area is 4 for an isometry.
