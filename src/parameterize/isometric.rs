@@ -35,6 +35,8 @@ pub fn unroll(mesh: &Mesh, start: &[DVec2], pool: &Pool) -> Option<Vec<DVec2>> {
     let n = mesh.points().len();
     let mut uv = sheet.scaled(start);
     for _ in 0..TURNS {
+        // a cancelled call throws its map away
+        pool.check().ok()?;
         let mut columns = pool.run(|| sheet.right_sides(mesh, &uv));
         factor.solve(&mut columns, 2);
         let moved: Vec<DVec2> = (0..n).map(|i| DVec2::new(columns[i], columns[n + i])).collect();
@@ -46,6 +48,7 @@ pub fn unroll(mesh: &Mesh, start: &[DVec2], pool: &Pool) -> Option<Vec<DVec2>> {
             break;
         }
     }
+    pool.check().ok()?;
     let mut upright = in_unit_square(mesh, &uv);
     mesh.unused_nodes().iter().for_each(|&node| upright[node as usize] = start[node as usize]);
     let is_open = |t: &[u32; 3]| {

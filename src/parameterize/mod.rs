@@ -155,12 +155,14 @@ pub fn parameterize_weighted(
         let mut uv = given.clone();
         uv.resize(patch.points.len(), DVec2::ZERO);
         line.place(&mut uv);
+        control.pool().check()?;
         system.solve(&mut uv, control);
         first_maps.push(uv);
     }
     let mut best: Option<Map> = None;
     let count = lines.len() as f64;
     for (i, (line, uv)) in lines.into_iter().zip(first_maps).enumerate() {
+        control.pool().check()?;
         let map = Map::new(&patch, line, first_weights.clone(), uv, node_weights, control);
         let mut stage = Part { control: &mut *control, from: i as f64 / count, to: (i + 1) as f64 / count };
         let map = lower_stretch(map, &mut system, options, node_weights, &mut stage)?;
@@ -169,6 +171,7 @@ pub fn parameterize_weighted(
             _ => map,
         });
     }
+    control.pool().check()?;
     let best = best.expect("there is at least one border");
     let mut report = best.report(mesh, system.factor_count);
     report.remarks.insert_if(Remarks::HOLES_FILLED, patch.points.len() > patch.mesh_node_count);
@@ -179,6 +182,7 @@ pub fn parameterize_weighted(
         let is_wanted = options.border == Border::Free;
         let least_gain = if is_wanted { f64::NEG_INFINITY } else { LEAST_GAIN };
         let has_unrolled = unroll(mesh, &mut uv, &mut report, least_gain, control);
+        control.pool().check()?;
         if is_wanted && !has_unrolled {
             return Err(ParameterizeError::CannotUnroll);
         }

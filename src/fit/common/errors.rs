@@ -17,6 +17,10 @@ pub fn data_errors(surface: &dyn Surface, uv: &[DVec2], values: &[f64], pool: &P
     pool.run(|| {
         each.par_chunks_mut(CHUNK).zip(uv.par_chunks(CHUNK)).zip(values.par_chunks(CHUNK * dim)).for_each(
             |((each, uv), values)| {
+                // a cancelled call throws its errors away
+                if pool.check().is_err() {
+                    return;
+                }
                 let mut rows = vec![0.0; uv.len() * dim];
                 surface.eval_rows(uv, 0, &mut rows);
                 for ((error, row), value) in each.iter_mut().zip(rows.chunks(dim)).zip(values.chunks(dim)) {

@@ -38,6 +38,10 @@ pub fn foot_points(
         data.for_each_init(
             || vec![0.0; 3 * dim],
             |row, (datum, (uv, value))| {
+                // a cancelled call throws its foot points away
+                if pool.check().is_err() {
+                    return;
+                }
                 for _ in 0..STEPS {
                     surface.eval_rows(&[*uv], 1, row);
                     let longest = longest(*uv);

@@ -60,6 +60,10 @@ pub fn heights_over(surface: &dyn Surface, uv: &[DVec2], values: &[f64], pool: &
     pool.run(|| {
         let data = uv.par_chunks(CHUNK).zip(values.par_chunks(3 * CHUNK));
         heights.par_chunks_mut(CHUNK).zip(data).for_each(|(heights, (uv, values))| {
+            // a cancelled call throws its heights away
+            if pool.check().is_err() {
+                return;
+            }
             let mut rows = vec![0.0; uv.len() * 9];
             surface.eval_rows(uv, 1, &mut rows);
             for ((height, row), value) in heights.iter_mut().zip(rows.chunks(9)).zip(values.chunks(3)) {

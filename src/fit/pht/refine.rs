@@ -162,10 +162,12 @@ impl<'a> Refinement<'a> {
         let sweeps = if self.data.is_shape { options.correction_sweeps } else { 0 };
         for _ in 0..sweeps {
             self.data.uv = moved(&self.data, &surface, pool);
+            watch.check()?;
             by_leaf = ByLeaf::sort(&mesh, &topology, &self.data, pool);
             surface = estimate(&self.data, &by_leaf)?;
         }
         let errors = data_errors(&surface, &self.data.uv, &self.data.values, pool);
+        watch.check()?;
         let rough = self.rough_leaves(&surface, &errors, &by_leaf, pool);
         Ok(Round { surface, errors, uv: self.data.uv.clone(), rough, smoothing })
     }
