@@ -16,7 +16,8 @@ pub struct EvalArguments {
     /// Text file with u and v in each line; - reads standard input.
     #[arg(long, value_name = "FILE", conflicts_with = "grid")]
     uv: Option<PathBuf>,
-    /// A grid over the domain instead, such as 10x20.
+    /// A grid over the box of the data instead, such as 10x20, in lines that end with flags: 0, or the sum of 1 (outside
+    /// the domain), 2 (outside the trims) and 4 (beyond the data).
     #[arg(long, value_name = "UxV")]
     grid: Option<String>,
     /// Derivatives up to this order: S, Su, Sv, Suu, Suv, Svv.
@@ -32,7 +33,7 @@ pub fn run(arguments: &EvalArguments) -> Result<Outcome, Failure> {
     let surface = surface.as_surface();
     let uv = match (&arguments.uv, &arguments.grid) {
         (Some(path), _) => read_pairs(path)?,
-        (None, Some(grid)) => grid_pairs(grid, &surface.domain())?,
+        (None, Some(grid)) => grid_pairs(grid, &surface.region().data_box.unwrap_or_else(|| surface.domain()))?,
         (None, None) => return Err(Failure::new("give --uv FILE or --grid UxV")),
     };
     let count = uv.len() / 2;
@@ -42,11 +43,13 @@ pub fn run(arguments: &EvalArguments) -> Result<Outcome, Failure> {
     let mut values = vec![0.0; count * width];
     let control = Control::default();
     let points = Points::new(&uv, 2, count);
-    let output = Output { rows: &mut values, stride: width, flags: &mut [] };
+    let mut flags = vec![0; if arguments.grid.is_some() { count } else { 0 }];
+    let output = Output { rows: &mut values, stride: width, flags: &mut flags };
     evaluate(surface, quantity, points, rule, output, control.pool())?;
     let mut text = String::new();
-    for (uv, row) in uv.chunks_exact(2).zip(values.chunks_exact(width)) {
-        let numbers: Vec<String> = uv.iter().chain(row).map(f64::to_string).collect();
+    for (place, (uv, row)) in uv.chunks_exact(2).zip(values.chunks_exact(width)).enumerate() {
+        let mut numbers: Vec<String> = uv.iter().chain(row).map(f64::to_string).collect();
+        numbers.extend(flags.get(place).map(u8::to_string));
         text.push_str(&numbers.join(" "));
         text.push('\n');
     }

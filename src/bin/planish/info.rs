@@ -121,6 +121,10 @@ fn surface_table(path: &Path, surface: &AnySurface) -> Table {
         "domain",
         format!("u {} to {}, v {} to {}", domain.min.x, domain.max.x, domain.min.y, domain.max.y),
     );
+    if let Some(data) = surface.region().data_box {
+        let (min, max) = (data.min, data.max);
+        table.row("box of the data", format!("u {} to {}, v {} to {}", min.x, max.x, min.y, max.y));
+    }
     table.row("trims", surface.region().trims.loops().len().to_string());
     table
 }
