@@ -212,6 +212,12 @@ module planish_records
   integer(c_int32_t), parameter, public :: PLANISH_TOLERANCE_SCALE_RELATIVE = 0
   integer(c_int32_t), parameter, public :: PLANISH_TOLERANCE_SCALE_ABSOLUTE = 1 !! Model units
 
+  !> Where the knot lines of a tensor fit stand.
+  !> Where the error asks for them: lines are inserted and taken out one by one
+  integer(c_int32_t), parameter, public :: PLANISH_KNOTS_ADAPTIVE = 0
+  !> At equal distances: all cells are halved in one direction at a time
+  integer(c_int32_t), parameter, public :: PLANISH_KNOTS_UNIFORM = 1
+
   !> Which equations determine a tensor surface on a grid.
   !> Least squares in the spline space
   integer(c_int32_t), parameter, public :: PLANISH_TENSOR_METHOD_LEAST_SQUARES = 0
@@ -691,8 +697,10 @@ module planish_records
     integer(c_size_t) :: struct_size = 10 * word + 72
     !> The largest error allowed at the data, positive, measured in tolerance_scale
     real(c_double) :: tolerance = 1e-3_c_double
-    !> Weight of the bending energy; 0 (default) takes the largest of 1e-3, 1e-4, 1e-5, 1e-6 that meets the tolerance
-    !> (for PLANISH_TENSOR_METHOD_FERGUSON 1e-3)
+    !> Weight of the bending energy; 0 (default) finds one: of uniform knots the largest of 1e-3, 1e-4, 1e-5, 1e-6
+    !> that meets the tolerance (for PLANISH_TENSOR_METHOD_FERGUSON 1e-3), of adaptive knots 1e-11 or less, the weight
+    !> of a thin plate over the unit square against the mean square error; where the tolerance is out of reach,
+    !> adaptive knots take the one of least generalized cross-validation
     real(c_double) :: smoothing = 0
     !> How far the knots reach beyond the data, as a fraction of the data's range, 0 to 10
     real(c_double) :: buffer = 0.1_c_double
@@ -712,8 +720,8 @@ module planish_records
     integer(c_size_t) :: max_coefficients = 66049 !! Most unknowns of one grid, at least 4
     integer(c_int32_t) :: tolerance_scale = PLANISH_TOLERANCE_SCALE_RELATIVE !! A planish_tolerance_scale
     integer(c_int32_t) :: method = PLANISH_TENSOR_METHOD_LEAST_SQUARES !! A planish_tensor_method
-    integer(c_int32_t) :: ends = PLANISH_ENDS_NATURAL !! A planish_ends
-    integer(c_int32_t) :: energy = PLANISH_ENERGY_BEAM !! A planish_energy
+    integer(c_int32_t) :: ends = PLANISH_ENDS_NATURAL !! A planish_ends, of uniform knots
+    integer(c_int32_t) :: energy = PLANISH_ENERGY_BEAM !! A planish_energy, of uniform knots
     integer(c_int32_t) :: regularize = PLANISH_REGULARIZE_AUTO !! A planish_regularize
     integer(c_int32_t) :: max_grid = 257 !! Most knots along one direction, at least 2
     !> Knots along u to use without refinement, 2 to 8193; 0 (default, then grid_v too) refines
@@ -724,7 +732,7 @@ module planish_records
     integer(c_int32_t) :: correction_sweeps = 0
     integer(c_int32_t) :: measure_distance = 0 !! 1 measures the closest-point distance of the nodes for the report
     integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 (default) for all cores
-    integer(c_int32_t) :: reserved = 0
+    integer(c_int32_t) :: knots = PLANISH_KNOTS_ADAPTIVE !! A planish_knots
   end type
 
   !> How fields are fitted.

@@ -258,8 +258,8 @@ FOLLOWS(planish_tensor_options, grid_u, grid_v);
 FOLLOWS(planish_tensor_options, grid_v, correction_sweeps);
 FOLLOWS(planish_tensor_options, correction_sweeps, measure_distance);
 FOLLOWS(planish_tensor_options, measure_distance, thread_count);
-FOLLOWS(planish_tensor_options, thread_count, reserved);
-LAST(planish_tensor_options, reserved);
+FOLLOWS(planish_tensor_options, thread_count, knots);
+LAST(planish_tensor_options, knots);
 
 FIRST(planish_field_options);
 FOLLOWS(planish_field_options, struct_size, tolerance);

@@ -543,6 +543,20 @@ typedef enum planish_tolerance_scale {
 } planish_tolerance_scale;
 
 /**
+ * Where the knot lines of a tensor fit stand.
+ */
+typedef enum planish_knots {
+    /**
+     * Where the error asks for them: lines are inserted and taken out one by one.
+     */
+    PLANISH_KNOTS_ADAPTIVE = 0,
+    /**
+     * At equal distances: all cells are halved in one direction at a time.
+     */
+    PLANISH_KNOTS_UNIFORM = 1,
+} planish_knots;
+
+/**
  * Which equations determine a tensor surface on a grid.
  */
 typedef enum planish_tensor_method {
@@ -1799,12 +1813,15 @@ typedef struct planish_tensor_options {
      */
     double tolerance;
     /**
-     * Weight of the bending energy; 0 (default) takes the largest of 1e-3, 1e-4, 1e-5, 1e-6 that meets the
-     * tolerance (for PLANISH_TENSOR_METHOD_FERGUSON 1e-3).
+     * Weight of the bending energy; 0 (default) finds one: of uniform knots the largest of 1e-3, 1e-4, 1e-5,
+     * 1e-6 that meets the tolerance (for PLANISH_TENSOR_METHOD_FERGUSON 1e-3), of adaptive knots 1e-11 or
+     * less, the weight of a thin plate over the unit square against the mean square error; where the
+     * tolerance is out of reach, adaptive knots take the one of least generalized cross-validation.
      */
     double smoothing;
     /**
      * How far the knots reach beyond the data, as a fraction of the data's range, 0 to 10. Default 0.1.
+     * Adaptive knots reach less far where the surface would leave the box of its data.
      */
     double buffer;
     /**
@@ -1859,11 +1876,11 @@ typedef struct planish_tensor_options {
      */
     uint32_t method;
     /**
-     * A planish_ends. Default PLANISH_ENDS_NATURAL.
+     * A planish_ends, of uniform knots. Default PLANISH_ENDS_NATURAL.
      */
     uint32_t ends;
     /**
-     * A planish_energy. Default PLANISH_ENERGY_BEAM.
+     * A planish_energy, of uniform knots. Default PLANISH_ENERGY_BEAM.
      */
     uint32_t energy;
     /**
@@ -1896,9 +1913,10 @@ typedef struct planish_tensor_options {
      */
     uint32_t thread_count;
     /**
-     * 0.
+     * A planish_knots. Default PLANISH_KNOTS_ADAPTIVE. Knots given by grid_u and grid_v, and those of
+     * PLANISH_TENSOR_METHOD_FERGUSON, are uniform always.
      */
-    uint32_t reserved;
+    uint32_t knots;
 } planish_tensor_options;
 
 /**

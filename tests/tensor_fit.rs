@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 use planish::Control;
 use planish::fit::common::{FitError, Regularize};
 use planish::fit::report::{FitReport, Remarks, StopReason, Tolerance, ToleranceScale};
-use planish::fit::tensor::{Ends, Method, TensorFit, TensorOptions, fit_field, fit_mesh, fit_points};
+use planish::fit::tensor::{Ends, Knots, Method, TensorFit, TensorOptions, fit_field, fit_mesh, fit_points};
 use planish::mesh::Mesh;
 use planish::samples::{self, Random};
 use planish::surface::Surface;
@@ -23,6 +23,7 @@ fn largest_side(mesh: &Mesh) -> f64 {
 fn as_in_the_table(mesh: &Mesh) -> TensorOptions<'static> {
     TensorOptions {
         tolerance: Tolerance { value: 1e-4 * largest_side(mesh), scale: ToleranceScale::Absolute },
+        knots: Knots::Uniform,
         max_coefficients: 5000,
         max_grid: 1025,
         ..TensorOptions::default()
@@ -145,7 +146,7 @@ fn errors_on_the_sphere_fall_as_in_the_table() {
 #[test]
 fn what_was_asked_for_is_kept_or_the_report_says_so() {
     let mut held_out = Vec::new();
-    for seed in 0..100 {
+    for seed in 0..40 {
         let (mesh, height) = samples::bumps([40, 30], 3, seed).unwrap();
         for tolerance in [1e-2, 1e-3, 1e-4, 1e-5] {
             let options = TensorOptions {
@@ -157,8 +158,13 @@ fn what_was_asked_for_is_kept_or_the_report_says_so() {
             let report = &result.report;
             let is_met = report.max_error <= tolerance * report.diagonal;
             assert_eq!(is_met, !report.remarks.has(Remarks::TOLERANCE_NOT_MET), "seed {seed}");
-            assert!(is_met || report.stop == StopReason::Limit, "seed {seed} at {tolerance:e}: {report:?}");
-            assert!(is_met || tolerance <= 1e-5, "seed {seed} misses {tolerance:e}: {:e}", report.max_error);
+            let is_limit = [StopReason::Limit, StopReason::DataExhausted].contains(&report.stop);
+            assert!(is_met || is_limit, "seed {seed} at {tolerance:e}: {report:?}");
+            assert!(is_met || tolerance <= 1e-4, "seed {seed} misses {tolerance:e}: {:e}", report.max_error);
+            assert!(
+                report.coefficient_count <= mesh.points().len(),
+                "seed {seed} at {tolerance:e}: {report:?}"
+            );
             held_out.push(held_out_error(&result, &height, seed) / report.max_error.max(1e-9));
         }
     }
@@ -290,15 +296,15 @@ fn bits_do_not_depend_on_threads() {
     }
 }
 
-/// Mesh, most coefficients at 1e-2 of the diagonal, and at 1e-3 either most coefficients or the error at the
-/// cap of 257 x 257.
+/// Mesh, most coefficients at 1e-2 of the diagonal, and at 1e-3 either most coefficients or the error with as
+/// many as there are nodes.
 const REAL: [(&str, usize, Result<usize, f64>); 6] = [
-    ("maxface_disk_4k.off", 1089, Ok(33_153)),
-    ("camelhead_disk_11k.off", 16_641, Err(2e-3)),
-    ("igea_disk_43k.ply", 2145, Err(1.2e-3)),
-    ("neon_side_holes_16k.off", 561, Err(1.5e-3)),
-    ("blow_shell_displacement.ply", 10, Ok(1089)),
-    ("mannequin_disk_13k.off", 66_049, Err(1e-2)),
+    ("maxface_disk_4k.off", 240, Ok(2400)),
+    ("camelhead_disk_11k.off", 1300, Err(3.5e-3)),
+    ("igea_disk_43k.ply", 720, Err(1.6e-3)),
+    ("neon_side_holes_16k.off", 150, Ok(4500)),
+    ("blow_shell_displacement.ply", 16, Ok(81)),
+    ("mannequin_disk_13k.off", 2600, Err(5.5e-3)),
 ];
 
 #[test]
@@ -318,7 +324,9 @@ fn real_meshes_need_no_more_coefficients_than_measured_before() {
         let (error, count) = at(1e-3);
         match fine {
             Ok(most) => assert!(error <= 1e-3 && count <= most, "{name}: {error:e} with {count}"),
-            Err(most) => assert!(error <= most && count <= 66_049, "{name}: {error:e} with {count}"),
+            Err(most) => {
+                assert!(error <= most && count <= mesh.points().len(), "{name}: {error:e} with {count}")
+            }
         }
     }
 }
@@ -351,17 +359,63 @@ fn a_field_that_meets_its_tolerance_says_so() {
 
 #[test]
 fn a_height_field_without_parameters_takes_few_coefficients() {
-    // Franke's function, the hills and dales of scattered data interpolation
-    let franke = |p: DVec2| {
-        let (x, y) = (9.0 * p.x, 9.0 * p.y);
-        0.75 * (-((x - 2.0).powi(2) + (y - 2.0).powi(2)) / 4.0).exp()
-            + 0.75 * (-(x + 1.0).powi(2) / 49.0 - (y + 1.0) / 10.0).exp()
-            + 0.5 * (-((x - 7.0).powi(2) + (y - 3.0).powi(2)) / 4.0).exp()
-            - 0.2 * (-(x - 4.0).powi(2) - (y - 7.0).powi(2)).exp()
-    };
     let (places, triangles) = samples::grid([100, 100], 0.2, 1, |_| true);
     let mesh = Mesh::new(places.iter().map(|&p| p.extend(franke(p))).collect(), triangles).unwrap();
     let report = fit(&mesh, &TensorOptions::default()).report;
     assert!(report.max_error <= report.tolerance, "{report:?}");
     assert!(report.coefficient_count < 1000, "{report:?}");
+}
+
+/// Franke's function, the hills and dales of scattered data interpolation.
+fn franke(p: DVec2) -> f64 {
+    let (x, y) = (9.0 * p.x, 9.0 * p.y);
+    0.75 * (-((x - 2.0).powi(2) + (y - 2.0).powi(2)) / 4.0).exp()
+        + 0.75 * (-(x + 1.0).powi(2) / 49.0 - (y + 1.0) / 10.0).exp()
+        + 0.5 * (-((x - 7.0).powi(2) + (y - 3.0).powi(2)) / 4.0).exp()
+        - 0.2 * (-(x - 4.0).powi(2) - (y - 7.0).powi(2)).exp()
+}
+
+/// MATLAB's peaks over the unit square, a twentieth as high.
+fn peaks(p: DVec2) -> f64 {
+    let (x, y) = (6.0 * p.x - 3.0, 6.0 * p.y - 3.0);
+    0.05 * (3.0 * (1.0 - x).powi(2) * (-x * x - (y + 1.0).powi(2)).exp()
+        - 10.0 * (x / 5.0 - x.powi(3) - y.powi(5)) * (-x * x - y * y).exp()
+        - (-(x + 1.0).powi(2) - y * y).exp() / 3.0)
+}
+
+/// Rows (x, y, height) at places.
+fn heights(places: &[DVec2], height: impl Fn(DVec2) -> f64) -> Vec<f64> {
+    places.iter().flat_map(|&p| [p.x, p.y, height(p)]).collect()
+}
+
+/// The largest distance between a surface and rows.
+fn distance(surface: &impl Surface, uv: &[DVec2], values: &[f64]) -> f64 {
+    let mut rows = vec![0.0; values.len()];
+    surface.eval_rows(uv, 0, &mut rows);
+    let rows = rows.chunks_exact(3).zip(values.chunks_exact(3));
+    rows.map(|(a, b)| DVec3::from_slice(a).distance(DVec3::from_slice(b))).fold(0.0, f64::max)
+}
+
+#[test]
+fn free_knots_take_few_coefficients_and_hold_at_places_not_given() {
+    let functions: [(&str, fn(DVec2) -> f64, usize); 2] = [("peaks", peaks, 360), ("Franke", franke, 250)];
+    for (name, function, most) in functions {
+        let (places, _) = samples::grid([100, 100], 0.3, 7, |_| true);
+        let tolerance = Tolerance { value: 1e-3, scale: ToleranceScale::Absolute };
+        let options = TensorOptions { tolerance, ..TensorOptions::default() };
+        let result =
+            fit_points(&places, &heights(&places, function), 3, &options, &mut Control::new(2)).unwrap();
+        let report = &result.report;
+        assert_eq!(report.stop, StopReason::ToleranceMet, "{name}: {report:?}");
+        assert!(report.max_error <= 1e-3 && report.coefficient_count <= most, "{name}: {report:?}");
+        let mut random = Random::new(1);
+        let others: Vec<DVec2> = (0..20_000).map(|_| DVec2::new(random.unit(), random.unit())).collect();
+        let held = distance(&result.surface, &others, &heights(&others, function));
+        // places between data may be worse, by little
+        assert!(held <= 1.15e-3, "{name}: {held:e} at places not given");
+        let uniform = TensorOptions { knots: Knots::Uniform, ..options };
+        let uniform =
+            fit_points(&places, &heights(&places, function), 3, &uniform, &mut Control::new(2)).unwrap();
+        assert!(uniform.report.coefficient_count > 2 * most, "{name}: {:?}", uniform.report);
+    }
 }

@@ -139,6 +139,10 @@ ENUMERATIONS = {
         "relative": 0,
         "absolute": 1,
     },
+    "planish_knots": {
+        "adaptive": 0,
+        "uniform": 1,
+    },
     "planish_tensor_method": {
         "least_squares": 0,
         "ferguson": 1,
@@ -667,7 +671,7 @@ class planish_tensor_options(Structure):
         ("correction_sweeps", c_uint32),
         ("measure_distance", c_uint32),
         ("thread_count", c_uint32),
-        ("reserved", c_uint32),
+        ("knots", c_uint32),
     ]
     choices = {
         "out_stage": "planish_stage",
@@ -676,6 +680,7 @@ class planish_tensor_options(Structure):
         "ends": "planish_ends",
         "energy": "planish_energy",
         "regularize": "planish_regularize",
+        "knots": "planish_knots",
     }
     elements = {
         "weights": c_double,

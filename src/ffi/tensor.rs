@@ -1,8 +1,7 @@
 //! Tensor product B-spline surfaces: fits, parts in and out.
 
 use super::arguments::{
-    ArgumentError, Record, array_len, choice, copy, copy_rows, deref, deref_mut, flag, options, out,
-    rows_mut, slice,
+    ArgumentError, array_len, choice, copy, copy_rows, deref, deref_mut, flag, options, out, rows_mut, slice,
 };
 use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;
@@ -13,7 +12,9 @@ use super::{planish_parameterize_options, planish_progress, planish_status};
 use crate::Control;
 use crate::fit::common::{FitError, Regularize};
 use crate::fit::report::{Tolerance, ToleranceScale};
-use crate::fit::tensor::{Ends, Energy, Method, TensorFit, TensorOptions, fit_field, fit_mesh, fit_points};
+use crate::fit::tensor::{
+    Ends, Energy, Knots, Method, TensorFit, TensorOptions, fit_field, fit_mesh, fit_points,
+};
 use crate::knots::KnotVector;
 use crate::surface::tensor::{Axis, TensorError, TensorSurface};
 use glam::DVec2;
@@ -37,6 +38,16 @@ pub enum planish_tolerance_scale {
     Relative = 0,
     /// Model units.
     Absolute = 1,
+}
+
+/// Where the knot lines of a tensor fit stand.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum planish_knots {
+    /// Where the error asks for them: lines are inserted and taken out one by one.
+    Adaptive = 0,
+    /// At equal distances: all cells are halved in one direction at a time.
+    Uniform = 1,
 }
 
 /// Which equations determine a tensor surface on a grid.
@@ -88,10 +99,13 @@ record! {
     pub struct planish_tensor_options (planish_tensor_options_init; core: TensorOptions) {
         /// The largest error allowed at the data, positive, measured in tolerance_scale. Default 1e-3.
         pub tolerance: f64 = core.tolerance.value,
-        /// Weight of the bending energy; 0 (default) takes the largest of 1e-3, 1e-4, 1e-5, 1e-6 that meets the
-        /// tolerance (for PLANISH_TENSOR_METHOD_FERGUSON 1e-3).
+        /// Weight of the bending energy; 0 (default) finds one: of uniform knots the largest of 1e-3, 1e-4, 1e-5,
+        /// 1e-6 that meets the tolerance (for PLANISH_TENSOR_METHOD_FERGUSON 1e-3), of adaptive knots 1e-11 or
+        /// less, the weight of a thin plate over the unit square against the mean square error; where the
+        /// tolerance is out of reach, adaptive knots take the one of least generalized cross-validation.
         pub smoothing: f64 = core.smoothing,
         /// How far the knots reach beyond the data, as a fraction of the data's range, 0 to 10. Default 0.1.
+        /// Adaptive knots reach less far where the surface would leave the box of its data.
         pub buffer: f64 = core.buffer,
         /// How a mesh without parameters gets them; NULL (default) for the defaults. Of this record progress, user
         /// and thread_count are not looked at, and node_weights must be NULL. Not used for points.
@@ -122,9 +136,9 @@ record! {
         pub tolerance_scale: u32 = planish_tolerance_scale::Relative as u32,
         /// A planish_tensor_method. Default PLANISH_TENSOR_METHOD_LEAST_SQUARES.
         pub method: u32 = planish_tensor_method::LeastSquares as u32,
-        /// A planish_ends. Default PLANISH_ENDS_NATURAL.
+        /// A planish_ends, of uniform knots. Default PLANISH_ENDS_NATURAL.
         pub ends: u32 = planish_ends::Natural as u32,
-        /// A planish_energy. Default PLANISH_ENERGY_BEAM.
+        /// A planish_energy, of uniform knots. Default PLANISH_ENERGY_BEAM.
         pub energy: u32 = planish_energy::Beam as u32,
         /// A planish_regularize. Default PLANISH_REGULARIZE_AUTO.
         pub regularize: u32 = planish_regularize::Auto as u32,
@@ -141,8 +155,9 @@ record! {
         pub measure_distance: u32 = core.measure_distance.into(),
         /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
         pub thread_count: u32,
-        /// 0.
-        pub reserved: u32,
+        /// A planish_knots. Default PLANISH_KNOTS_ADAPTIVE. Knots given by grid_u and grid_v, and those of
+        /// PLANISH_TENSOR_METHOD_FERGUSON, are uniform always.
+        pub knots: u32 = planish_knots::Adaptive as u32,
     }
 }
 
@@ -150,9 +165,6 @@ impl planish_tensor_options {
     /// # Safety
     /// The pointers are NULL or as the header says, for `count` data, until the options are no longer used.
     pub(super) unsafe fn to_core<'a>(self, count: usize) -> Result<TensorOptions<'a>, ArgumentError> {
-        if self.reserved != 0 {
-            return Err(ArgumentError::Reserved { record: Self::NAME, given: self.reserved });
-        }
         let scales = [ToleranceScale::Relative, ToleranceScale::Absolute];
         let scale = choice(self.tolerance_scale, &scales, "tolerance_scale")?;
         // SAFETY: the caller's promise.
@@ -167,6 +179,7 @@ impl planish_tensor_options {
         };
         Ok(TensorOptions {
             tolerance: Tolerance { value: self.tolerance, scale },
+            knots: choice(self.knots, &[Knots::Adaptive, Knots::Uniform], "knots")?,
             method: choice(self.method, &[Method::LeastSquares, Method::Ferguson], "method")?,
             ends: choice(self.ends, &[Ends::Natural, Ends::Free], "ends")?,
             energy: choice(self.energy, &[Energy::Beam, Energy::Plate], "energy")?,

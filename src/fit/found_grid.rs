@@ -6,7 +6,7 @@ use super::common::FitError;
 use super::common::Regularize;
 use super::common::report::FitReport;
 use super::field::{FieldError, FieldFitter, FieldGrid, FieldNodes, FieldOptions};
-use super::tensor::{TensorOptions, fit_field, fit_points};
+use super::tensor::{Knots, TensorOptions, fit_field, fit_points};
 use crate::control::Control;
 use glam::DVec2;
 
@@ -44,6 +44,7 @@ fn find(
     let (uv, dim) = (nodes.parameters(), *dim);
     let adaptive = TensorOptions {
         tolerance: options.tolerance,
+        knots: Knots::Uniform,
         ends: options.ends,
         energy: options.energy,
         buffer: options.buffer,

@@ -13,7 +13,7 @@ use pulp::Simd;
 
 /// Basis functions of one span.
 #[derive(Debug, Clone)]
-pub(super) struct CubicSpan {
+pub struct CubicSpan {
     /// Row `m` has the coefficients of `x^m`.
     pub coefficients: [[f64; 4]; 4],
     pub start: f64,

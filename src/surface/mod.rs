@@ -5,7 +5,7 @@
 //! made from: their box in (u,v), and their boundary loops, the trims.
 
 mod any;
-mod cubic;
+pub(crate) mod cubic;
 mod cut;
 pub mod d1rc;
 mod differential;

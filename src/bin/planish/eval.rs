@@ -33,7 +33,9 @@ pub fn run(arguments: &EvalArguments) -> Result<Outcome, Failure> {
     let surface = surface.as_surface();
     let uv = match (&arguments.uv, &arguments.grid) {
         (Some(path), _) => read_pairs(path)?,
-        (None, Some(grid)) => grid_pairs(grid, &surface.region().data_box.unwrap_or_else(|| surface.domain()))?,
+        (None, Some(grid)) => {
+            grid_pairs(grid, &surface.region().data_box.unwrap_or_else(|| surface.domain()))?
+        }
         (None, None) => return Err(Failure::new("give --uv FILE or --grid UxV")),
     };
     let count = uv.len() / 2;

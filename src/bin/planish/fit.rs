@@ -12,7 +12,7 @@ use planish::fit::conversion::ConversionOptions;
 use planish::fit::d1rc::{self, D1rcFitOptions};
 use planish::fit::pht::{self, PhtOptions};
 use planish::fit::report::{FitReport, Remarks, StopReason, Tolerance, ToleranceScale};
-use planish::fit::tensor::{self, Ends, Method, TensorOptions};
+use planish::fit::tensor::{self, Ends, Knots, Method, TensorOptions};
 use planish::mesh::{Mesh, MeshRepairs};
 use planish::model::{Form, FormOptions};
 use planish::parameterize::{Border, ParameterizeOptions};
@@ -69,6 +69,9 @@ pub struct FitArguments {
     /// Most knots along one direction.
     #[arg(long, default_value_t = 257, value_name = "N")]
     max_grid: usize,
+    /// Where the knot lines of a tensor surface stand.
+    #[arg(long, value_enum, default_value_t = KnotsName::Adaptive)]
+    knots: KnotsName,
     /// Weight of the bending energy; 0 finds one.
     #[arg(long, default_value_t = 0.0, value_name = "MU", allow_negative_numbers = true)]
     pub smoothing: f64,
@@ -138,6 +141,14 @@ enum FormName {
     Tensor,
     /// A shell of faces that share edges, each over cells of nearly equal size: far fewer control points.
     Patches,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum KnotsName {
+    /// Where the error asks for them.
+    Adaptive,
+    /// At equal distances.
+    Uniform,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -237,6 +248,10 @@ fn border(arguments: &FitArguments) -> Border {
 fn tensor_options(arguments: &FitArguments) -> TensorOptions<'static> {
     TensorOptions {
         tolerance: tolerance(arguments),
+        knots: match arguments.knots {
+            KnotsName::Adaptive => Knots::Adaptive,
+            KnotsName::Uniform => Knots::Uniform,
+        },
         method: if arguments.ferguson { Method::Ferguson } else { Method::LeastSquares },
         ends: if arguments.free_ends { Ends::Free } else { Ends::Natural },
         smoothing: arguments.smoothing,

@@ -1,7 +1,9 @@
 //! Errors between the nodes, and the part of them that flat facets explain.
 
 use super::errors::data_errors;
+use super::neighbours::triangles_between;
 use crate::control::Pool;
+use crate::geometry::Domain;
 use crate::mesh::Mesh;
 use crate::surface::{Surface, normal};
 use glam::{DVec2, DVec3};
@@ -31,23 +33,82 @@ pub struct MeshData<'a> {
 impl MeshData<'_> {
     /// Measures a surface between the nodes.
     pub fn interior_errors(&self, surface: &dyn Surface, pool: &Pool) -> InteriorErrors {
-        let (uv, values) = interior_samples(self.mesh, self.uv, self.values, surface.dim());
-        let (errors, allowances) = if self.is_shape {
-            (heights_over(surface, &uv, &values, pool), triangle_sagittas(self.mesh))
+        Between::nodes(self, surface.dim()).measure(surface, pool)
+    }
+}
+
+/// Places between the nodes of a mesh, with what is known of the shape there: made once for many surfaces.
+pub struct Between {
+    /// Four places for each triangle: its centroid and the middles of its edges.
+    pub uv: Vec<DVec2>,
+    values: Vec<f64>,
+    /// What each triangle explains.
+    allowances: Vec<f64>,
+    is_shape: bool,
+}
+
+impl Between {
+    /// Between the nodes of a mesh.
+    pub fn nodes(data: &MeshData, dim: usize) -> Self {
+        let triangles = data.mesh.triangles();
+        let (uv, values) = interior_samples(triangles, data.uv, data.values, dim);
+        let allowances = if data.is_shape {
+            triangle_sagittas(data.mesh)
         } else {
-            let spreads = triangle_spreads(self.mesh, self.values, surface.dim());
-            (data_errors(surface, &uv, &values, pool).each, spreads)
+            triangle_spreads(triangles, data.values, dim)
         };
+        Self { uv, values, allowances, is_shape: data.is_shape }
+    }
+
+    /// Between scattered data, of which neighbours in (u,v) make triangles.
+    pub fn scattered(uv: &[DVec2], values: &[f64], dim: usize, data: &Domain) -> Self {
+        let triangles = triangles_between(uv, data);
+        let (places, rows) = interior_samples(&triangles, uv, values, dim);
+        let allowances = triangle_spreads(&triangles, values, dim);
+        Self { uv: places, values: rows, allowances, is_shape: false }
+    }
+
+    /// What is known in one triangle of so many that at most `most` are left.
+    pub fn thinned(&self, most: usize) -> Self {
+        let every = self.allowances.len().div_ceil(most).max(1);
+        let width = self.values.len() / self.uv.len().max(1);
+        let places = self.uv.chunks(4).step_by(every).flatten().copied().collect();
+        let values = self.values.chunks((4 * width).max(1)).step_by(every).flatten().copied().collect();
+        let allowances = self.allowances.iter().step_by(every).copied().collect();
+        Self { uv: places, values, allowances, is_shape: self.is_shape }
+    }
+
+    /// The error at each place.
+    fn errors(&self, surface: &dyn Surface, pool: &Pool) -> Vec<f64> {
+        if self.is_shape {
+            heights_over(surface, &self.uv, &self.values, pool)
+        } else {
+            data_errors(surface, &self.uv, &self.values, pool).each
+        }
+    }
+
+    /// Measures a surface.
+    pub fn measure(&self, surface: &dyn Surface, pool: &Pool) -> InteriorErrors {
+        let errors = self.errors(surface, pool);
         let mut result = InteriorErrors::default();
-        for (errors, &allowance) in errors.chunks_exact(4).zip(&allowances) {
+        for (errors, &allowance) in errors.chunks_exact(4).zip(&self.allowances) {
             let max = errors.iter().copied().fold(0.0, f64::max);
             result.max = result.max.max(max);
             result.max_excess = result.max_excess.max(max - allowance);
         }
         if self.is_shape {
-            result.sagitta = allowances.into_iter().fold(0.0, f64::max);
+            result.sagitta = self.allowances.iter().copied().fold(0.0, f64::max);
         }
         result
+    }
+
+    /// The error at each place beyond what its triangle explains.
+    pub fn excess(&self, surface: &dyn Surface, pool: &Pool) -> Vec<f64> {
+        let mut errors = self.errors(surface, pool);
+        for (errors, allowance) in errors.chunks_exact_mut(4).zip(&self.allowances) {
+            errors.iter_mut().for_each(|error| *error -= allowance);
+        }
+        errors
     }
 }
 
@@ -78,10 +139,15 @@ pub fn heights_over(surface: &dyn Surface, uv: &[DVec2], values: &[f64], pool: &
 }
 
 /// Centroid and three edge middles of each triangle.
-fn interior_samples(mesh: &Mesh, uv: &[DVec2], values: &[f64], dim: usize) -> (Vec<DVec2>, Vec<f64>) {
-    let count = 4 * mesh.triangles().len();
+fn interior_samples(
+    triangles: &[[u32; 3]],
+    uv: &[DVec2],
+    values: &[f64],
+    dim: usize,
+) -> (Vec<DVec2>, Vec<f64>) {
+    let count = 4 * triangles.len();
     let (mut places, mut rows) = (Vec::with_capacity(count), Vec::with_capacity(count * dim));
-    for &[a, b, c] in mesh.triangles() {
+    for &[a, b, c] in triangles {
         for nodes in [[a, b, c].as_slice(), &[a, b], &[b, c], &[c, a]] {
             let share = 1.0 / nodes.len() as f64;
             places.push(nodes.iter().map(|&n| uv[n as usize]).sum::<DVec2>() * share);
@@ -121,10 +187,10 @@ pub fn triangle_sagittas(mesh: &Mesh) -> Vec<f64> {
 
 /// How far the values of a field differ along the edges around each facet. What a field does between its nodes
 /// is unknown, but a surface that leaves the values of a facet by more than they change around it oscillates.
-fn triangle_spreads(mesh: &Mesh, values: &[f64], dim: usize) -> Vec<f64> {
+fn triangle_spreads(triangles: &[[u32; 3]], values: &[f64], dim: usize) -> Vec<f64> {
     let value = |node: usize| &values[node * dim..][..dim];
-    let mut spreads = vec![0.0_f64; mesh.points().len()];
-    for &[a, b, c] in mesh.triangles() {
+    let mut spreads = vec![0.0_f64; values.len() / dim];
+    for &[a, b, c] in triangles {
         for (a, b) in [(a, b), (b, c), (c, a)] {
             let (a, b) = (a as usize, b as usize);
             let spread = value(a).iter().zip(value(b)).map(|(x, y)| (x - y).powi(2)).sum::<f64>().sqrt();
@@ -133,5 +199,5 @@ fn triangle_spreads(mesh: &Mesh, values: &[f64], dim: usize) -> Vec<f64> {
         }
     }
     let largest = |nodes: &[u32; 3]| nodes.iter().map(|&n| spreads[n as usize]).fold(0.0, f64::max);
-    mesh.triangles().iter().map(largest).collect()
+    triangles.iter().map(largest).collect()
 }

@@ -10,6 +10,7 @@ pub(in crate::fit) mod foot_points;
 mod frame;
 pub(in crate::fit) mod hermite_cell;
 pub(in crate::fit) mod interior;
+pub(in crate::fit) mod neighbours;
 mod parameters;
 pub mod report;
 pub(in crate::fit) mod rounds;

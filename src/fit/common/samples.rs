@@ -27,10 +27,25 @@ pub fn interior_places<'a>(
     grid: &[UniformGrid; 2],
     weights: Option<&'a [f64]>,
 ) -> impl Iterator<Item = InteriorPlace> + 'a {
+    places_in_cells(mesh, uv, in_cells(grid), weights)
+}
+
+/// Parameters of which one unit is a cell of a grid.
+pub fn in_cells(grid: &[UniformGrid; 2]) -> impl Fn(DVec2) -> DVec2 + use<> {
     let cell = DVec2::new(grid[0].step, grid[1].step);
+    move |uv| uv / cell
+}
+
+/// The same with parameters of which one unit is a cell.
+pub fn places_in_cells<'a>(
+    mesh: &'a Mesh,
+    uv: &'a [DVec2],
+    in_cells: impl Fn(DVec2) -> DVec2 + 'a,
+    weights: Option<&'a [f64]>,
+) -> impl Iterator<Item = InteriorPlace> + 'a {
     mesh.triangles().iter().flat_map(move |triangle| {
         let nodes = triangle.map(|node| node as usize);
-        let parts = part_count(nodes.map(|n| uv[n] / cell));
+        let parts = part_count(nodes.map(|n| in_cells(uv[n])));
         let weight = weights.map_or(1.0, |w| nodes.iter().map(|&n| w[n]).sum::<f64>() / 3.0);
         let middles = (parts >= 2).then(|| part_middles(parts)).into_iter().flatten();
         middles.map(move |shares| InteriorPlace { nodes, shares, weight })

@@ -1,24 +1,33 @@
 //! Curves on uniform knots, from rows of numbers over one parameter.
 //!
 //! The methods of surfaces on uniform grids ([`super::tensor`]) with one parameter less: cells are halved until every
-//! datum lies within the tolerance.
+//! datum lies within the tolerance. A curve that swings between its data is not within it. Where none is, the curve
+//! is the one that predicts each datum best from the others (P. Craven and G. Wahba, "Smoothing noisy data with spline
+//! functions", Numer. Math. 31 (1979), 377-403):
+//! ```text
+//! minimize over mu  sum_n (r_n / (1 - h_n))^2,    h_n = w_n b_n^T A^-1 b_n
+//! ```
+//! r_n the error of datum n, b_n the basis there, A the matrix of the normal equations.
 
+mod between;
 mod options;
 
 pub use options::CurveOptions;
 
 use super::common::checks::{LEAST_RANGE, check_values};
 use super::common::errors::{DataErrors, summarize};
+use super::common::interior::InteriorErrors;
 use super::common::report::{FitReport, Goal, StopReason};
 use super::common::rounds::{self, Next, Outcome, Rounds, Standing};
 use super::common::uniform::ferguson;
-use super::common::uniform::grid::{UniformBasis, UniformGrid};
+use super::common::uniform::grid::{Direction, UniformBasis, UniformGrid};
 use super::common::uniform::{Method, SMOOTHING_LADDER};
 use super::common::{FitError, Frame};
 use crate::control::Control;
 use crate::curve::Curve;
 use crate::geometry::Bounds;
-use crate::linalg::SymbolicCholesky;
+use crate::linalg::{Cholesky, SymbolicCholesky};
+use between::{Between, distance};
 use sprs::CsMat;
 use std::time::Instant;
 
@@ -43,7 +52,10 @@ pub fn fit_curve(
 ) -> Result<CurveFit, FitError> {
     let start = Instant::now();
     let mut problem = CurveProblem::new(u, values, dim, options)?;
-    let outcome = rounds::run(&mut problem, control)?;
+    let mut outcome = rounds::run(&mut problem, control)?;
+    if outcome.best.merit() > problem.goal.tolerance && problem.may_choose_smoothing() {
+        outcome.best = problem.best_predictor(outcome.best)?;
+    }
     let mut fit = problem.finish(outcome);
     fit.report.seconds = start.elapsed().as_secs_f64();
     Ok(fit)
@@ -53,8 +65,8 @@ pub fn fit_curve(
 const FIRST_COUNT: usize = 2;
 /// So many rounds in a row that do not lower the error end the fit.
 const STAGNANT_ROUNDS: usize = 2;
-/// So few data may have as many knots.
-const FEW_DATA: usize = 64;
+/// Smoothings beyond the ladder for data that no curve follows within the tolerance.
+const CALM: [f64; 4] = [1e1, 1e0, 1e-1, 1e-2];
 
 /// Data, what they are fitted with, and how far the fit has come.
 struct CurveProblem<'a> {
@@ -65,6 +77,7 @@ struct CurveProblem<'a> {
     frame: Frame,
     range: (f64, f64),
     goal: Goal,
+    between: Between,
     /// Knots of the next round.
     count: usize,
 }
@@ -72,6 +85,7 @@ struct CurveProblem<'a> {
 struct Candidate {
     curve: Curve,
     errors: DataErrors,
+    between: InteriorErrors,
     smoothing: f64,
     count: usize,
     coefficient_count: usize,
@@ -86,7 +100,7 @@ impl Rounds for CurveProblem<'_> {
     }
 
     fn error(&self, round: &Candidate) -> f64 {
-        round.errors.max
+        round.merit()
     }
 
     fn tolerance(&self) -> f64 {
@@ -107,7 +121,7 @@ impl Rounds for CurveProblem<'_> {
         if self.count > self.options.max_grid {
             return Next::Stop(StopReason::Limit);
         }
-        if self.count > self.u.len().max(FEW_DATA) {
+        if self.coefficient_count(self.count) > self.u.len() {
             return Next::Stop(StopReason::DataExhausted);
         }
         Next::Round
@@ -133,36 +147,74 @@ impl<'a> CurveProblem<'a> {
         let bounds = Bounds::of_rows(values, dim);
         let goal = Goal::new(&options.tolerance, &bounds);
         let (frame, count) = (Frame::new(&bounds), options.fixed_count.unwrap_or(FIRST_COUNT));
-        Ok(Self { u, values, dim, options, frame, range, goal, count })
+        let between = Between::new(u, values, dim);
+        Ok(Self { u, values, dim, options, frame, range, goal, between, count })
+    }
+
+    fn basis(&self, count: usize) -> UniformBasis {
+        let grid = UniformGrid::over(self.range.0, self.range.1, self.options.buffer, count);
+        UniformBasis { grid, ends: self.options.ends }
+    }
+
+    fn coefficient_count(&self, count: usize) -> usize {
+        self.basis(count).len()
+    }
+
+    /// Whether the caller has left the smoothing to the fit.
+    fn may_choose_smoothing(&self) -> bool {
+        self.options.method == Method::LeastSquares && self.options.smoothing == 0.0
+    }
+
+    /// The fit over the same knots that predicts each datum best from the others.
+    fn best_predictor(&self, missed: Candidate) -> Result<Candidate, FitError> {
+        let basis = self.basis(missed.count);
+        let mut best = (f64::INFINITY, missed);
+        for smoothing in CALM.into_iter().chain(SMOOTHING_LADDER) {
+            let system = self.system(&basis, smoothing)?;
+            let candidate = self.solve(&basis, &system, smoothing)?;
+            let errors = candidate.errors.each.iter().zip(system.leverages(self, &basis));
+            let sum = errors.map(|(error, leverage)| (error / (1.0 - leverage)).powi(2)).sum::<f64>();
+            if sum < best.0 {
+                best = (sum, candidate);
+            }
+        }
+        Ok(best.1)
     }
 
     fn fit_grid(&self, count: usize) -> Result<Candidate, FitError> {
-        let grid = UniformGrid::over(self.range.0, self.range.1, self.options.buffer, count);
-        let basis = UniformBasis { grid, ends: self.options.ends };
+        let basis = self.basis(count);
         let asked = self.options.smoothing;
         let tolerance = self.goal.tolerance;
         match self.options.method {
             Method::Ferguson => {
                 let smoothing = if asked > 0.0 { asked } else { SMOOTHING_LADDER[0] };
                 let values = self.frame.inward(self.values);
-                let points = ferguson::fit_line(&grid, self.u, &values, self.dim, smoothing)?;
+                let points = ferguson::fit_line(&basis.grid, self.u, &values, self.dim, smoothing)?;
                 self.candidate(&basis, points, smoothing, count)
             }
             Method::LeastSquares if asked > 0.0 => self.least_squares(&basis, asked),
             Method::LeastSquares => {
-                let mut closest = self.least_squares(&basis, SMOOTHING_LADDER[0])?;
+                let mut best = self.least_squares(&basis, SMOOTHING_LADDER[0])?;
                 for &smoothing in &SMOOTHING_LADDER[1..] {
-                    if closest.errors.max <= tolerance {
+                    if best.merit() <= tolerance {
                         break;
                     }
-                    closest = self.least_squares(&basis, smoothing)?;
+                    let closer = self.least_squares(&basis, smoothing)?;
+                    if closer.merit() < best.merit() {
+                        best = closer;
+                    }
                 }
-                Ok(closest)
+                Ok(best)
             }
         }
     }
 
     fn least_squares(&self, basis: &UniformBasis, smoothing: f64) -> Result<Candidate, FitError> {
+        self.solve(basis, &self.system(basis, smoothing)?, smoothing)
+    }
+
+    /// The normal equations, factored.
+    fn system(&self, basis: &UniformBasis, smoothing: f64) -> Result<System, FitError> {
         let (n, width, dim) = (basis.len(), basis.width(), self.dim);
         let mut matrix = basis.gram(2);
         matrix.rows.iter_mut().flatten().for_each(|x| *x *= smoothing / 12.0);
@@ -186,7 +238,13 @@ impl<'a> CurveProblem<'a> {
         let matrix = CsMat::new_csc((n, n), starts, rows, data);
         let symbolic = SymbolicCholesky::new(&matrix.view(), Some(&(0..n).collect::<Vec<_>>()));
         let factor = symbolic.factor(&matrix.view()).map_err(|_| FitError::Singular)?;
-        factor.solve(&mut right, dim);
+        Ok(System { factor, right })
+    }
+
+    fn solve(&self, basis: &UniformBasis, system: &System, smoothing: f64) -> Result<Candidate, FitError> {
+        let (n, dim) = (basis.len(), self.dim);
+        let mut right = system.right.clone();
+        system.factor.solve(&mut right, dim);
         let unknowns: Vec<f64> =
             (0..n).flat_map(|i| (0..dim).map(move |k| (i, k))).map(|(i, k)| right[k * n + i]).collect();
         self.candidate(basis, basis.control_points(&unknowns, dim), smoothing, n)
@@ -207,24 +265,66 @@ impl<'a> CurveProblem<'a> {
         let mut measured = vec![0.0; self.values.len()];
         curve.eval_rows(self.u, 0, &mut measured);
         let rows = measured.chunks(self.dim).zip(self.values.chunks(self.dim));
-        let distance =
-            |(a, b): (&[f64], &[f64])| a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
-        let errors = summarize(rows.map(distance).collect());
-        Ok(Candidate { curve, errors, smoothing, count: basis.grid.count, coefficient_count })
+        let errors = summarize(rows.map(|(a, b)| distance(a, b)).collect());
+        let between = self.between.measure(&curve);
+        Ok(Candidate { curve, errors, between, smoothing, count: basis.grid.count, coefficient_count })
     }
 
     fn finish(&self, outcome: Outcome<Candidate>) -> CurveFit {
         let Outcome { best, stop, passes } = outcome;
-        let report = FitReport {
+        let mut report = FitReport {
             grid_u: best.count,
             grid_v: 1,
             coefficient_count: best.coefficient_count,
             smoothing: best.smoothing,
             ..FitReport::new(&best.errors, &self.goal, stop, passes)
         };
+        report.add_interior(&best.between);
         CurveFit { curve: best.curve, report, errors: best.errors.each }
     }
 }
+
+/// Normal equations, factored.
+struct System {
+    factor: Cholesky,
+    /// Columns of unknowns, one for each component.
+    right: Vec<f64>,
+}
+
+impl System {
+    /// How much each datum decides of the curve's value at its place, 0 to 1.
+    fn leverages(&self, problem: &CurveProblem, basis: &UniformBasis) -> Vec<f64> {
+        /// Columns solved at once: a bound on memory.
+        const CHUNK: usize = 64;
+        let n = basis.len();
+        let window = |u: f64| {
+            let (cell, s) = basis.grid.locate(u);
+            basis.window(cell, s, 0)
+        };
+        let mut leverages = Vec::with_capacity(problem.u.len());
+        for chunk in problem.u.chunks(CHUNK) {
+            let mut columns = vec![0.0; n * chunk.len()];
+            let entries = |k: usize, u: f64| {
+                let window = window(u);
+                (0..basis.width()).map(move |a| (k * n + window.first + a, window.weights[a]))
+            };
+            for (k, &u) in chunk.iter().enumerate() {
+                entries(k, u).for_each(|(at, weight)| columns[at] = weight);
+            }
+            self.factor.solve(&mut columns, chunk.len());
+            for (k, &u) in chunk.iter().enumerate() {
+                let weight = problem.options.weights.map_or(1.0, |weights| weights[leverages.len()]);
+                let own: f64 = entries(k, u).map(|(at, share)| share * columns[at]).sum();
+                // rounding must not make a datum decide all
+                leverages.push((weight * own).min(MOST_LEVERAGE));
+            }
+        }
+        leverages
+    }
+}
+
+/// A datum that decides all of its own value is predicted by none of the others.
+const MOST_LEVERAGE: f64 = 1.0 - 1e-9;
 
 #[cfg(test)]
 mod tests {

@@ -364,7 +364,8 @@ fn factor(
     watch.check()?;
     let symbolic = equations.analyse();
     watch.check()?;
-    equations.factor(&symbolic, smoothing, energy).map_err(|_| FitError::Singular)
+    let terms = energy.terms(&basis.u, &basis.v);
+    equations.factor(&symbolic, smoothing / 12.0, &terms).map_err(|_| FitError::Singular)
 }
 
 #[cfg(test)]

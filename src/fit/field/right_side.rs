@@ -6,6 +6,7 @@
 
 use crate::control::Pool;
 use crate::fit::common::samples::{InteriorPlace, interior_weight};
+use crate::fit::common::uniform::grid::Direction;
 use crate::fit::common::uniform::normal_equations::{TensorBasis, by_cell};
 use crate::linalg::SolveMemory;
 use glam::DVec2;

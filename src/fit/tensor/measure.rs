@@ -2,36 +2,47 @@
 
 use super::Problem;
 use crate::control::Pool;
-use crate::fit::common::interior::{InteriorErrors, MeshData};
-use crate::fit::common::samples::{bulge, interior_places};
-use crate::fit::common::uniform::grid::UniformGrid;
+use crate::fit::common::interior::{Between, InteriorErrors, MeshData};
+use crate::fit::common::samples::{bulge, places_in_cells};
 use crate::surface::Trims;
-use crate::surface::tensor::TensorSurface;
+use crate::surface::tensor::{Axis, TensorSurface};
 use glam::{DVec2, DVec3};
 
 impl Problem<'_> {
     /// Measures a surface between the nodes.
     pub fn interior_errors(&self, surface: &TensorSurface, pool: &Pool) -> InteriorErrors {
-        let Some(mesh) = self.mesh else {
-            return InteriorErrors::default();
-        };
-        let data = MeshData { mesh, uv: &self.uv, values: self.values, is_shape: self.is_shape };
-        data.interior_errors(surface, pool)
+        self.between().measure(surface, pool)
+    }
+
+    /// What is known between the data.
+    pub fn between(&self) -> Between {
+        match self.mesh_data() {
+            Some(data) => Between::nodes(&data, self.dim),
+            None => Between::scattered(&self.uv, self.values, self.dim, &self.data_box),
+        }
+    }
+
+    /// The mesh with its values and present parameters.
+    pub fn mesh_data(&self) -> Option<MeshData<'_>> {
+        let data = |mesh| MeshData { mesh, uv: &self.uv, values: self.values, is_shape: self.is_shape };
+        self.mesh.map(data)
     }
 }
 
 impl Problem<'_> {
     /// Cells without data inside the loops of the mesh, or inside the box of scattered data: there the surface
     /// is smooth guesswork.
-    pub fn empty_cell_count(&self, grid: &[UniformGrid; 2], trims: &Trims) -> usize {
-        let cells_v = grid[1].count - 1;
-        let mut is_empty = vec![true; (grid[0].count - 1) * cells_v];
+    pub fn empty_cell_count(&self, surface: &TensorSurface, trims: &Trims) -> usize {
+        let [u, v] = [Axis::U, Axis::V].map(|axis| surface.knots(axis));
+        let (breaks_u, breaks_v) = (u.breaks(), v.breaks());
+        let cells_v = breaks_v.len() - 1;
+        let mut is_empty = vec![true; (breaks_u.len() - 1) * cells_v];
         for uv in &self.uv {
-            is_empty[grid[0].locate(uv.x).0 * cells_v + grid[1].locate(uv.y).0] = false;
+            is_empty[u.rank_at(uv.x) * cells_v + v.rank_at(uv.y)] = false;
         }
         let is_inside = |cell: usize| {
-            let middle = |grid: &UniformGrid, k: usize| grid.knot(k) + grid.step / 2.0;
-            let uv = DVec2::new(middle(&grid[0], cell / cells_v), middle(&grid[1], cell % cells_v));
+            let middle = |breaks: &[f64], k: usize| (breaks[k] + breaks[k + 1]) / 2.0;
+            let uv = DVec2::new(middle(&breaks_u, cell / cells_v), middle(&breaks_v, cell % cells_v));
             self.data_box.contains(uv) && trims.contains(uv)
         };
         is_empty.iter().enumerate().filter(|&(cell, &empty)| empty && is_inside(cell)).count()
@@ -47,12 +58,13 @@ pub struct InteriorData {
 }
 
 impl Problem<'_> {
-    /// The places inside triangles that are larger than the cells of a grid; `values` are those of the nodes.
-    pub fn interior_data(&self, grid: &[UniformGrid; 2], values: &[f64]) -> InteriorData {
+    /// The places inside triangles that are larger than cells, which are one unit of `in_cells`; `values` are
+    /// those of the nodes.
+    pub fn interior_data(&self, in_cells: impl Fn(DVec2) -> DVec2, values: &[f64]) -> InteriorData {
         let mut data = InteriorData::default();
         let Some(mesh) = self.mesh else { return data };
         let mut shape_normals = None;
-        for place in interior_places(mesh, &self.uv, grid, self.options.weights) {
+        for place in places_in_cells(mesh, &self.uv, in_cells, self.options.weights) {
             data.uv.push(place.mean(|n| self.uv[n]));
             data.weights.push(place.weight);
             if self.is_shape {

@@ -1,21 +1,24 @@
-//! Bicubic surfaces on uniform grids, from tessellations, scattered points and fields on nodes.
+//! Bicubic surfaces from tessellations, scattered points and fields on nodes.
 //!
 //! J. Dannenhoffer and R. Haimes, "Generation of spline approximations to tessellations" (2009). The default
 //! is true least squares in the space of natural C2 splines, with a bending energy where data are thin;
-//! [`Method::Ferguson`] keeps the paper's own equations. Grids are doubled in one direction at a time until
+//! [`Method::Ferguson`] keeps the paper's own equations. [`Knots::Adaptive`] puts knot lines where the error asks for
+//! them; [`Knots::Uniform`], as in the paper, doubles grids in one direction at a time until
 //! every datum lies within the tolerance.
 //!
 //! ```text
 //! minimize  sum_n |S(u_n,v_n) - P_n|^2 + (mu/12) energy(S)
 //! ```
 
+mod adaptive;
+mod lines;
 mod measure;
 mod options;
 mod refine;
 mod single_grid;
 
 pub use super::common::uniform::{Ends, Energy, Method, SMOOTHING_LADDER};
-pub use options::TensorOptions;
+pub use options::{Knots, TensorOptions};
 
 use super::common::checks::{check_parameters, check_values};
 use super::common::report::{FitReport, Goal};
@@ -70,7 +73,7 @@ pub fn fit_points(
     let start = Instant::now();
     check(uv, values, dim, options)?;
     let problem = Problem::new(uv.to_vec(), values, dim, None, options)?;
-    let mut fit = problem.run(control)?;
+    let mut fit = problem.fit_any(control)?;
     fit.report.seconds = start.elapsed().as_secs_f64();
     Ok(fit)
 }
@@ -101,7 +104,7 @@ fn fit_on_mesh(
     let mut problem = Problem::new(map.uv, values, dim, Some(mesh), options)?;
     problem.is_shape = is_shape;
     control.set_stage(0.3, 1.0);
-    let mut fit = problem.run(control)?;
+    let mut fit = problem.fit_any(control)?;
     fit.report.parameterize_seconds = parameterize_seconds;
     fit.report.remarks.0 |= map.remarks.0;
     fit.report.measure_map(mesh, &fit.parameters);
@@ -135,6 +138,8 @@ struct Problem<'a> {
     energy: Energy,
     frame: Frame,
     goal: Goal,
+    /// The least merit of the rounds so far.
+    least: f64,
     /// The grids to try in the next round.
     next: Vec<[usize; 2]>,
 }
@@ -156,6 +161,7 @@ impl<'a> Problem<'a> {
         };
         Ok(Self {
             goal: Goal::new(&options.tolerance, &bounds),
+            least: f64::INFINITY,
             next: vec![options.fixed_grid.unwrap_or(FIRST_GRID)],
             energy,
             frame: Frame::new(&bounds),

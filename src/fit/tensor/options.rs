@@ -7,21 +7,35 @@ use crate::fit::common::{FitError, Regularize};
 use crate::options::with_fields;
 use crate::parameterize::ParameterizeOptions;
 
+/// Where knot lines stand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Knots {
+    /// Where the error asks for them: lines are inserted and taken out one by one.
+    #[default]
+    Adaptive,
+    /// At equal distances, as in the paper: all cells are halved in one direction at a time.
+    Uniform,
+}
+
 /// Options of tensor fits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TensorOptions<'a> {
     /// The largest error allowed at the data.
     pub tolerance: Tolerance,
+    /// Where knot lines stand. [`Method::Ferguson`] and [`TensorOptions::fixed_grid`] are uniform always.
+    pub knots: Knots,
     /// Which equations determine the surface.
     pub method: Method,
-    /// What happens at the ends of the knots.
+    /// What happens at the ends of uniform knots; adaptive ones are free there.
     pub ends: Ends,
-    /// Which second derivatives cost energy.
+    /// Which second derivatives cost energy over uniform knots; over adaptive ones it is a plate's.
     pub energy: Energy,
-    /// Weight mu of the energy; 0 takes the largest of [`SMOOTHING_LADDER`](super::SMOOTHING_LADDER) that meets the tolerance (for
-    /// [`Method::Ferguson`]: 1e-3).
+    /// Weight of the energy; 0 finds one: over uniform knots, mu is the largest of
+    /// [`SMOOTHING_LADDER`](super::SMOOTHING_LADDER) that meets the tolerance (for [`Method::Ferguson`]: 1e-3); over adaptive ones
+    /// it is that of a plate over the unit square against the mean square error, 1e-11 or less.
     pub smoothing: f64,
-    /// How far the knots reach beyond the data, as a fraction of the data's range.
+    /// How far the knots reach beyond the data, as a fraction of the data's range; adaptive ones reach less far where
+    /// the surface would leave the box of its data.
     pub buffer: f64,
     /// Most knots along one direction.
     pub max_grid: usize,
@@ -46,6 +60,7 @@ impl Default for TensorOptions<'_> {
     fn default() -> Self {
         Self {
             tolerance: Tolerance::default(),
+            knots: Knots::default(),
             method: Method::default(),
             ends: Ends::default(),
             energy: Energy::default(),
@@ -66,6 +81,7 @@ impl Default for TensorOptions<'_> {
 impl<'a> TensorOptions<'a> {
     with_fields! {
         with_tolerance tolerance: Tolerance,
+        with_knots knots: Knots,
         with_method method: Method,
         with_ends ends: Ends,
         with_energy energy: Energy,

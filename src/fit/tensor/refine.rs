@@ -1,15 +1,15 @@
 //! The outer loop: double the grid in the direction that helps more, until the tolerance is met.
 
-use super::single_grid::Candidate;
+use super::single_grid::{Candidate, Fitted};
 use super::{FitError, Problem, TensorFit};
 use crate::control::{Control, Pool};
 use crate::fit::common::errors::max_distance;
 use crate::fit::common::foot_points::{LONGEST_STEP, foot_points, hold_back};
 use crate::fit::common::report::{FitReport, Remarks, StopReason};
-use crate::fit::common::rounds::{self, Next, Outcome, Rounds, Standing};
+use crate::fit::common::rounds::{self, Next, Rounds, Standing};
 use crate::fit::common::trims;
 use crate::surface::Surface;
-use crate::surface::tensor::TensorSurface;
+use crate::surface::tensor::{Axis, TensorSurface};
 use glam::DVec2;
 
 /// Two rounds in a row that do not lower the error are followed by doubling both ways; this many end the fit.
@@ -32,6 +32,16 @@ const LEAST_AREA: f64 = 1e-3;
 pub struct Round {
     candidate: Candidate,
     uv: Vec<DVec2>,
+    /// The largest error between the data beyond what they explain; not measured where the error at the data is worse
+    /// than an earlier round.
+    excess: f64,
+}
+
+impl Round {
+    /// What is to be small: a step that gains at the data and loses more between them is none.
+    fn merit(&self) -> f64 {
+        self.candidate.errors.max.max(self.excess)
+    }
 }
 
 /// Grids of growing size (`ferguson.md` 5).
@@ -43,22 +53,27 @@ impl Rounds for Problem<'_> {
         let next = std::mem::take(&mut self.next);
         let candidate = self.better_of(next, control)?;
         let candidate = self.correct(candidate, control)?;
-        Ok(Round { candidate, uv: self.uv.clone() })
+        let mut round = Round { candidate, uv: self.uv.clone(), excess: 0.0 };
+        if round.merit() < self.least {
+            round.excess = self.interior_errors(&round.candidate.surface, control.pool()).max_excess;
+            self.least = self.least.min(round.merit());
+        }
+        Ok(round)
     }
 
     fn error(&self, round: &Round) -> f64 {
-        round.candidate.errors.max
+        round.merit()
     }
 
     fn tolerance(&self) -> f64 {
         self.goal.tolerance
     }
 
-    fn refine(&mut self, standing: &Standing<Round>, control: &Control) -> Next {
+    fn refine(&mut self, standing: &Standing<Round>, _: &Control) -> Next {
         let Some(Round { candidate, .. }) = standing.round else { return Next::Stop(StopReason::Stagnated) };
         let unknowns = self.coefficient_count(candidate.counts()) as f64;
         let could_resolve = DATA_PER_UNKNOWN * unknowns > self.uv.len() as f64;
-        if standing.is_best && self.is_met(candidate, control) {
+        if standing.is_best && standing.error <= self.goal.tolerance {
             return Next::Done;
         }
         if self.options.fixed_grid.is_some() {
@@ -78,14 +93,8 @@ impl Rounds for Problem<'_> {
 impl Problem<'_> {
     pub fn run(mut self, control: &mut Control) -> Result<TensorFit, FitError> {
         let outcome = rounds::run(&mut self, control)?;
-        Ok(self.finish(outcome, control))
-    }
-
-    /// Whether data and, beyond what the facets explain, what lies between them are within the tolerance.
-    fn is_met(&self, candidate: &Candidate, control: &Control) -> bool {
-        let tolerance = self.goal.tolerance;
-        candidate.errors.max <= tolerance
-            && self.interior_errors(&candidate.surface, control.pool()).max_excess <= tolerance
+        self.uv = outcome.best.uv;
+        Ok(self.finish(outcome.best.candidate.into(), outcome.stop, outcome.passes, control))
     }
 
     /// The grids to try next, or why there are none.
@@ -105,9 +114,7 @@ impl Problem<'_> {
         if next.is_empty() {
             return Err(StopReason::Limit);
         }
-        // between scattered points nothing is known; on a mesh the triangles tell
-        let most = if self.mesh.is_some() { usize::MAX } else { self.uv.len().max(64) };
-        next.retain(|&counts| self.coefficient_count(counts) <= most);
+        next.retain(|&counts| self.coefficient_count(counts) <= self.uv.len());
         if next.is_empty() { Err(StopReason::DataExhausted) } else { Ok(next) }
     }
 
@@ -197,13 +204,12 @@ impl Problem<'_> {
         max_distance(surface, self.values, &self.uv, pool)
     }
 
-    fn finish(mut self, outcome: Outcome<Round>, control: &Control) -> TensorFit {
-        let Outcome { best: Round { candidate: mut best, uv }, stop, passes } = outcome;
-        self.uv = uv;
+    /// The surface with what is known of it.
+    pub fn finish(self, mut best: Fitted, stop: StopReason, passes: usize, control: &Control) -> TensorFit {
         let trims = trims(self.mesh, &self.uv, &best.surface.domain());
-        let empty_cell_count = self.empty_cell_count(&best.grid, &trims);
+        let empty_cell_count = self.empty_cell_count(&best.surface, &trims);
         best.surface.region_mut().trims = trims;
-        let [grid_u, grid_v] = best.counts();
+        let [grid_u, grid_v] = [Axis::U, Axis::V].map(|axis| best.surface.knots(axis).breaks().len());
         let mut report = FitReport {
             max_distance: self.max_distance(&best.surface, control.pool()),
             grid_u,

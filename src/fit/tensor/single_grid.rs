@@ -3,9 +3,10 @@
 use super::{Ends, FitError, Method, Problem, SMOOTHING_LADDER};
 use crate::control::{Pool, Watch};
 use crate::fit::common::errors::{DataErrors, data_errors};
-use crate::fit::common::samples::interior_weight;
+use crate::fit::common::samples::{in_cells, interior_weight};
+use crate::fit::common::uniform::energy::EnergyTerm;
 use crate::fit::common::uniform::ferguson;
-use crate::fit::common::uniform::grid::{UniformBasis, UniformGrid};
+use crate::fit::common::uniform::grid::{Direction, UniformBasis, UniformGrid};
 use crate::fit::common::uniform::normal_equations::{NormalEquations, Samples, TensorBasis};
 use crate::knots::KnotVector;
 use crate::linalg::SymbolicCholesky;
@@ -20,6 +21,21 @@ pub struct Candidate {
     pub errors: DataErrors,
     pub smoothing: f64,
     pub coefficient_count: usize,
+}
+
+/// A surface over any knots, measured at the data.
+pub struct Fitted {
+    pub surface: TensorSurface,
+    pub errors: DataErrors,
+    pub smoothing: f64,
+    pub coefficient_count: usize,
+}
+
+impl From<Candidate> for Fitted {
+    fn from(candidate: Candidate) -> Self {
+        let Candidate { surface, errors, smoothing, coefficient_count, .. } = candidate;
+        Self { surface, errors, smoothing, coefficient_count }
+    }
 }
 
 impl Candidate {
@@ -94,6 +110,7 @@ struct LeastSquares<'a> {
     nodes: NormalEquations,
     /// Of places inside large triangles.
     interior: Option<NormalEquations>,
+    energy: Vec<EnergyTerm>,
     symbolic: SymbolicCholesky,
 }
 
@@ -112,12 +129,13 @@ impl<'a> LeastSquares<'a> {
         watch.check()?;
         let nodes = NormalEquations::assemble(basis, &nodes, pool);
         watch.check()?;
-        let data = problem.interior_data(&grid, &values);
+        let data = problem.interior_data(in_cells(&grid), &values);
         let interior = Samples { uv: &data.uv, values: &data.values, dim, weights: Some(&data.weights) };
         let interior = (!data.uv.is_empty()).then(|| NormalEquations::assemble(basis, &interior, pool));
         watch.check()?;
         let symbolic = nodes.analyse();
-        Ok(Self { problem, pool, watch, basis, nodes, interior, symbolic })
+        let energy = problem.energy.terms(&u, &v);
+        Ok(Self { problem, pool, watch, basis, nodes, interior, energy, symbolic })
     }
 
     /// The calmest fit that meets the tolerance, or the closest one if none does.
@@ -153,7 +171,7 @@ impl<'a> LeastSquares<'a> {
             None => Cow::Borrowed(&self.nodes),
             Some(interior) => Cow::Owned(self.nodes.plus(interior, interior_weight(smoothing))),
         };
-        let solved = equations.solve(&self.symbolic, smoothing, problem.energy);
+        let solved = equations.solve(&self.symbolic, smoothing / 12.0, &self.energy);
         let unknowns = solved.map_err(|_| FitError::Singular)?;
         self.watch.check()?;
         let grid = [self.basis.u.grid, self.basis.v.grid];

@@ -68,6 +68,49 @@ pub struct Window {
     pub weights: [f64; 4],
 }
 
+/// The cubic basis in one direction in terms of the unknowns: what equations are made of.
+pub trait Direction: Sync {
+    /// Number of unknowns.
+    fn len(&self) -> usize;
+
+    /// Number of cells.
+    fn cell_count(&self) -> usize;
+
+    /// Unknowns that a window holds: four, or all when there are fewer.
+    fn width(&self) -> usize {
+        self.len().min(4)
+    }
+
+    /// The length of a cell in the units that energies are measured in.
+    fn length(&self, cell: usize) -> f64;
+
+    /// First unknown of a cell's window.
+    fn first(&self, cell: usize) -> usize;
+
+    /// The cell that holds `u` and the fraction of it; beyond the ends the fraction leaves [0, 1].
+    fn locate(&self, u: f64) -> (usize, f64);
+
+    /// The derivative of order `order` with respect to the fraction `s` of a cell.
+    fn window(&self, cell: usize, s: f64, order: usize) -> Window;
+
+    /// The squares of these windows, weighed, sum up to the integral of `x^(order) x^(order) ds` over a cell.
+    fn squares(&self, cell: usize, order: usize) -> [(Window, f64); 4] {
+        GAUSS.map(|(s, weight)| (self.window(cell, s, order), weight))
+    }
+}
+
+/// Four Gauss points on [0, 1] and their weights: they integrate degree 7, the square of a cubic has 6.
+const GAUSS: [(f64, f64); 4] = {
+    const INNER: (f64, f64) = (0.339_981_043_584_856_26, 0.652_145_154_862_546_2);
+    const OUTER: (f64, f64) = (0.861_136_311_594_052_6, 0.347_854_845_137_453_85);
+    [
+        (0.5 - 0.5 * OUTER.0, 0.5 * OUTER.1),
+        (0.5 + 0.5 * OUTER.0, 0.5 * OUTER.1),
+        (0.5 - 0.5 * INNER.0, 0.5 * INNER.1),
+        (0.5 + 0.5 * INNER.0, 0.5 * INNER.1),
+    ]
+};
+
 /// The cubic basis over a grid in terms of the unknowns.
 #[derive(Debug, Clone, Copy)]
 pub struct UniformBasis {
@@ -75,37 +118,43 @@ pub struct UniformBasis {
     pub ends: Ends,
 }
 
-impl UniformBasis {
-    /// Number of unknowns.
-    pub fn len(&self) -> usize {
+impl Direction for UniformBasis {
+    fn len(&self) -> usize {
         match self.ends {
             Ends::Natural => self.grid.count,
             Ends::Free => self.grid.count + 2,
         }
     }
 
-    /// Unknowns that a window holds: four, or all when there are fewer.
-    pub fn width(&self) -> usize {
-        self.len().min(4)
+    fn cell_count(&self) -> usize {
+        self.grid.count - 1
     }
 
-    /// First unknown of a cell's window.
-    pub fn first(&self, cell: usize) -> usize {
+    fn length(&self, _: usize) -> f64 {
+        1.0
+    }
+
+    fn first(&self, cell: usize) -> usize {
         match self.ends {
             Ends::Natural => cell.saturating_sub(1).min(self.len() - self.width()),
             Ends::Free => cell,
         }
     }
 
-    /// The derivative of order `order` with respect to the fraction `s` of a cell.
-    pub fn window(&self, cell: usize, s: f64, order: usize) -> Window {
+    fn locate(&self, u: f64) -> (usize, f64) {
+        self.grid.locate(u)
+    }
+
+    fn window(&self, cell: usize, s: f64, order: usize) -> Window {
         let weights = uniform_weights(s, order);
         match self.ends {
             Ends::Free => Window { first: cell, weights },
             Ends::Natural => self.eliminate(cell, weights),
         }
     }
+}
 
+impl UniformBasis {
     /// Weights of `c_k ..= c_{k+3}` in terms of the unknowns `c_1 ..= c_I`, which are counted from 0.
     fn eliminate(&self, cell: usize, weights: [f64; 4]) -> Window {
         let last = self.grid.count;
@@ -160,18 +209,9 @@ impl UniformBasis {
 
     /// The matrix `integral of x^(order) x^(order) ds` over the cells, in cell units.
     pub fn gram(&self, order: usize) -> Banded4 {
-        // four Gauss points integrate degree 7, the square of a cubic has 6
-        const GAUSS: [(f64, f64); 2] = [
-            (0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
-            (0.339_981_043_584_856_26, 0.652_145_154_862_546_2),
-        ];
         let mut gram = Banded4::zeros(self.len());
-        for cell in 0..self.grid.count - 1 {
-            for (x, weight) in GAUSS {
-                for x in [-x, x] {
-                    gram.add_square(&self.window(cell, 0.5 + 0.5 * x, order), 0.5 * weight);
-                }
-            }
+        for (window, weight) in (0..self.cell_count()).flat_map(|cell| self.squares(cell, order)) {
+            gram.add_square(&window, weight);
         }
         gram
     }
@@ -211,7 +251,7 @@ pub struct Banded4 {
 }
 
 impl Banded4 {
-    fn zeros(n: usize) -> Self {
+    pub fn zeros(n: usize) -> Self {
         Self { rows: vec![[0.0; 4]; n] }
     }
 

@@ -3,8 +3,8 @@
 //! Unknown `(i, j)` meets `(i + a, j + b)` for `|a|, |b| <= 3`: a stencil of 49, of which the lower
 //! triangle keeps `a = 0, b = 0..=3` and `a = 1..=3, b = -3..=3`.
 
-use super::Energy;
-use super::grid::UniformBasis;
+use super::energy::EnergyTerm;
+use super::grid::{Direction, UniformBasis};
 use crate::control::Pool;
 use crate::linalg::dissection::grid_order;
 use crate::linalg::{Cholesky, NotPositiveDefinite, SymbolicCholesky};
@@ -32,12 +32,12 @@ pub struct Samples<'a> {
 
 /// The basis over a rectangle of cells.
 #[derive(Debug, Clone, Copy)]
-pub struct TensorBasis {
-    pub u: UniformBasis,
-    pub v: UniformBasis,
+pub struct TensorBasis<D = UniformBasis> {
+    pub u: D,
+    pub v: D,
 }
 
-impl TensorBasis {
+impl<D: Direction> TensorBasis<D> {
     /// Number of unknowns; `(i, j)` is number `i * v.len() + j`.
     pub fn len(&self) -> usize {
         self.u.len() * self.v.len()
@@ -45,18 +45,18 @@ impl TensorBasis {
 
     /// Cells along u and v.
     pub fn cells(&self) -> [usize; 2] {
-        [self.u.grid.count - 1, self.v.grid.count - 1]
+        [self.u.cell_count(), self.v.cell_count()]
     }
 
     fn cell(&self, uv: DVec2) -> usize {
-        self.u.grid.locate(uv.x).0 * self.cells()[1] + self.v.grid.locate(uv.y).0
+        self.u.locate(uv.x).0 * self.cells()[1] + self.v.locate(uv.y).0
     }
 }
 
 /// `N^T N` and `N^T x` of some data, without energy.
 #[derive(Debug, Clone)]
-pub struct NormalEquations {
-    basis: TensorBasis,
+pub struct NormalEquations<D = UniformBasis> {
+    basis: TensorBasis<D>,
     /// `STENCIL` entries for each unknown.
     matrix: Vec<f64>,
     /// Columns of unknowns, one for each component.
@@ -65,7 +65,7 @@ pub struct NormalEquations {
 }
 
 /// The data of each cell; to be called within a pool.
-pub fn by_cell(basis: &TensorBasis, uv: &[DVec2]) -> Lists {
+pub fn by_cell(basis: &TensorBasis<impl Direction>, uv: &[DVec2]) -> Lists {
     let [cells_u, cells_v] = basis.cells();
     let cells: Vec<u32> = uv.par_iter().map(|&uv| basis.cell(uv) as u32).collect();
     Lists::by_key(cells_u * cells_v, &cells)
@@ -77,12 +77,26 @@ struct Strip {
     right: Vec<f64>,
 }
 
-impl NormalEquations {
+impl Strip {
+    /// Adds it to the whole, from the unknown `first` on.
+    fn add_to(&self, first: usize, matrix: &mut [f64], right: &mut [f64]) {
+        let matrix = &mut matrix[first * STENCIL..][..self.matrix.len()];
+        matrix.iter_mut().zip(&self.matrix).for_each(|(sum, x)| *sum += x);
+        let rows = self.matrix.len() / STENCIL;
+        let (dim, n) = (self.right.len() / rows, right.len() * rows / self.right.len());
+        for k in 0..dim {
+            let column = &mut right[k * n + first..][..rows];
+            column.iter_mut().zip(&self.right[k * rows..]).for_each(|(sum, x)| *sum += x);
+        }
+    }
+}
+
+impl<D: Direction + Clone> NormalEquations<D> {
     /// Adds up the data. Rows of cells are independent pieces of work, added in their order.
-    pub fn assemble(basis: TensorBasis, samples: &Samples, pool: &Pool) -> Self {
+    pub fn assemble(basis: TensorBasis<D>, samples: &Samples, pool: &Pool) -> Self {
         let [cells_u, _] = basis.cells();
         let (rows, n, dim) = (basis.v.len(), basis.len(), samples.dim);
-        let mut equations = Self { basis, matrix: vec![0.0; n * STENCIL], right: vec![0.0; n * dim], dim };
+        let (mut matrix, mut right) = (vec![0.0; n * STENCIL], vec![0.0; n * dim]);
         pool.run(|| {
             let by_cell = by_cell(&basis, samples.uv);
             // strips of a block are kept at once: the block bounds the memory, and is fixed
@@ -93,39 +107,54 @@ impl NormalEquations {
                     .map(|cell_u| assemble_strip(&basis, samples, &by_cell, cell_u))
                     .collect();
                 for (cell_u, strip) in (block..).zip(strips) {
-                    equations.add_strip(basis.u.first(cell_u) * rows, &strip);
+                    strip.add_to(basis.u.first(cell_u) * rows, &mut matrix, &mut right);
                 }
             }
         });
-        equations
+        Self { basis, matrix, right, dim }
     }
 
-    fn add_strip(&mut self, first: usize, strip: &Strip) {
-        let matrix = &mut self.matrix[first * STENCIL..][..strip.matrix.len()];
-        matrix.iter_mut().zip(&strip.matrix).for_each(|(sum, x)| *sum += x);
-        let (n, rows) = (self.basis.len(), strip.right.len() / self.dim);
-        for k in 0..self.dim {
-            let column = &mut self.right[k * n + first..][..rows];
-            column.iter_mut().zip(&strip.right[k * rows..]).for_each(|(sum, x)| *sum += x);
+    /// The tension of a membrane, `integral of |x_u|^2 + |x_v|^2`, over the cells that `is_tense`: for `dim`
+    /// components, without data.
+    pub fn tension(basis: TensorBasis<D>, dim: usize, is_tense: &[bool]) -> Self {
+        let (n, count_v) = (basis.len(), basis.v.len());
+        let mut matrix = vec![0.0; n * STENCIL];
+        let cells_v = basis.v.cell_count();
+        let across: Vec<_> = (0..cells_v).map(|cell| LocalGrams::new(&basis.v, cell)).collect();
+        for cell_u in 0..basis.u.cell_count() {
+            let along = LocalGrams::new(&basis.u, cell_u);
+            for (across, _) in across.iter().zip(&is_tense[cell_u * cells_v..]).filter(|(_, tense)| **tense) {
+                for (a, a2) in pairs().filter(|&(_, a2)| a2 < basis.u.width()) {
+                    for b in 0..basis.v.width() {
+                        for b2 in if a == a2 { b..basis.v.width() } else { 0..basis.v.width() } {
+                            let unknown = (along.first + a) * count_v + across.first + b;
+                            matrix[unknown * STENCIL + 7 * (a2 - a) + REACH + b2 - b] += along.slopes[a][a2]
+                                * across.values[b][b2]
+                                + along.values[a][a2] * across.slopes[b][b2];
+                        }
+                    }
+                }
+            }
         }
+        Self { basis, matrix, right: vec![0.0; n * dim], dim }
     }
 
     /// These and `weight` times others over the same basis.
     pub fn plus(&self, other: &Self, weight: f64) -> Self {
         let add = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a + weight * b).collect();
         let (matrix, right) = (add(&self.matrix, &other.matrix), add(&self.right, &other.right));
-        Self { matrix, right, ..*self }
+        Self { matrix, right, basis: self.basis.clone(), dim: self.dim }
     }
 
-    /// Solves with `smoothing / 12` times the energy added; the unknowns come in columns, one for each
-    /// component. `symbolic` is made by [`NormalEquations::analyse`] for the same basis.
+    /// Solves with `weight` times the energy added; the unknowns come in columns, one for each component.
+    /// `symbolic` is made by [`NormalEquations::analyse`] for the same basis.
     pub fn solve(
         &self,
         symbolic: &SymbolicCholesky,
-        smoothing: f64,
-        energy: Energy,
+        weight: f64,
+        energy: &[EnergyTerm],
     ) -> Result<Vec<f64>, NotPositiveDefinite> {
-        let factor = self.factor(symbolic, smoothing, energy)?;
+        let factor = self.factor(symbolic, weight, energy)?;
         let mut unknowns = self.right.clone();
         factor.solve(&mut unknowns, self.dim);
         Ok(unknowns)
@@ -135,22 +164,21 @@ impl NormalEquations {
     pub fn factor(
         &self,
         symbolic: &SymbolicCholesky,
-        smoothing: f64,
-        energy: Energy,
+        weight: f64,
+        energy: &[EnergyTerm],
     ) -> Result<Cholesky, NotPositiveDefinite> {
-        symbolic.factor(&self.with_energy(smoothing / 12.0, energy).view())
+        symbolic.factor(&self.with_energy(weight, energy).view())
     }
 
     /// The pattern, analysed; the same for all data and energies over one basis.
     pub fn analyse(&self) -> SymbolicCholesky {
         let order = grid_order(self.basis.u.len(), self.basis.v.len(), REACH);
-        SymbolicCholesky::new(&self.with_energy(0.0, Energy::Beam).view(), Some(&order))
+        SymbolicCholesky::new(&self.with_energy(0.0, &[]).view(), Some(&order))
     }
 
     /// The lower triangle of `N^T N + weight * energy`.
-    fn with_energy(&self, weight: f64, energy: Energy) -> CsMat<f64> {
+    fn with_energy(&self, weight: f64, terms: &[EnergyTerm]) -> CsMat<f64> {
         let (count_u, count_v) = (self.basis.u.len(), self.basis.v.len());
-        let terms = energy.terms(&self.basis.u, &self.basis.v);
         let n = count_u * count_v;
         let mut starts = Vec::with_capacity(n + 1);
         let mut rows = Vec::with_capacity(n * 25);
@@ -180,7 +208,12 @@ fn neighbours(j: usize, a: usize, count: usize) -> Range<usize> {
     begin..(j + REACH + 1).min(count)
 }
 
-fn assemble_strip(basis: &TensorBasis, samples: &Samples, by_cell: &Lists, cell_u: usize) -> Strip {
+fn assemble_strip(
+    basis: &TensorBasis<impl Direction>,
+    samples: &Samples,
+    by_cell: &Lists,
+    cell_u: usize,
+) -> Strip {
     let (width_u, width_v, rows) = (basis.u.width(), basis.v.width(), basis.v.len());
     let (cells_v, dim) = (basis.cells()[1], samples.dim);
     let mut strip =
@@ -217,6 +250,31 @@ fn assemble_strip(basis: &TensorBasis, samples: &Samples, by_cell: &Lists, cell_
     strip
 }
 
+/// Integrals over one cell of the products of its window's functions and of their slopes.
+struct LocalGrams {
+    first: usize,
+    values: [[f64; 4]; 4],
+    slopes: [[f64; 4]; 4],
+}
+
+impl LocalGrams {
+    fn new(direction: &impl Direction, cell: usize) -> Self {
+        let gram = |order: usize| {
+            let scale = direction.length(cell).powi(1 - 2 * order as i32);
+            let mut gram = [[0.0; 4]; 4];
+            for (window, weight) in direction.squares(cell, order) {
+                for a in 0..4 {
+                    for b in 0..4 {
+                        gram[a][b] += scale * weight * window.weights[a] * window.weights[b];
+                    }
+                }
+            }
+            gram
+        };
+        Self { first: direction.first(cell), values: gram(0), slopes: gram(1) }
+    }
+}
+
 /// The ten pairs `a <= a2` of window entries along u.
 fn pairs() -> impl Iterator<Item = (usize, usize)> {
     (0..4).flat_map(|a| (a..4).map(move |a2| (a, a2)))
@@ -235,9 +293,9 @@ impl CellSums {
         self.right.fill(0.0);
     }
 
-    fn add(&mut self, basis: &TensorBasis, samples: &Samples, datum: usize) {
+    fn add(&mut self, basis: &TensorBasis<impl Direction>, samples: &Samples, datum: usize) {
         let uv = samples.uv[datum];
-        let ((cell_u, s), (cell_v, t)) = (basis.u.grid.locate(uv.x), basis.v.grid.locate(uv.y));
+        let ((cell_u, s), (cell_v, t)) = (basis.u.locate(uv.x), basis.v.locate(uv.y));
         let weight = samples.weights.map_or(1.0, |weights| weights[datum]);
         let u = basis.u.window(cell_u, s, 0).weights;
         let v = basis.v.window(cell_v, t, 0).weights;
