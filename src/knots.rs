@@ -6,6 +6,12 @@ use crate::failure::{Classify, ErrorKind};
 /// `degree + 1` basis functions on the stack.
 pub const MAX_DEGREE: usize = 9;
 
+/// Knots that differ do so by this at least: second derivatives divide by their squares, so that values of any size
+/// that a double has leave the range of doubles before a division by zero could.
+pub const LEAST_STEP: f64 = 1e-290;
+/// Knots are at most this large, so that their differences are finite.
+pub const LARGEST: f64 = 1e290;
+
 /// A knot vector is not one.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum KnotError {
@@ -51,6 +57,22 @@ pub enum KnotError {
         /// Degree of the spline.
         degree: usize,
     },
+    /// A knot is so near to the one before it that nothing can be divided by their difference.
+    #[error("knot {index} is {step:e} above the knot before it: let them be equal, or {LEAST_STEP:e} apart")]
+    TooNear {
+        /// The knot.
+        index: usize,
+        /// How far it is from the one before.
+        step: f64,
+    },
+    /// The knots reach so far that differences of them overflow.
+    #[error("the knots reach from {from:e} to {to:e}, they must lie within {LARGEST:e} of zero")]
+    TooFar {
+        /// The first knot.
+        from: f64,
+        /// The last one.
+        to: f64,
+    },
     /// The domain, from knot `degree` to knot `count - degree - 1`, has no length.
     #[error("the knots span no interval: the domain begins and ends at {at}")]
     Empty {
@@ -91,6 +113,7 @@ impl Classify for KnotError {
         match *self {
             Self::NotFinite { index }
             | Self::Decreasing { index }
+            | Self::TooNear { index, .. }
             | Self::Multiplicity { index, .. }
             | Self::NotRemovable { index } => Some(index),
             _ => None,
@@ -127,6 +150,14 @@ impl KnotVector {
         }
         if let Some(index) = knots.windows(2).position(|pair| pair[0] > pair[1]) {
             return Err(KnotError::Decreasing { index: index + 1 });
+        }
+        let (first, last) = (knots[0], knots[knots.len() - 1]);
+        if first.abs().max(last.abs()) > LARGEST {
+            return Err(KnotError::TooFar { from: first, to: last });
+        }
+        let step = |pair: &[f64]| pair[1] - pair[0];
+        if let Some(index) = knots.windows(2).position(|pair| step(pair) > 0.0 && step(pair) < LEAST_STEP) {
+            return Err(KnotError::TooNear { index: index + 1, step: step(&knots[index..]) });
         }
         if let Some(index) = knots.windows(degree + 2).position(|run| run[0] == run[degree + 1]) {
             return Err(KnotError::Multiplicity { index, degree });
@@ -283,6 +314,23 @@ mod tests {
 
     fn knots() -> KnotVector {
         KnotVector::new(vec![0., 0., 0., 0., 1., 2., 2., 2.5, 7., 7., 7., 7.], 3).unwrap()
+    }
+
+    #[test]
+    fn knots_at_the_ends_of_the_range_are_refused_by_name() {
+        let refuse = |knots: [f64; 6]| KnotVector::new(knots.to_vec(), 1).unwrap_err();
+        let near = refuse([0., 0., 1e-300, 1e-300, 1., 1.]);
+        assert_eq!(near, KnotError::TooNear { index: 2, step: 1e-300 });
+        assert!(near.to_string().contains("knot 2 is 1e-300"), "{near}");
+        let far = refuse([-1e300, -1e300, 0., 1., 1e300, 1e300]);
+        assert_eq!(far, KnotError::TooFar { from: -1e300, to: 1e300 });
+        // domains of any other width are as good as the unit interval
+        for width in [1e-280, 1e-100, 1e100, 1e280] {
+            let knots = KnotVector::clamped(&[0.0, 0.25 * width, width], 3).unwrap();
+            let values = crate::basis::basis_functions(&knots, knots.span(0.5 * width), 0.5 * width);
+            let sum: f64 = values.iter().take(4).sum();
+            assert!((sum - 1.0).abs() <= 8.0 * f64::EPSILON, "{width:e}: {sum}");
+        }
     }
 
     #[test]

@@ -4,6 +4,7 @@ mod axis;
 mod bounds;
 mod domain;
 mod orientation;
+mod scale;
 
 pub use axis::Axis;
 pub use bounds::Bounds;
@@ -11,3 +12,4 @@ pub use domain::Domain;
 pub use orientation::{
     CANCELLATION, Orientation, is_in_circle, orientation, orientation_of_cone, signed_area,
 };
+pub use scale::safe_scale;

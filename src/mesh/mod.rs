@@ -29,10 +29,11 @@ pub use read::{Format, ReadError, read, read_as, read_bytes};
 pub use repair::{Components, MeshRepairs, Repair};
 pub use topology::{HalfEdge, Topology};
 
-use crate::geometry::Bounds;
+use crate::geometry::{Bounds, safe_scale};
 use glam::{DVec2, DVec3};
 use polygon::Triangulation;
 use repair::Draft;
+use std::borrow::Cow;
 
 /// How arrays become a mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -372,9 +373,10 @@ impl Mesh {
 
     /// The normals of the nodes: sums of the area vectors of their triangles, not of length 1.
     pub fn node_normals(&self) -> Vec<DVec3> {
+        let (safe, _) = self.at_safe_scale();
         let mut normals = vec![DVec3::ZERO; self.points.len()];
         for triangle in &self.triangles {
-            let [a, b, c] = triangle.map(|node| self.points[node as usize]);
+            let [a, b, c] = triangle.map(|node| safe.points[node as usize]);
             let area = (b - a).cross(c - a);
             triangle.iter().for_each(|&node| normals[node as usize] += area);
         }
@@ -426,6 +428,18 @@ impl Mesh {
             }
         }
         Bounds { min: low.to_array().to_vec(), max: high.to_array().to_vec() }
+    }
+
+    /// The same mesh, or one of about size one where squares of areas would leave the range of doubles, and the power
+    /// of two by which its places were multiplied: rounding is the same.
+    pub fn at_safe_scale(&self) -> (Cow<'_, Self>, f64) {
+        let scale = safe_scale(self.points.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max));
+        if scale == 1.0 {
+            return (Cow::Borrowed(self), 1.0);
+        }
+        let mut scaled = self.clone();
+        scaled.points.iter_mut().for_each(|p| *p *= scale);
+        (Cow::Owned(scaled), scale)
     }
 
     /// Length of that box's diagonal.

@@ -1,9 +1,12 @@
 //! Normals and curvatures from derivatives.
 
+use crate::geometry::safe_scale;
 use glam::DVec3;
 
 /// The unit normal `Su x Sv / |Su x Sv|`; NaN where the tangents are parallel or zero.
 pub fn normal(su: DVec3, sv: DVec3) -> DVec3 {
+    // tangents of any length
+    let [su, sv] = [su, sv].map(|tangent| tangent * safe_scale(tangent.abs().max_element()));
     let n = su.cross(sv);
     let length = n.length();
     // parallel within rounding: the direction of the product is noise
@@ -22,8 +25,11 @@ pub fn surface_gradient(su: DVec3, sv: DVec3, fu: f64, fv: f64) -> DVec3 {
     if normal(su, sv).is_nan() {
         return DVec3::NAN;
     }
+    // a shape of another size has gradients of the inverse size
+    let scale = safe_scale(su.abs().max(sv.abs()).max_element());
+    let (su, sv) = (su * scale, sv * scale);
     let (e, f, g) = (su.length_squared(), su.dot(sv), sv.length_squared());
-    ((g * fu - f * fv) * su + (e * fv - f * fu) * sv) / su.cross(sv).length_squared()
+    scale * (((g * fu - f * fv) * su + (e * fv - f * fu) * sv) / su.cross(sv).length_squared())
 }
 
 /// The principal curvatures and their directions.
