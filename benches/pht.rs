@@ -213,11 +213,8 @@ fn project() {
     let points: Vec<f64> = mesh.points().iter().flat_map(|p| p.to_array().map(&mut nearby)).collect();
     let count = mesh.points().len();
     let projector = Projector::new(&surface).expect("patches");
-    let (mut places, mut distances) = (vec![DVec2::ZERO; count], vec![0.0; count]);
     let pool = Pool::new(1);
-    let (milliseconds, _) = fastest(2, || {
-        projector.project(&points, &ProjectOptions::default(), &mut places, &mut distances, &pool)
-    });
+    let (milliseconds, _) = fastest(2, || projector.project(&points, &ProjectOptions::default(), &pool));
     println!(
         "projection of points near a fit of {} cells: {:.0} points a second",
         surface.mesh().leaf_count(),

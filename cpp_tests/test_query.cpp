@@ -84,6 +84,26 @@ TEST(Project, FindsTheNearestPlace) {
   options.guesses = guesses;
   CHECK(planish_surface_project(surface.get(), points, 3, &options, uv, nullptr) == PLANISH_STATUS_OK);
   CHECK_NEAR(uv[0], 0.1, 1e-12); // the nearest place, whatever the guess
+
+  std::uint8_t flags[3] = {7, 7, 7};
+  options = project_options();
+  options.out_flags = flags;
+  CHECK(planish_surface_project(surface.get(), points, 3, &options, nullptr, nullptr) == PLANISH_STATUS_OK);
+  CHECK(flags[0] == 0 && flags[1] == 0 && flags[2] == 0); // each is proved to be the nearest
+}
+
+TEST(Project, SeesTheSurfaceAsItIs) {
+  const Surface surface = sheet(false);
+  const double point[3] = {0.5, 0.5, 2};
+  double distance = -1;
+  CHECK(planish_surface_project(surface.get(), point, 1, nullptr, nullptr, &distance) == PLANISH_STATUS_OK);
+  CHECK_NEAR(distance, 2.0, 1e-12);
+  // what the first call kept does not outlive a change
+  const double corner[6] = {0, 0, 0.25, 0, 0, 0.25};
+  const std::size_t count = 3;
+  CHECK(planish_surface_set_trims(surface.get(), corner, &count, 1) == PLANISH_STATUS_OK);
+  CHECK(planish_surface_project(surface.get(), point, 1, nullptr, nullptr, &distance) == PLANISH_STATUS_OK);
+  CHECK_NEAR(distance, std::sqrt(4 + 2 * 0.375 * 0.375), 1e-12);
 }
 
 TEST(Project, RefusesByName) {

@@ -1960,7 +1960,8 @@ contains
   !> uv:        (2,n), receives the places.
   !> distances: receives how far they are.
   !> guesses:   (2,n), places near them.
-  subroutine surface_project(self, points, uv, distances, options, guesses, stat, errmsg)
+  !> flags:     receives PLANISH_FLAG_NOT_PROVEN where no search has proved that no other place is nearer.
+  subroutine surface_project(self, points, uv, distances, options, guesses, flags, stat, errmsg)
     class(planish_surface_t), intent(in) :: self
     real(c_double), intent(in), contiguous :: points(:, :)
     real(c_double), intent(inout), optional, contiguous :: uv(:, :), distances(:)
@@ -1968,6 +1969,7 @@ contains
     real(c_double), intent(in), optional, target, contiguous :: guesses(:, :)
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
+    integer(c_int8_t), intent(inout), optional, target, contiguous :: flags(:)
     type(planish_project_options) :: call_options
     integer(c_size_t) :: count
     count = size(points, 2, c_size_t)
@@ -1984,6 +1986,10 @@ contains
       if (refuse_extent(size(guesses, 1, c_size_t), 2_c_size_t, "the first extent of guesses", stat, errmsg)) return
       if (refuse_short(size(guesses, 2, c_size_t), count, "guesses", stat, errmsg)) return
       call_options%guesses = c_loc(guesses)
+    end if
+    if (present(flags)) then
+      if (refuse_short(size(flags, kind=c_size_t), count, "flags", stat, errmsg)) return
+      call_options%out_flags = c_loc(flags)
     end if
     call conclude(c_surface_project(self%get(), points, count, call_options, uv, distances), stat, errmsg)
   end subroutine

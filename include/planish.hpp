@@ -650,8 +650,10 @@ struct projected {
   std::vector<point2> uv;
   /// Its distance; NaN likewise.
   std::vector<double> distances;
-  /// PLANISH_STATUS_OK, or PLANISH_STATUS_POINTS_OUTSIDE if some points are too far.
+  /// PLANISH_STATUS_OK, PLANISH_STATUS_POINTS_OUTSIDE if some points are too far, or PLANISH_STATUS_NOT_PROVEN.
   planish_status status;
+  /// The planish_flag bits of each point, of which PLANISH_FLAG_NOT_PROVEN occurs here.
+  std::vector<std::uint8_t> flags;
 };
 
 /// How far a mesh lies from a surface.
@@ -844,7 +846,7 @@ class surface {
     detail::checked(planish_surface_set_trims(get(), detail::flat(uv), counts.data(), counts.size()));
   }
 
-  /// The nearest places of points, rows of dim numbers, anywhere on the surface.
+  /// The nearest places of points, rows of dim numbers, inside the trims unless the options say otherwise.
   projected project(const values<double> &points,
                     const planish_project_options &options = defaults<planish_project_options>(),
                     const progress &hear = {}) const {
@@ -853,8 +855,11 @@ class surface {
       const std::string text = std::to_string(points.count()) + " numbers are not rows of " + std::to_string(width);
       throw error(PLANISH_STATUS_INVALID_ARGUMENT, text, -1);
     }
-    projected result{std::vector<point2>(count), std::vector<double>(count), PLANISH_STATUS_OK};
-    result.status = detail::heard(options, hear, [&](const planish_project_options *given) {
+    projected result{std::vector<point2>(count), std::vector<double>(count), PLANISH_STATUS_OK,
+                     std::vector<std::uint8_t>(count)};
+    planish_project_options with_flags = options;
+    with_flags.out_flags = result.flags.data();
+    result.status = detail::heard(with_flags, hear, [&](const planish_project_options *given) {
       return planish_surface_project(get(), points.data(), count, given, detail::flat(result.uv),
                                      result.distances.data());
     });

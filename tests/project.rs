@@ -2,17 +2,20 @@
 //!
 //! The reference is the exact minimum over a 2,000 x 2,000 sampling (its blocks are skipped only where their box
 //! is farther than a sample already seen), refined by Newton's method through the public evaluation. It may lie in
-//! the wrong basin of two; the answer may not, and it is shown to be a distance to the surface.
+//! the wrong basin of two; the answer may not, and it is shown to be a distance to the surface. With trims only
+//! samples inside them count.
 
 mod common;
 
 use glam::{DVec2, DVec3};
 use planish::Control;
 use planish::control::Pool;
-use planish::fit::tensor::{TensorOptions, fit_mesh};
+use planish::fit::report::Tolerance;
+use planish::fit::tensor::{TensorFit, TensorOptions, fit_mesh};
 use planish::knots::KnotVector;
-use planish::query::project::{ProjectOptions, Projector};
-use planish::samples::{Random, bumps};
+use planish::mesh::Mesh;
+use planish::query::project::{ProjectOptions, Projection, Projector};
+use planish::samples::{self, Random, bumps};
 use planish::surface::Surface;
 use planish::surface::tensor::TensorSurface;
 use std::f64::consts::FRAC_PI_2;
@@ -29,7 +32,9 @@ struct Sampling {
 }
 
 impl Sampling {
-    fn new(surface: &dyn Surface) -> Self {
+    /// Of all of the surface, or of what lies inside its trims.
+    fn new(surface: &dyn Surface, keep_trims: bool) -> Self {
+        let trims = &surface.region().trims;
         let domain = surface.domain();
         let share = |k: usize| k as f64 / (SAMPLES - 1) as f64;
         let place = |i: usize, j: usize| domain.min + DVec2::new(share(i), share(j)) * domain.size();
@@ -39,9 +44,15 @@ impl Sampling {
             let (bi, bj) = (block / (SAMPLES / BLOCK), block % (SAMPLES / BLOCK));
             let first = uv.len() as u32;
             for k in 0..BLOCK * BLOCK {
-                uv.push(place(bi * BLOCK + k / BLOCK, bj * BLOCK + k % BLOCK));
+                let at = place(bi * BLOCK + k / BLOCK, bj * BLOCK + k % BLOCK);
+                if !keep_trims || trims.contains(at) {
+                    uv.push(at);
+                }
             }
-            blocks.push((DVec3::INFINITY, DVec3::NEG_INFINITY, (first..uv.len() as u32).collect::<Vec<_>>()));
+            let samples: Vec<u32> = (first..uv.len() as u32).collect();
+            if !samples.is_empty() {
+                blocks.push((DVec3::INFINITY, DVec3::NEG_INFINITY, samples));
+            }
         }
         let mut rows = vec![0.0; 3 * uv.len()];
         surface.eval_rows(&uv, 0, &mut rows);
@@ -76,9 +87,9 @@ impl Sampling {
     }
 }
 
-/// Damped Newton steps within the domain until none lowers the distance.
-fn refine(surface: &dyn Surface, point: DVec3, mut uv: DVec2) -> f64 {
-    let domain = surface.domain();
+/// Damped Newton steps within the domain, and the trims if these count, until none lowers the distance.
+fn refine(surface: &dyn Surface, keep_trims: bool, point: DVec3, mut uv: DVec2) -> f64 {
+    let (domain, trims) = (surface.domain(), &surface.region().trims);
     let at = |uv: DVec2| {
         let mut rows = [0.0; 18];
         surface.eval_rows(&[uv], 2, &mut rows);
@@ -96,7 +107,7 @@ fn refine(surface: &dyn Surface, point: DVec3, mut uv: DVec2) -> f64 {
         for step in candidates.into_iter().filter(|step| step.is_finite()) {
             let next = domain.clamp(uv + step);
             let distance = at(next)[0].distance(point);
-            if distance < best {
+            if distance < best && (!keep_trims || trims.contains(next)) {
                 (best, uv, is_lower) = (distance, next, true);
                 break;
             }
@@ -128,14 +139,19 @@ fn scattered(sampling: &Sampling, diagonal: f64, count: usize) -> Vec<DVec3> {
 }
 
 fn check(name: &str, surface: &dyn Surface) {
-    let sampling = Sampling::new(surface);
+    check_within(name, surface, false);
+}
+
+fn check_within(name: &str, surface: &dyn Surface, keep_trims: bool) {
+    let sampling = Sampling::new(surface, keep_trims);
     let diagonal = diagonal(&sampling);
     let points = scattered(&sampling, diagonal, POINTS);
     let rows: Vec<f64> = points.iter().flat_map(|p| p.to_array()).collect();
     let projector = Projector::new(surface).unwrap();
-    let options = ProjectOptions { keep_trims: false, ..ProjectOptions::default() };
-    let (mut uv, mut distances) = (vec![DVec2::ZERO; POINTS], vec![0.0; POINTS]);
-    assert_eq!(projector.project(&rows, &options, &mut uv, &mut distances, &Pool::new(0)), Ok(0));
+    let options = ProjectOptions { keep_trims, ..ProjectOptions::default() };
+    let projection = projector.project(&rows, &options, &Pool::new(0)).unwrap();
+    assert_eq!((projection.missed(), projection.unproven()), (0, 0));
+    let Projection { uv, distances, .. } = projection;
     let mut values = vec![0.0; 3 * POINTS];
     surface.eval_rows(&uv, 0, &mut values);
     for (k, point) in points.iter().enumerate() {
@@ -144,7 +160,7 @@ fn check(name: &str, surface: &dyn Surface) {
         let distance = DVec3::from_slice(&values[3 * k..]).distance(*point);
         let tol = 64.0 * f64::EPSILON * (diagonal + point.length());
         assert!((distance - distances[k]).abs() <= tol, "{name} {k}: {distance} is not {}", distances[k]);
-        let reference = refine(surface, *point, sampling.nearest(*point));
+        let reference = refine(surface, keep_trims, *point, sampling.nearest(*point));
         assert!(distances[k] <= reference + 1e-9 * diagonal, "{name} {k}: {} > {reference}", distances[k]);
     }
 }
@@ -217,5 +233,54 @@ fn a_fit_of_a_scan_has_no_nearer_sample() {
         let options = TensorOptions { fixed_grid: Some([count; 2]), ..TensorOptions::default() };
         let fit = fit_mesh(&mesh, &options, &mut Control::new(0)).unwrap();
         check(name, &fit.surface);
+    }
+}
+
+fn fit(mesh: &Mesh, tolerance: f64) -> TensorFit {
+    let tolerance = Tolerance { value: tolerance, ..Tolerance::default() };
+    let options = TensorOptions { tolerance, max_grid: 65, ..TensorOptions::default() };
+    fit_mesh(mesh, &options, &mut Control::new(0)).unwrap()
+}
+
+/// No node is farther from a fit than from its own place, which lies inside the trims.
+fn check_nodes(name: &str, mesh: &Mesh, fit: &TensorFit) {
+    let points: Vec<f64> = mesh.points().iter().flat_map(|p| p.to_array()).collect();
+    let projector = Projector::new(&fit.surface).unwrap();
+    let projection = projector.project(&points, &ProjectOptions::default(), &Pool::new(0)).unwrap();
+    assert_eq!((projection.missed(), projection.unproven()), (0, 0), "{name}");
+    for (n, (distance, own)) in projection.distances.iter().zip(&fit.errors).enumerate() {
+        let limit = own + 1e-12 * fit.report.diagonal;
+        assert!(*distance <= limit, "{name}, node {n}: {distance} from the surface, {own} from its own place");
+    }
+}
+
+#[test]
+fn nodes_are_no_farther_than_from_their_own_places() {
+    let holed = [samples::planar(5), samples::curved_notch(3), samples::sphere_with_holes(3000, 2), samples::wing()];
+    for (k, mesh) in holed.into_iter().enumerate() {
+        let mesh = mesh.unwrap();
+        for tolerance in [1e-2, 1e-4] {
+            check_nodes(&format!("sample {k}"), &mesh, &fit(&mesh, tolerance));
+        }
+    }
+    for name in ["neon_side_holes_16k.off", "airplane_holes_8k.off", "igea_disk_43k.ply", "mask_control_1290.off"] {
+        let Some(path) = common::shared_data(name) else { return };
+        let (mesh, _) = planish::mesh::read(&path, &planish::mesh::MeshOptions::default()).unwrap();
+        check_nodes(name, &mesh, &fit(&mesh, 1e-2));
+    }
+}
+
+#[test]
+fn inside_the_trims_of_a_holed_sphere_no_sample_is_nearer() {
+    let mesh = samples::sphere_with_holes(3000, 2).unwrap();
+    check_within("sphere with holes", &fit(&mesh, 1e-3).surface, true);
+}
+
+#[test]
+fn inside_the_trims_of_real_fits_no_sample_is_nearer() {
+    for name in ["neon_side_holes_16k.off", "airplane_holes_8k.off"] {
+        let Some(path) = common::shared_data(name) else { return };
+        let (mesh, _) = planish::mesh::read(&path, &planish::mesh::MeshOptions::default()).unwrap();
+        check_within(name, &fit(&mesh, 1e-2).surface, true);
     }
 }

@@ -11,8 +11,8 @@ use super::progress::{planish_progress, with_control};
 use super::report::write_pairs;
 use super::surface::planish_surface;
 use crate::control::Stage;
-use crate::query::deviation::{DeviationOptions, DeviationReport, deviation};
-use crate::query::project::{ProjectOptions, Projector};
+use crate::query::deviation::{DeviationOptions, DeviationReport, check_in_space, deviation_with};
+use crate::query::project::{ProjectOptions, Projection};
 use crate::query::tessellate::{TessellateOptions, Tessellation, tessellate_watched};
 use glam::DVec2;
 use libc::c_void;
@@ -131,11 +131,31 @@ record! {
         pub keep_trims: u32 = 1,
         /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
         pub thread_count: u32,
+        /// Receives the planish_flag bits of each point, of which PLANISH_FLAG_NOT_PROVEN occurs here, or NULL
+        /// (default).
+        /// Array: [points].
+        pub out_flags: *mut u8,
     }
 }
 
-/// Finds the place on a surface nearest to each point, anywhere on the surface: there is no start to choose,
-/// and no local minimum to fall into.
+/// What a projection came to.
+pub(super) fn status_of(projection: &Projection) -> planish_status {
+    match (projection.missed(), projection.unproven()) {
+        (0, 0) => planish_status::Ok,
+        (0, _) => planish_status::NotProven,
+        _ => planish_status::PointsOutside,
+    }
+}
+
+/// Finds the place on a surface nearest to each point, inside its trims unless the options say otherwise.
+///
+/// On tensor surfaces, T-splines and PHT-splines the answer is the nearest of all places: there is no start to
+/// choose, and no local minimum to fall into. Should a search end without a proof (it takes a continuum of places
+/// that are nearest but for roundoff, such as a tube seen from its axis), the point is flagged. D1RC-splines are
+/// searched from the nearest place of a tessellation: the answer is a local minimum, each point that does not lie on
+/// the surface is flagged, and the call returns PLANISH_STATUS_NOT_PROVEN.
+///
+/// The first call for a surface builds an index that later calls use; points may be given one at a time.
 ///
 /// surface:       not NULL.
 /// points:        count rows of planish_surface_dim() doubles.
@@ -145,7 +165,8 @@ record! {
 /// out_distances: receives count distances; NULL for none.
 /// Arrays: points[count, surface_dim], out_uv[count, 2], out_distances[count].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_POINTS_OUTSIDE (some points are farther than max_distance),
-/// PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_NOT_FINITE (the index is the point),
+/// PLANISH_STATUS_NOT_PROVEN (some answers are flagged), PLANISH_STATUS_NULL_POINTER,
+/// PLANISH_STATUS_NOT_FINITE (the index is the point),
 /// PLANISH_STATUS_INVALID_ARGUMENT, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOO_LARGE or
 /// PLANISH_STATUS_VERSION.
 #[must_use]
@@ -160,9 +181,9 @@ pub unsafe extern "C" fn planish_surface_project(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let surface = deref(surface, "surface")?.any();
+        let surface = deref(surface, "surface")?;
         let given = self::options(options)?;
-        let points = slice(points, array_len::<f64>(count, surface.dim(), "points")?, "points")?;
+        let points = slice(points, array_len::<f64>(count, surface.any().dim(), "points")?, "points")?;
         let guesses = match given.guesses.is_null() {
             true => None,
             false => Some(copy_rows(given.guesses, count, 2, "guesses", DVec2::from_array)?),
@@ -174,18 +195,21 @@ pub unsafe extern "C" fn planish_surface_project(
         };
         let out_uv = slice_mut_or_none(out_uv, array_len::<f64>(count, 2, "out_uv")?, "out_uv")?;
         let out_distances = slice_mut_or_none(out_distances, count, "out_distances")?;
-        let (mut uv, mut distances) = (vec![DVec2::ZERO; count], vec![0.0; count]);
-        let missed = with_control(given.thread_count, listener!(given), |control| {
+        let out_flags = slice_mut_or_none(given.out_flags, count, "out_flags")?;
+        let projection = with_control(given.thread_count, listener!(given), |control| {
             control.enter(Stage::Project);
-            Projector::new(surface)?.project(points, &core, &mut uv, &mut distances, control.pool())
+            surface.projector()?.project(points, &core, control.pool())
         })??;
         if let Some(out_uv) = out_uv {
-            write_pairs(&uv, out_uv);
+            write_pairs(&projection.uv, out_uv);
         }
         if let Some(out_distances) = out_distances {
-            out_distances.copy_from_slice(&distances);
+            out_distances.copy_from_slice(&projection.distances);
         }
-        Ok(if missed > 0 { planish_status::PointsOutside } else { planish_status::Ok })
+        if let Some(out_flags) = out_flags {
+            out_flags.copy_from_slice(&projection.flags);
+        }
+        Ok(status_of(&projection))
     })
 }
 
@@ -242,6 +266,8 @@ record! {
         pub worst_index: usize,
         /// Places on the surface that were measured back from.
         pub back_count: usize,
+        /// Nodes whose distance is not proved to be the least one: planish_surface_project() says when.
+        pub unproven_count: usize,
     }
 }
 
@@ -257,11 +283,13 @@ impl From<&DeviationReport> for planish_deviation_report {
             worst_back_v: report.worst_back_uv.y,
             worst_index: report.nodes.worst_index,
             back_count: report.back_count,
+            unproven_count: report.unproven,
         }
     }
 }
 
-/// Measures how far the nodes of a mesh lie from a surface in space: closest-point distances.
+/// Measures how far the nodes of a mesh lie from a surface in space: closest-point distances, as
+/// planish_surface_project() finds them.
 ///
 /// surface:       not NULL, of dimension 3.
 /// mesh:          not NULL.
@@ -270,7 +298,8 @@ impl From<&DeviationReport> for planish_deviation_report {
 /// count:         doubles that out_distances has room for.
 /// out_report:    receives the sizes of the distances; NULL for none.
 /// Arrays: out_distances[count].
-/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, or the
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NOT_PROVEN (some distances are not proved to be the least ones, as
+/// to a D1RC-spline), PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, or the
 /// dimension), PLANISH_STATUS_BUFFER_TOO_SMALL, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOPOLOGY or
 /// PLANISH_STATUS_TOO_LARGE (measuring back only), or PLANISH_STATUS_VERSION.
 #[must_use]
@@ -285,7 +314,7 @@ pub unsafe extern "C" fn planish_surface_deviation(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let surface = deref(surface, "surface")?.any();
+        let surface = deref(surface, "surface")?;
         let mesh = &deref(mesh, "mesh")?.0;
         let given = self::options(options)?;
         let report = ReportOut::new(out_report)?;
@@ -300,14 +329,15 @@ pub unsafe extern "C" fn planish_surface_deviation(
             chord_tolerance: given.chord_tolerance,
             max_edge_length: given.max_edge_length,
         };
+        check_in_space(surface.any())?;
         let result = with_control(given.thread_count, listener!(given), |control| {
             control.enter(Stage::Project);
-            deviation(surface, mesh, &core, control.pool())
+            deviation_with(surface.projector()?, surface.any(), mesh, &core, control.pool())
         })??;
         if !out_distances.is_null() {
             slice_mut(out_distances, needed, "out_distances")?.copy_from_slice(&result.nodes.each);
         }
         report.store((&result).into());
-        Ok(())
+        Ok(if result.unproven > 0 { planish_status::NotProven } else { planish_status::Ok })
     })
 }

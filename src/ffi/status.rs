@@ -10,7 +10,7 @@ use std::ffi::CStr;
 ///
 /// A positive status is a success with a remark: all outputs are filled. Where several remarks hold the
 /// gravest is returned, in the order FOLDED_PARAMETERS, TOLERANCE_NOT_MET, STAGNATED, POINTS_OUTSIDE,
-/// INPUT_REPAIRED; reports have all of them. After an error no output has been touched, and
+/// NOT_PROVEN, INPUT_REPAIRED; reports have all of them. After an error no output has been touched, and
 /// planish_error_message() and planish_error_index() say more. Numbers are never reused; new ones may come.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,6 +28,8 @@ pub enum planish_status {
     InputRepaired = 4,
     /// Some triangles are turned over or flat in the parameter plane: a surface over them may fold.
     FoldedParameters = 5,
+    /// A search could not prove that its answers are the nearest places; a flag says for which points.
+    NotProven = 6,
     /// An argument that must not be NULL is.
     NullPointer = -1,
     /// An argument or option is out of its range, or contradicts another.
@@ -132,6 +134,7 @@ fn name(status: i32) -> &'static CStr {
         3 => c"PLANISH_STATUS_POINTS_OUTSIDE",
         4 => c"PLANISH_STATUS_INPUT_REPAIRED",
         5 => c"PLANISH_STATUS_FOLDED_PARAMETERS",
+        6 => c"PLANISH_STATUS_NOT_PROVEN",
         -1 => c"PLANISH_STATUS_NULL_POINTER",
         -2 => c"PLANISH_STATUS_INVALID_ARGUMENT",
         -3 => c"PLANISH_STATUS_NOT_FINITE",

@@ -10,6 +10,7 @@ use super::progress::thread_count;
 use super::report::write_pairs;
 use super::status::query;
 use crate::control::Pool;
+use crate::query::project::{FLAG_NOT_PROVEN, ProjectError, Projector};
 use crate::surface::d1rc::D1rcSurface;
 use crate::surface::evaluate::{
     FLAG_IN_BUFFER, FLAG_NO_NORMAL, FLAG_OUTSIDE_DOMAIN, FLAG_OUTSIDE_TRIMS, Output, OutsideRule, Points,
@@ -20,12 +21,19 @@ use crate::surface::tensor::TensorSurface;
 use crate::surface::tspline::TSplineSurface;
 use crate::surface::{AnySurface, Domain, Kind, MAX_DERIVATIVE, Surface, Trims};
 use glam::DVec2;
+use std::sync::OnceLock;
 
 /// A surface: a map from a rectangle of parameters (u,v) to R^dim. Made by planish_tensor_fit() and others,
 /// destroyed by planish_surface_free().
 ///
 /// Calls that take it const may run at once on any threads; a call that takes it non-const needs it alone.
-pub struct planish_surface(Family);
+/// The first projection onto it builds an index, some hundred bytes for each control point, which it keeps until it
+/// is changed or destroyed.
+pub struct planish_surface {
+    family: Family,
+    /// Made when first needed, forgotten when the surface changes.
+    projector: OnceLock<Projector>,
+}
 
 const _: () = {
     const fn is_shared<T: Send + Sync>() {}
@@ -44,17 +52,36 @@ pub(super) enum Family {
 
 impl planish_surface {
     pub(super) fn into_raw(surface: impl Into<AnySurface>) -> *mut Self {
-        Box::into_raw(Box::new(Self(Family::Any(surface.into()))))
+        Self::of(Family::Any(surface.into()))
     }
 
     /// A handle of no family that the library knows.
     #[cfg(test)]
     pub(super) fn other_into_raw(surface: super::tests::OtherFamily) -> *mut Self {
-        Box::into_raw(Box::new(Self(Family::Other(surface))))
+        Self::of(Family::Other(surface))
+    }
+
+    fn of(family: Family) -> *mut Self {
+        Box::into_raw(Box::new(Self { family, projector: OnceLock::new() }))
+    }
+
+    /// What projects onto it; the first call makes it.
+    pub(super) fn projector(&self) -> Result<&Projector, ProjectError> {
+        if let Some(projector) = self.projector.get() {
+            return Ok(projector);
+        }
+        let made = Projector::new(self.any())?;
+        Ok(self.projector.get_or_init(|| made))
+    }
+
+    /// To change the surface: what was kept for it no longer holds.
+    fn family_mut(&mut self) -> &mut Family {
+        self.projector = OnceLock::new();
+        &mut self.family
     }
 
     pub(super) fn any(&self) -> &dyn Surface {
-        match &self.0 {
+        match &self.family {
             Family::Any(surface) => surface.as_surface(),
             #[cfg(test)]
             Family::Other(other) => other,
@@ -62,7 +89,7 @@ impl planish_surface {
     }
 
     pub(super) fn any_mut(&mut self) -> &mut dyn Surface {
-        match &mut self.0 {
+        match self.family_mut() {
             Family::Any(surface) => surface.as_surface_mut(),
             #[cfg(test)]
             Family::Other(other) => other,
@@ -71,7 +98,7 @@ impl planish_surface {
 
     /// The surface for calls that tell the families apart themselves.
     pub(super) fn family(&self) -> Result<&AnySurface, ArgumentError> {
-        match &self.0 {
+        match &self.family {
             Family::Any(surface) => Ok(surface),
             #[cfg(test)]
             Family::Other(_) => Err(self.wrong_kind(Kind::Tensor)),
@@ -79,7 +106,7 @@ impl planish_surface {
     }
 
     pub(super) fn tensor(&self) -> Result<&TensorSurface, ArgumentError> {
-        match &self.0 {
+        match &self.family {
             Family::Any(AnySurface::Tensor(tensor)) => Ok(tensor),
             _ => Err(self.wrong_kind(Kind::Tensor)),
         }
@@ -87,14 +114,14 @@ impl planish_surface {
 
     pub(super) fn tensor_mut(&mut self) -> Result<&mut TensorSurface, ArgumentError> {
         let refused = self.wrong_kind(Kind::Tensor);
-        match &mut self.0 {
+        match self.family_mut() {
             Family::Any(AnySurface::Tensor(tensor)) => Ok(tensor),
             _ => Err(refused),
         }
     }
 
     pub(super) fn tspline(&self) -> Result<&TSplineSurface, ArgumentError> {
-        match &self.0 {
+        match &self.family {
             Family::Any(AnySurface::TSpline(tspline)) => Ok(tspline),
             _ => Err(self.wrong_kind(Kind::TSpline)),
         }
@@ -102,14 +129,14 @@ impl planish_surface {
 
     pub(super) fn tspline_mut(&mut self) -> Result<&mut TSplineSurface, ArgumentError> {
         let refused = self.wrong_kind(Kind::TSpline);
-        match &mut self.0 {
+        match self.family_mut() {
             Family::Any(AnySurface::TSpline(tspline)) => Ok(tspline),
             _ => Err(refused),
         }
     }
 
     pub(super) fn pht(&self) -> Result<&PhtSurface, ArgumentError> {
-        match &self.0 {
+        match &self.family {
             Family::Any(AnySurface::Pht(pht)) => Ok(pht),
             _ => Err(self.wrong_kind(Kind::Pht)),
         }
@@ -117,14 +144,14 @@ impl planish_surface {
 
     pub(super) fn pht_mut(&mut self) -> Result<&mut PhtSurface, ArgumentError> {
         let refused = self.wrong_kind(Kind::Pht);
-        match &mut self.0 {
+        match self.family_mut() {
             Family::Any(AnySurface::Pht(pht)) => Ok(pht),
             _ => Err(refused),
         }
     }
 
     pub(super) fn d1rc(&self) -> Result<&D1rcSurface, ArgumentError> {
-        match &self.0 {
+        match &self.family {
             Family::Any(AnySurface::D1rc(d1rc)) => Ok(d1rc),
             _ => Err(self.wrong_kind(Kind::D1rc)),
         }
@@ -132,7 +159,7 @@ impl planish_surface {
 
     pub(super) fn d1rc_mut(&mut self) -> Result<&mut D1rcSurface, ArgumentError> {
         let refused = self.wrong_kind(Kind::D1rc);
-        match &mut self.0 {
+        match self.family_mut() {
             Family::Any(AnySurface::D1rc(d1rc)) => Ok(d1rc),
             _ => Err(refused),
         }
@@ -196,6 +223,9 @@ pub enum planish_flag {
     InBuffer = 4,
     /// The surface has no normal there, so that normal and curvatures are NaN.
     NoNormal = 8,
+    /// The answer for the point is not proved: the distance is that of a place on the surface, and the least one may
+    /// be smaller.
+    NotProven = 16,
 }
 
 const _: () = {
@@ -203,6 +233,7 @@ const _: () = {
     assert!(planish_flag::OutsideTrims as u8 == FLAG_OUTSIDE_TRIMS);
     assert!(planish_flag::InBuffer as u8 == FLAG_IN_BUFFER);
     assert!(planish_flag::NoNormal as u8 == FLAG_NO_NORMAL);
+    assert!(planish_flag::NotProven as u8 == FLAG_NOT_PROVEN);
 };
 
 record! {
@@ -597,7 +628,7 @@ pub unsafe extern "C" fn planish_surface_clone(
     guard(|| unsafe {
         let surface = deref(surface, "surface")?;
         let out_surface = out(out_surface, "out_surface")?;
-        out_surface.write(Box::into_raw(Box::new(planish_surface(surface.0.clone()))));
+        out_surface.write(planish_surface::of(surface.family.clone()));
         Ok(())
     })
 }

@@ -119,9 +119,8 @@ impl ModelProjector {
                 Feet::Exact { carrier, bound } => bound.nearest(carrier, point, pool)?,
                 Feet::Spline(projector) => {
                     let options = ProjectOptions { max_distance: most, ..ProjectOptions::default() };
-                    let (mut uv, mut distance) = ([DVec2::NAN], [f64::NAN]);
-                    projector.project(&point.to_array(), &options, &mut uv, &mut distance, pool)?;
-                    (uv[0], distance[0])
+                    let nearest = projector.project(&point.to_array(), &options, pool)?;
+                    (nearest.uv[0], nearest.distances[0])
                 }
             };
             if distance < most || (best.0.is_none() && distance <= most) {
@@ -225,10 +224,9 @@ impl Bound {
         let mut beside = (0, 0.0, f64::INFINITY);
         for (k, side) in self.sides.iter().enumerate() {
             for (place, best) in [(point, &mut edge), (at_foot, &mut beside)] {
-                let (mut t, mut distance) = ([DVec2::ZERO], [0.0]);
-                side.projector.project(&place.to_array(), &options, &mut t, &mut distance, pool)?;
-                if distance[0] < best.2 {
-                    *best = (k, t[0].x, distance[0]);
+                let nearest = side.projector.project(&place.to_array(), &options, pool)?;
+                if nearest.distances[0] < best.2 {
+                    *best = (k, nearest.uv[0].x, nearest.distances[0]);
                 }
             }
         }

@@ -86,12 +86,22 @@ pub struct DeviationReport {
     pub nodes: DataErrors,
     /// The (u,v) nearest to each node; NaN for a node without triangles.
     pub uv: Vec<DVec2>,
+    /// Nodes whose distance is not proved to be the least one.
+    pub unproven: usize,
     /// Largest distance from a place on the surface to the mesh; NaN unless asked for.
     pub max_back_distance: f64,
     /// Where it was found; NaN unless asked for.
     pub worst_back_uv: DVec2,
     /// Places on the surface that were measured.
     pub back_count: usize,
+}
+
+/// Refuses a surface of another dimension than 3.
+pub fn check_in_space(surface: &dyn Surface) -> Result<(), DeviationError> {
+    match surface.dim() {
+        3 => Ok(()),
+        dim => Err(DeviationError::Dimension { dim }),
+    }
 }
 
 /// Measures a surface against a mesh.
@@ -101,9 +111,7 @@ pub fn deviation(
     options: &DeviationOptions,
     pool: &Pool,
 ) -> Result<DeviationReport, DeviationError> {
-    if surface.dim() != 3 {
-        return Err(DeviationError::Dimension { dim: surface.dim() });
-    }
+    check_in_space(surface)?;
     deviation_with(&Projector::new(surface)?, surface, mesh, options, pool)
 }
 
@@ -115,9 +123,7 @@ pub fn deviation_with(
     options: &DeviationOptions,
     pool: &Pool,
 ) -> Result<DeviationReport, DeviationError> {
-    if surface.dim() != 3 {
-        return Err(DeviationError::Dimension { dim: surface.dim() });
-    }
+    check_in_space(surface)?;
     // nodes that no triangle needs are none of the shape's
     let nodes: Vec<usize> = (0..mesh.points().len()).filter(|&node| mesh.is_used(node as u32)).collect();
     let points: Vec<f64> = nodes.iter().flat_map(|&node| mesh.points()[node].to_array()).collect();
@@ -130,20 +136,20 @@ pub fn deviation_with(
         keep_trims: options.keep_trims,
         ..ProjectOptions::default()
     };
-    let (mut nearest, mut distances) = (vec![DVec2::ZERO; nodes.len()], vec![0.0; nodes.len()]);
-    projector.project(&points, &project, &mut nearest, &mut distances, pool)?;
+    let projection = projector.project(&points, &project, pool)?;
+    let unproven = projection.unproven();
     let (max_back_distance, worst_back_uv, back_count) = match options.measure_back {
         true => measure_back(surface, mesh, options, pool)?,
         false => (f64::NAN, DVec2::NAN, 0),
     };
-    let mut errors = summarize(distances);
+    let mut errors = summarize(projection.distances);
     let mut uv = vec![DVec2::NAN; mesh.points().len()];
     let mut each = vec![f64::NAN; mesh.points().len()];
-    for (&node, (&place, &distance)) in nodes.iter().zip(nearest.iter().zip(&errors.each)) {
+    for (&node, (&place, &distance)) in nodes.iter().zip(projection.uv.iter().zip(&errors.each)) {
         (uv[node], each[node]) = (place, distance);
     }
     (errors.worst_index, errors.each) = (nodes[errors.worst_index], each);
-    Ok(DeviationReport { nodes: errors, uv, max_back_distance, worst_back_uv, back_count })
+    Ok(DeviationReport { nodes: errors, uv, unproven, max_back_distance, worst_back_uv, back_count })
 }
 
 /// The largest distance from nodes and middles of a tessellation to the mesh, its place, and their number.

@@ -3,7 +3,7 @@
 use super::cut::{HalfPlane, cut};
 use super::label::Label;
 use crate::failure::{Classify, ErrorKind};
-use crate::geometry::Domain;
+use crate::geometry::{Domain, Orientation, orientation};
 use glam::DVec2;
 use std::sync::OnceLock;
 
@@ -97,9 +97,9 @@ impl Trims {
         self.loops.is_empty()
     }
 
-    /// Whether a point counts. Points on a loop may go either way.
+    /// Whether a point counts: it lies inside, or exactly on a loop.
     pub fn contains(&self, uv: DVec2) -> bool {
-        self.is_empty() || self.bands.get_or_init(|| Bands::new(&self.loops)).crossings(uv) % 2 == 1
+        self.is_empty() || self.bands.get_or_init(|| Bands::new(&self.loops)).holds(uv)
     }
 
     /// The sides of all loops.
@@ -141,10 +141,8 @@ impl Bands {
         let bands_per_unit = band_count as f64 / height;
         let mut bands = Self { start, bands_per_unit, segments: vec![Vec::new(); band_count + 1] };
         for (a, b) in segments(loops) {
-            if a.y != b.y {
-                let (low, high) = (bands.band(a.y.min(b.y)), bands.band(a.y.max(b.y)));
-                bands.segments[low..=high].iter_mut().for_each(|band| band.push((a, b)));
-            }
+            let (low, high) = (bands.band(a.y.min(b.y)), bands.band(a.y.max(b.y)));
+            bands.segments[low..=high].iter_mut().for_each(|band| band.push((a, b)));
         }
         bands
     }
@@ -153,17 +151,30 @@ impl Bands {
         (((v - self.start) * self.bands_per_unit) as usize).min(self.segments.len() - 1)
     }
 
-    /// Segments crossed by the ray from `p` towards larger u. A segment owns its lower end.
-    fn crossings(&self, p: DVec2) -> usize {
-        if !(p.y >= self.start) {
-            return 0;
+    /// Whether the ray from `p` towards larger u crosses an odd number of segments, or `p` lies on one; exactly, so
+    /// that a corner of a loop is on it. A segment owns its lower end.
+    fn holds(&self, p: DVec2) -> bool {
+        if !(p.y >= self.start && p.x.is_finite()) {
+            return false;
         }
-        self.segments[self.band(p.y)]
-            .iter()
-            .filter(|(a, b)| {
-                (a.y <= p.y) != (b.y <= p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
-            })
-            .count()
+        let mut is_inside = false;
+        for &(a, b) in &self.segments[self.band(p.y)] {
+            let (low, high) = if a.y <= b.y { (a, b) } else { (b, a) };
+            if p.y < low.y || p.y > high.y || p.x > a.x.max(b.x) {
+                continue;
+            }
+            let is_crossed = low.y <= p.y && p.y < high.y;
+            if p.x < a.x.min(b.x) {
+                is_inside ^= is_crossed;
+                continue;
+            }
+            match orientation(low, high, p) {
+                Orientation::Zero => return true,
+                Orientation::Positive => is_inside ^= is_crossed,
+                Orientation::Negative => {}
+            }
+        }
+        is_inside
     }
 }
 
@@ -208,6 +219,8 @@ impl Region {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::samples::Random;
+    use std::f64::consts::TAU;
 
     fn square(center: f64, half: f64) -> Vec<DVec2> {
         [(-1., -1.), (1., -1.), (1., 1.), (-1., 1.)]
@@ -264,6 +277,31 @@ mod tests {
         assert!(trims.contains(DVec2::new(0.5, 1.0)));
         assert!(!trims.contains(DVec2::new(-0.5, 1.0)));
         assert!(!trims.contains(DVec2::new(0.5, 2.0)));
+    }
+
+    #[test]
+    fn what_lies_on_a_loop_is_inside() {
+        let domain = Domain { min: DVec2::ZERO, max: DVec2::ONE };
+        let mut random = Random::new(4);
+        for _ in 0..20 {
+            let mut star = |radius: f64, count: usize| -> Vec<DVec2> {
+                let corner = |k: usize, r: f64| 0.5 + r * DVec2::from_angle(TAU * k as f64 / count as f64);
+                (0..count).map(|k| corner(k, radius * (0.6 + 0.4 * random.unit()))).collect()
+            };
+            let mut loops = vec![star(0.45, 37), star(0.2, 11)];
+            loops.push(square(0.1, 0.03)); // sides along the axes
+            let trims = Trims::new(loops.clone(), &domain).unwrap();
+            assert!(loops.iter().flatten().all(|&corner| trims.contains(corner)));
+            // exact middles: of the square's sides, and wherever halving rounds nothing
+            for (a, b) in trims.segments() {
+                let middle = (a + b) / 2.0;
+                assert!(orientation(a, b, middle) != Orientation::Zero || trims.contains(middle), "{middle}");
+            }
+        }
+        let trims = Trims::new(vec![square(0.5, 0.25)], &domain).unwrap();
+        assert!(trims.contains(DVec2::new(0.75, 0.75)) && trims.contains(DVec2::new(0.25, 0.5)));
+        assert!(!trims.contains(DVec2::new(0.75f64.next_up(), 0.5)));
+        assert!(!trims.contains(DVec2::new(0.5, 0.25f64.next_down())));
     }
 
     #[test]

@@ -127,6 +127,12 @@ fn a_surface_without_patches_takes_the_common_calls() {
         let (mut uv, mut distance) = ([0.0; 2], [f64::NAN]);
         ok(planish_surface_project(s, at.as_ptr(), 1, null(), uv.as_mut_ptr(), distance.as_mut_ptr()));
         assert!((uv[0] - 0.31).hypot(uv[1] - 0.62) <= 1e-7 && distance[0] <= 1e-9, "{uv:?} {distance:?}");
+        // beside the surface the search is a local one, and says so
+        let beside = [at[0], at[1], at[2] + 0.01];
+        let mut flags = [0u8];
+        let options = planish_project_options { out_flags: flags.as_mut_ptr(), ..record() };
+        let status = planish_surface_project(s, beside.as_ptr(), 1, &options, null_mut(), distance.as_mut_ptr());
+        assert_eq!((status, flags[0]), (planish_status::NotProven, planish_flag::NotProven as u8));
         ok(planish_surface_write_vtk(s, path("sheet.vtu").as_ptr(), null()));
         let patches = planish_vtk_options { content: 1, ..record() };
         let status = planish_surface_write_vtk(s, path("none.vtu").as_ptr(), &patches);

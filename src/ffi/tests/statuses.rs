@@ -3,13 +3,14 @@ use super::*;
 use std::ffi::CStr;
 use std::process::Command;
 
-const ALL: [planish_status; 23] = [
+const ALL: [planish_status; 24] = [
     planish_status::Ok,
     planish_status::ToleranceNotMet,
     planish_status::Stagnated,
     planish_status::PointsOutside,
     planish_status::InputRepaired,
     planish_status::FoldedParameters,
+    planish_status::NotProven,
     planish_status::NullPointer,
     planish_status::InvalidArgument,
     planish_status::NotFinite,
@@ -37,7 +38,7 @@ fn name(status: i32) -> &'static str {
 #[test]
 fn every_status_has_its_number_and_name() {
     for (k, status) in (0..).zip(ALL) {
-        assert_eq!(status as i32, if k < 6 { k } else { 5 - k });
+        assert_eq!(status as i32, if k < 7 { k } else { 6 - k });
         let variant = format!("{status:?}");
         let words = variant.chars().flat_map(|c| {
             let gap = if c.is_uppercase() { Some('_') } else { None };
@@ -45,7 +46,7 @@ fn every_status_has_its_number_and_name() {
         });
         assert_eq!(name(status as i32), format!("PLANISH_STATUS{}", words.collect::<String>()));
     }
-    assert_eq!(name(6), "unknown status");
+    assert_eq!(name(7), "unknown status");
     assert_eq!(name(-18), "unknown status");
     assert_eq!(name(i32::MIN), "unknown status");
 }

@@ -32,19 +32,17 @@ pub fn data_errors(surface: &dyn Surface, uv: &[DVec2], values: &[f64], pool: &P
     summarize(each)
 }
 
-/// Largest closest-point distance from data to a surface; NaN if they cannot be projected.
+/// Largest closest-point distance from data to the part of a surface inside its trims; NaN if they cannot be
+/// projected.
 pub(in crate::fit) fn max_distance(
     surface: &dyn Surface,
     values: &[f64],
     guesses: &[DVec2],
     pool: &Pool,
 ) -> f64 {
-    let options = ProjectOptions { guesses: Some(guesses), keep_trims: false, ..Default::default() };
-    let count = guesses.len();
-    let (mut uv, mut distances) = (vec![DVec2::ZERO; count], vec![0.0; count]);
-    let projector = Projector::new(surface);
-    match projector.and_then(|p| p.project(values, &options, &mut uv, &mut distances, pool)) {
-        Ok(_) => distances.into_iter().fold(0.0, f64::max),
+    let options = ProjectOptions { guesses: Some(guesses), ..Default::default() };
+    match Projector::new(surface).and_then(|projector| projector.project(values, &options, pool)) {
+        Ok(projection) => projection.distances.into_iter().fold(0.0, f64::max),
         Err(_) => f64::NAN,
     }
 }

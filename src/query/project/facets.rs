@@ -43,6 +43,11 @@ impl FacetProjector {
         Ok(Self { surface, has_own_trims, tree: TriangleTree::new(mesh) })
     }
 
+    /// Of the box around it.
+    pub fn diagonal(&self) -> f64 {
+        self.tree.mesh().diagonal()
+    }
+
     /// The nearest place and its distance.
     pub fn nearest(&self, point: DVec3, guess: Option<DVec2>, options: &ProjectOptions) -> (DVec2, f64) {
         let starts = [self.start(point), guess.filter(|&uv| self.counts(uv, options))];

@@ -3,7 +3,7 @@
 //! Leaves are Bezier patches, halved while they bend much; nodes have four children, sorted so that cells near
 //! each other in space share them. Boxes are those of the ordinates, so they hold the surface exactly.
 
-use super::kernel::{Form, Kernel};
+use super::kernel::{Form, Kernel, Square};
 use crate::bezier::BezierPatch;
 use crate::geometry::{Bounds, Domain};
 use glam::DVec2;
@@ -58,6 +58,8 @@ pub struct Index {
     boxes: Vec<[f64; BRANCHES]>,
     /// For each node the rectangles around its children in the parameter plane.
     rectangles: Vec<[Domain; BRANCHES]>,
+    /// For each leaf a ball of points from which it has one local minimum at most: centre and radius.
+    balls: Vec<f64>,
 }
 
 impl Index {
@@ -76,6 +78,7 @@ impl Index {
             nodes: Vec::new(),
             boxes: Vec::new(),
             rectangles: Vec::new(),
+            balls: Vec::new(),
         };
         let mut bounds = Vec::with_capacity(patches.len());
         for (patch, place) in patches {
@@ -89,7 +92,23 @@ impl Index {
         if !leaves.is_empty() {
             index.add_node(&mut leaves, &bounds);
         }
+        let mut square = Square::default();
+        for (leaf, bounds) in bounds.iter().enumerate() {
+            let centre: Vec<f64> = bounds.min.iter().zip(&bounds.max).map(|(a, b)| a + (b - a) / 2.0).collect();
+            let radius = index.kernel.convex_radius(index.ordinates(leaf), &centre, &mut square);
+            index.balls.extend(centre);
+            index.balls.push(radius);
+        }
         index
+    }
+
+    /// Whether a leaf has one local minimum at most, seen from a point. If not, that is unknown.
+    #[inline(always)]
+    pub fn is_convex_from(&self, leaf: usize, point: &[f64]) -> bool {
+        let dim = point.len();
+        let ball = &self.balls[leaf * (dim + 1)..][..dim + 1];
+        let distance_sq = point.iter().zip(ball).map(|(x, c)| (x - c) * (x - c)).sum::<f64>();
+        distance_sq <= ball[dim] * ball[dim]
     }
 
     /// Number of leaves.
@@ -110,17 +129,44 @@ impl Index {
 
     /// The leaf over a parameter pair, and the place on its unit square.
     pub fn leaf_at(&self, uv: DVec2) -> Option<(usize, [f64; 2])> {
-        let mut stack = if self.nodes.is_empty() { vec![] } else { vec![0] };
-        while let Some(entry) = stack.pop() {
+        // nodes of a path: each level leaves three at most behind
+        let (mut stack, mut count) = ([0; 3 * 32], usize::from(!self.nodes.is_empty()));
+        while count > 0 {
+            count -= 1;
+            let entry = stack[count];
             if entry & LEAF == 0 {
-                let rectangles = &self.rectangles[entry as usize];
-                let children = self.children(entry).iter().zip(rectangles);
-                stack.extend(children.filter(|(_, domain)| domain.contains(uv)).map(|(&child, _)| child));
+                for (&child, domain) in self.children(entry).iter().zip(&self.rectangles[entry as usize]) {
+                    if domain.contains(uv) {
+                        stack[count] = child;
+                        count += 1;
+                    }
+                }
             } else if let Place::Rectangle(domain) = self.places[(entry & !LEAF) as usize] {
                 return Some(((entry & !LEAF) as usize, ((uv - domain.min) / domain.size()).to_array()));
             }
         }
         None
+    }
+
+    /// Number of nodes; those below a node come after it.
+    pub fn node_count(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// The leaves whose rectangles meet another.
+    pub fn visit_leaves_near(&self, rectangle: &Domain, mut visit: impl FnMut(usize)) {
+        let mut stack = if self.nodes.is_empty() { vec![] } else { vec![0] };
+        while let Some(entry) = stack.pop() {
+            if entry & LEAF != 0 {
+                visit((entry & !LEAF) as usize);
+                continue;
+            }
+            let meets = |domain: &Domain| {
+                domain.min.cmple(rectangle.max).all() && domain.max.cmpge(rectangle.min).all()
+            };
+            let children = self.children(entry).iter().zip(&self.rectangles[entry as usize]);
+            stack.extend(children.filter(|(_, domain)| meets(domain)).map(|(&child, _)| child));
+        }
     }
 
     /// The children of a node that are used.

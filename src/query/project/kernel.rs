@@ -69,6 +69,8 @@ pub struct Square {
 pub enum Verdict {
     /// Nothing in the cell is nearer than the limit.
     Beyond,
+    /// Everywhere in the cell the distance falls towards a side that has a neighbour: no minimum is here.
+    Slope,
     /// One local minimum at most; the place, in the unit square, of the least coefficient.
     Convex([f64; 2]),
     /// Unknown; halve along this axis. The place is that of the least coefficient.
@@ -88,9 +90,17 @@ impl Kernel {
     }
 
     /// Looks at a cell: whether its squared distance can be less than `limit_sq`. `slack` is a change of
-    /// `g` that does not matter.
+    /// `g` that does not matter; `shared` says which sides, the lower and the upper along each axis, lie within
+    /// a leaf, so that the surface is smooth across them.
     #[inline(always)]
-    pub fn judge(&self, cell: &[f64], limit_sq: f64, slack: f64, square: &mut Square) -> Verdict {
+    pub fn judge(
+        &self,
+        cell: &[f64],
+        limit_sq: f64,
+        slack: f64,
+        shared: [[bool; 2]; 2],
+        square: &mut Square,
+    ) -> Verdict {
         self.expand(cell, square);
         let Square { distance, weight, g, lowest: bound, .. } = square;
         let (mut least, mut at, mut lowest, mut largest) = (f64::INFINITY, 0, f64::INFINITY, 0.0_f64);
@@ -124,15 +134,32 @@ impl Kernel {
         let place = [at / (q + 1), at % (q + 1)];
         let place = [0, 1].map(|k| if degree[k] > 0 { place[k] as f64 / degree[k] as f64 } else { 0.0 });
         // second differences of coefficients this large carry this much rounding
-        let slack = slack + 64.0 * f64::EPSILON * largest;
+        let rounding = 64.0 * f64::EPSILON * largest;
+        let slack = slack + rounding;
+        let falls_to_shared = |g: &[f64]| {
+            let falls = falls(g, [p, q], rounding);
+            [0, 1].map(|axis| [0, 1].map(|side| shared[axis][side] && falls[axis][side]))
+        };
+        let is_slope = |falls: [[bool; 2]; 2]| falls.as_flattened().contains(&true);
         let (first, second) = if self.form.is_rational {
             let hessian = Hessian::of(g, p, q);
+            let falls = falls_to_shared(g);
             let lowest = lowest.max(0.0);
             for (k, (&d, &w)) in distance.iter().zip(weight.iter()).enumerate() {
                 g[k] = d - lowest * w;
             }
+            if is_slope(falls) {
+                let at_lowest = falls_to_shared(g);
+                let both = |axis: usize| [0, 1].map(|side| falls[axis][side] && at_lowest[axis][side]);
+                if is_slope([both(0), both(1)]) {
+                    return Verdict::Slope;
+                }
+            }
             (hessian, Hessian::of(g, p, q))
         } else {
+            if shared != [[false; 2]; 2] && is_slope(falls_to_shared(distance)) {
+                return Verdict::Slope;
+            }
             let hessian =
                 if degree == [6, 6] { Hessian::of(distance, 6, 6) } else { Hessian::of(distance, p, q) };
             (hessian, hessian)
@@ -141,6 +168,54 @@ impl Kernel {
             return Verdict::Convex(place);
         }
         Verdict::Split(usize::from(first.size[1] > first.size[0]), place)
+    }
+
+    /// The largest distance from a centre within which every point sees one local minimum at most in a cell; 0 where
+    /// that is not known. With `e` the way from the centre to the point
+    /// ```text
+    /// |S - P|^2 = |S - C|^2 - 2 (S - C) e + |e|^2
+    /// ```
+    /// so second derivatives change by no more than `2 |e|` times the largest of the cell.
+    pub fn convex_radius(&self, cell: &[f64], centre: &[f64], square: &mut Square) -> f64 {
+        let ([p, q], count) = (self.form.degree, self.form.count());
+        if self.form.is_rational || q == 0 {
+            return 0.0;
+        }
+        let relative: Vec<f64> =
+            cell.chunks_exact(count).zip(centre).flat_map(|(row, c)| row.iter().map(move |a| a - c)).collect();
+        self.expand(&relative, square);
+        let hessian = Hessian::of(&square.distance, 2 * p, 2 * q);
+        let largest = square.distance.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let rounding = 64.0 * f64::EPSILON * largest;
+        let mut bends_sq = [0.0_f64; 3];
+        let parts: Vec<Hessian> = relative.chunks_exact(count).map(|row| Hessian::of(row, p, q)).collect();
+        for part in &parts {
+            // the size of a vector is at most that of the largest of each component
+            for (sum, x) in bends_sq.iter_mut().zip([part.size[0], part.size[1], part.mixed]) {
+                *sum += x * x;
+            }
+        }
+        let [uu, vv, uv] = bends_sq.map(f64::sqrt);
+        let is_convex = |radius: f64| {
+            let changed = |least: f64, bend: f64| least - rounding - 2.0 * radius * bend;
+            let (a, c) = (changed(hessian.least[0], uu), changed(hessian.least[1], vv));
+            let b = hessian.mixed + rounding + 2.0 * radius * uv;
+            a >= 0.0 && c >= 0.0 && a * c >= b * b
+        };
+        let (mut low, mut high) = (0.0, 4.0 * largest.sqrt());
+        if !is_convex(low) {
+            return 0.0;
+        }
+        if is_convex(high) {
+            return high;
+        }
+        /// More would not make a search faster.
+        const HALVINGS: u32 = 12;
+        for _ in 0..HALVINGS {
+            let middle = (low + high) / 2.0;
+            *(if is_convex(middle) { &mut low } else { &mut high }) = middle;
+        }
+        low
     }
 
     #[inline(always)]
@@ -190,6 +265,24 @@ fn convolve(a: &[f64], p: usize, q: usize, out: &mut [f64]) {
             }
         }
     }
+}
+
+/// Along each axis: whether a polynomial falls everywhere towards the lower side, and towards the upper one.
+#[inline(always)]
+fn falls(g: &[f64], [p, q]: [usize; 2], rounding: f64) -> [[bool; 2]; 2] {
+    let n = q + 1;
+    let mut falls = [[p > 0; 2], [q > 0; 2]];
+    let mut add = |axis: usize, rise: f64| {
+        falls[axis][0] &= rise > rounding;
+        falls[axis][1] &= rise < -rounding;
+    };
+    for k in 0..p * n {
+        add(0, g[k + n] - g[k]);
+    }
+    for row in g.chunks_exact(n) {
+        row.windows(2).for_each(|c| add(1, c[1] - c[0]));
+    }
+    falls
 }
 
 /// Bounds of the second derivatives over the unit square.

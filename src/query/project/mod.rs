@@ -7,15 +7,18 @@
 //! B-spline surface", Graphical Models 71 (2009), 107-112). Newton's method is used where it cannot fail: on
 //! convex cells; all others are halved. Boundaries, poles, folds and sheets that cross need no care of their own.
 //!
-//! Surfaces over triangles go another way (`facets`).
+//! Surfacets over triangles go another way (`facets`), which proves nothing.
 //!
-//! With trims the nearest point lies inside them or on them: the lines of the trims are curves on patches and are
-//! searched alike, and minima outside do not count.
+//! With trims the nearest point lies inside them or on them. The lines of the trims are curves on patches and are
+//! searched alike; of the surface, cells outside are never looked at, cells inside are searched as if there were no
+//! trims, and a cell that a trim cuts either has its one minimum inside or nothing that the trim does not bound
+//! (`inside`).
 
 mod cells;
 mod facets;
 mod foot;
 mod index;
+mod inside;
 mod kernel;
 mod search;
 #[cfg(test)]
@@ -26,14 +29,16 @@ use crate::bezier::BezierPatch;
 use crate::control::{Cancelled, Pool};
 use crate::curve::Curve;
 use crate::failure::{Classify, ErrorKind};
-use crate::geometry::{Bounds, Domain};
-use crate::surface::{Kind, Surface, Trims};
+use crate::geometry::{Bounds, Domain, safe_scale};
+use crate::surface::{Kind, Surface};
 use cells::{curve_cells, surface_cells, trim_pieces};
 use facets::FacetProjector;
 use glam::{DVec2, DVec3};
 use index::{Index, Place};
+use inside::Inside;
 use rayon::prelude::*;
 use search::{Best, Search, Workspace};
+use std::borrow::Cow;
 
 /// How to project.
 #[derive(Debug, Clone, Copy)]
@@ -124,12 +129,48 @@ pub struct Projector {
     dim: usize,
     domain: Domain,
     index: Index,
-    trims: Trims,
-    trim_index: Index,
+    trimmed: Option<Trimmed>,
+    /// What coordinates are multiplied by, so that products of distances are numbers.
+    scale: f64,
     /// Differences of distance below this do not count: roundoff of the coordinates.
     tolerance: f64,
     /// Of a surface over triangles, which has no patches; the index is then empty.
     facets: Option<FacetProjector>,
+}
+
+/// The part of a surface inside its trims.
+#[derive(Debug, Clone)]
+struct Trimmed {
+    inside: Inside,
+    /// The trims as curves on the surface.
+    lines: Index,
+}
+
+/// The nearest places of a number of points.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Projection {
+    /// The (u,v) of each; NaN where there is none within the largest distance.
+    pub uv: Vec<DVec2>,
+    /// How far each is; NaN as well.
+    pub distances: Vec<f64>,
+    /// The `FLAG_` bits that hold for each.
+    pub flags: Vec<u8>,
+}
+
+/// The search ended before it had proved that no other place is nearer: the distance is that of a place on the
+/// surface, and the least one may be smaller.
+pub const FLAG_NOT_PROVEN: u8 = 16;
+
+impl Projection {
+    /// How many points are farther than [`ProjectOptions::max_distance`].
+    pub fn missed(&self) -> usize {
+        self.distances.iter().filter(|distance| distance.is_nan()).count()
+    }
+
+    /// How many answers are not proved to be the nearest.
+    pub fn unproven(&self) -> usize {
+        self.flags.iter().filter(|&flags| flags & FLAG_NOT_PROVEN != 0).count()
+    }
 }
 
 /// Relative to the surface's size: a cell that cannot hold a place nearer by more than this is not searched.
@@ -148,13 +189,13 @@ impl Projector {
         let Some(patches) = surface.patches() else {
             return Self::of_facets(surface);
         };
-        let trims = &surface.region().trims;
-        let trim_index = Index::new(trim_pieces(patches, trims));
-        Ok(Self {
-            trim_index,
-            trims: trims.clone(),
-            ..Self::over(surface_cells(patches), surface.dim(), surface.domain())
-        })
+        let whole = Self::over(surface_cells(patches), surface.dim(), surface.domain());
+        let trims = Some(&surface.region().trims).filter(|trims| !trims.is_empty());
+        let trimmed = trims.map(|trims| Trimmed {
+            inside: Inside::new(&whole.index, trims, &whole.domain),
+            lines: Index::new(whole.scaled(trim_pieces(patches, trims))),
+        });
+        Ok(Self { trimmed, ..whole })
     }
 
     /// Onto a curve: its parameter is the u of the answers, their v means nothing. It has no trims.
@@ -164,7 +205,7 @@ impl Projector {
         Self::over(curve_cells(curve), curve.dim(), domain)
     }
 
-    fn over(cells: Vec<(BezierPatch, Place)>, dim: usize, domain: Domain) -> Self {
+    fn over(mut cells: Vec<(BezierPatch, Place)>, dim: usize, domain: Domain) -> Self {
         let corners: Vec<f64> = cells
             .iter()
             .flat_map(|(cell, _)| {
@@ -174,91 +215,104 @@ impl Projector {
             .collect();
         let bounds = Bounds::of_rows(&corners, dim);
         let largest = bounds.min.iter().chain(&bounds.max).fold(0.0, |most: f64, x| most.max(x.abs()));
+        let scale = safe_scale(largest);
+        if scale != 1.0 {
+            cells.iter_mut().for_each(|(cell, _)| scale_values(cell, scale));
+        }
         Self {
             dim,
             domain,
             index: Index::new(cells),
-            trim_index: Index::new(Vec::new()),
-            trims: Trims::default(),
+            trimmed: None,
             facets: None,
-            tolerance: DISTANCE_TOLERANCE * bounds.diagonal() + 4.0 * f64::EPSILON * largest,
+            tolerance: scale * (DISTANCE_TOLERANCE * bounds.diagonal() + 4.0 * f64::EPSILON * largest),
+            scale,
         }
+    }
+
+    fn scaled(&self, mut cells: Vec<(BezierPatch, Place)>) -> Vec<(BezierPatch, Place)> {
+        cells.iter_mut().for_each(|(cell, _)| scale_values(cell, self.scale));
+        cells
     }
 
     fn of_facets(surface: &dyn Surface) -> Result<Self, ProjectError> {
         let facets = surface.facets().filter(|_| surface.dim() == 3);
         let facets = facets.ok_or(ProjectError::NoPatches { kind: surface.kind() })?;
+        let facets = FacetProjector::new(facets)?;
         Ok(Self {
             dim: surface.dim(),
             domain: surface.domain(),
             index: Index::new(Vec::new()),
-            trim_index: Index::new(Vec::new()),
-            trims: surface.region().trims.clone(),
-            facets: Some(FacetProjector::new(facets)?),
-            tolerance: 0.0,
+            trimmed: None,
+            scale: 1.0,
+            tolerance: DISTANCE_TOLERANCE * facets.diagonal(),
+            facets: Some(facets),
         })
     }
 
-    /// The nearest place for each row of `points`: its (u,v), and the distance. Returns how many points are
-    /// farther than [`ProjectOptions::max_distance`]; these get NaN.
+    /// The nearest place for each row of `points`.
     ///
     /// The result for a point depends on nothing but the point, its guess and the options.
     pub fn project(
         &self,
         points: &[f64],
         options: &ProjectOptions,
-        out_uv: &mut [DVec2],
-        out_distances: &mut [f64],
         pool: &Pool,
-    ) -> Result<usize, ProjectError> {
+    ) -> Result<Projection, ProjectError> {
         let count = points.len() / self.dim;
-        self.check(points, options, out_uv.len(), out_distances.len())?;
+        self.check(points, options)?;
+        let points: Cow<[f64]> = match self.scale {
+            1.0 => points.into(),
+            scale => points.iter().map(|x| x * scale).collect(),
+        };
+        let options = &ProjectOptions { max_distance: options.max_distance * self.scale, ..*options };
+        let mut all = Projection {
+            uv: vec![DVec2::NAN; count],
+            distances: vec![f64::NAN; count],
+            flags: vec![0; count],
+        };
         let guess = |index: usize| options.guesses.map(|guesses| guesses[index]);
-        let piece = |chunk: usize, uv: &mut [DVec2], distances: &mut [f64]| {
+        let piece = |chunk: usize, ((uv, distances), flags): Piece| {
             let mut workspace = Workspace::default();
-            let mut missed = 0;
             if pool.check().is_err() {
-                return missed;
+                return;
             }
             // all that is inlined here uses the wide registers that the processor has
             pulp::Arch::new().dispatch(
                 #[inline(always)]
                 || {
-                    for (k, (uv, distance)) in uv.iter_mut().zip(&mut *distances).enumerate() {
+                    for (k, uv) in uv.iter_mut().enumerate() {
                         let i = chunk * CHUNK + k;
                         let point = &points[i * self.dim..][..self.dim];
-                        (*uv, *distance) = self.nearest(point, guess(i), options, &mut workspace);
-                        missed += usize::from(distance.is_nan());
+                        let nearest = self.nearest(point, guess(i), options, &mut workspace);
+                        *uv = nearest.uv;
+                        distances[k] = nearest.distance;
+                        flags[k] = if nearest.is_proven { 0 } else { FLAG_NOT_PROVEN };
                     }
                 },
             );
-            missed
         };
         if pool.thread_count() == 1 || count <= CHUNK {
-            let chunks = out_uv.chunks_mut(CHUNK).zip(out_distances.chunks_mut(CHUNK));
-            let missed = chunks.enumerate().map(|(k, (uv, distances))| piece(k, uv, distances)).sum();
-            return Ok(pool.check().map(|()| missed)?);
+            let places = all.uv.chunks_mut(CHUNK).zip(all.distances.chunks_mut(CHUNK));
+            places.zip(all.flags.chunks_mut(CHUNK)).enumerate().for_each(|(k, out)| piece(k, out));
+        } else {
+            pool.run(|| {
+                let places = all.uv.par_chunks_mut(CHUNK).zip(all.distances.par_chunks_mut(CHUNK));
+                places.zip(all.flags.par_chunks_mut(CHUNK)).enumerate().for_each(|(k, out)| piece(k, out));
+            });
         }
-        let missed = pool.run(|| {
-            let chunks = out_uv.par_chunks_mut(CHUNK).zip(out_distances.par_chunks_mut(CHUNK));
-            chunks.enumerate().map(|(k, (uv, distances))| piece(k, uv, distances)).sum()
-        });
-        Ok(pool.check().map(|()| missed)?)
+        pool.check()?;
+        if self.scale != 1.0 {
+            all.distances.iter_mut().for_each(|distance| *distance /= self.scale);
+        }
+        Ok(all)
     }
 
-    fn check(
-        &self,
-        points: &[f64],
-        options: &ProjectOptions,
-        uv_count: usize,
-        distance_count: usize,
-    ) -> Result<(), ProjectError> {
+    fn check(&self, points: &[f64], options: &ProjectOptions) -> Result<(), ProjectError> {
         let count = points.len() / self.dim;
         let guess_count = options.guesses.map_or(count, <[DVec2]>::len);
         for (what, given, expected) in [
             ("the points", points.len(), count * self.dim),
-            ("the parameters", uv_count, count),
-            ("the distances", distance_count, count),
             ("the first guesses", guess_count, count),
         ] {
             if given != expected {
@@ -284,9 +338,11 @@ impl Projector {
         guess: Option<DVec2>,
         options: &ProjectOptions,
         workspace: &mut Workspace,
-    ) -> (DVec2, f64) {
+    ) -> Nearest {
         if let Some(facets) = &self.facets {
-            return facets.nearest(DVec3::from_slice(point), guess, options);
+            let (uv, distance) = facets.nearest(DVec3::from_slice(point), guess, options);
+            // a local minimum; only where it is nothing can no other be less
+            return Nearest { uv, distance, is_proven: distance <= self.tolerance };
         }
         // a little farther, so that a point right at the limit is found
         let farthest = options.max_distance * (1.0 + 4.0 * f64::EPSILON) + 2.0 * self.tolerance;
@@ -294,22 +350,67 @@ impl Projector {
             point,
             tolerance: self.tolerance,
             best: Best::new(farthest * farthest, DVec2::NAN, self.tolerance),
-            trims: None,
+            inside: None,
+            started: None,
+            is_proven: true,
             workspace,
         };
-        if options.keep_trims && !self.trims.is_empty() {
-            search.run(&self.trim_index);
-            search.trims = Some(&self.trims);
+        let guess = guess.and_then(|uv| self.index.leaf_at(self.domain.clamp(uv)));
+        match self.trimmed.as_ref().filter(|_| options.keep_trims) {
+            Some(trimmed) => self.search_trimmed(&mut search, trimmed, guess),
+            None => {
+                if let Some((leaf, at)) = guess {
+                    search.try_leaf(&self.index, leaf, at);
+                }
+                search.run(&self.index);
+            }
         }
-        if let Some((leaf, at)) = guess.and_then(|uv| self.index.leaf_at(self.domain.clamp(uv))) {
-            search.try_leaf(&self.index, leaf, at);
-        }
-        search.run(&self.index);
-        let distance = search.best.distance_sq.sqrt();
+        let (distance, is_proven) = (search.best.distance_sq.sqrt(), search.is_proven);
         if distance <= options.max_distance && !search.best.uv.is_nan() {
-            (search.best.uv, distance)
+            Nearest { uv: search.best.uv, distance, is_proven }
         } else {
-            (DVec2::NAN, f64::NAN)
+            Nearest { uv: DVec2::NAN, distance: f64::NAN, is_proven }
+        }
+    }
+
+    /// The trims as curves, and what is inside them. What is nearer by a first glance is searched first, and
+    /// bounds the other.
+    #[inline(always)]
+    fn search_trimmed<'a>(
+        &self,
+        search: &mut Search<'a>,
+        Trimmed { inside, lines }: &'a Trimmed,
+        guess: Option<(usize, [f64; 2])>,
+    ) {
+        search.sample(lines);
+        let on_trim_sq = search.best.distance_sq;
+        search.inside = Some(inside);
+        match guess {
+            Some((leaf, at)) => search.try_leaf(&self.index, leaf, at),
+            None => search.sample(&self.index),
+        }
+        let trims_first = search.best.distance_sq >= on_trim_sq;
+        for are_trims in [trims_first, !trims_first] {
+            search.inside = if are_trims { None } else { Some(inside) };
+            let started = if are_trims { search.started.take() } else { None };
+            search.run(if are_trims { lines } else { &self.index });
+            search.started = search.started.or(started);
         }
     }
 }
+
+/// Multiplies values, not weights.
+fn scale_values(patch: &mut BezierPatch, scale: f64) {
+    let (width, dim) = (patch.width(), patch.dim);
+    patch.ordinates.chunks_exact_mut(width).flat_map(|row| &mut row[..dim]).for_each(|x| *x *= scale);
+}
+
+/// The answer for one point.
+struct Nearest {
+    uv: DVec2,
+    distance: f64,
+    is_proven: bool,
+}
+
+/// Where the answers of one piece of work go: parameters, distances, flags.
+type Piece<'a> = ((&'a mut [DVec2], &'a mut [f64]), &'a mut [u8]);

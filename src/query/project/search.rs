@@ -2,13 +2,14 @@
 
 use super::foot;
 use super::index::{BRANCHES, Index, LEAF};
+use super::inside::Inside;
 use super::kernel::{Square, Verdict};
-use crate::surface::Trims;
+use crate::geometry::Domain;
 use glam::DVec2;
 
-/// Most cells that one point may look at. A search that ends here has found a local minimum from every leaf that
-/// could hold a lower one, but has not proved that none lies between them. It takes a continuum of nearly
-/// nearest points that no box or polynomial follows.
+/// Most cells that one point may look at in one index. A search that ends here has found a local minimum, but has
+/// not proved that none is lower, and says so. It takes a continuum of nearly nearest points that no box or
+/// polynomial follows.
 const MAX_CELLS: usize = 200_000;
 
 /// Rounding of the distance of a far point, with room.
@@ -40,6 +41,8 @@ pub struct Workspace {
     /// Cells of the leaf in hand, one after the other.
     ordinates: Vec<f64>,
     cells: Vec<Cell>,
+    /// The lines of the trims that touch these cells, in the same order.
+    lines: Vec<u32>,
     square: Square,
 }
 
@@ -49,6 +52,16 @@ struct Cell {
     min: [f64; 2],
     max: [f64; 2],
     is_whole: bool,
+    /// Lines of the trims that touch it; with none it lies inside.
+    line_count: usize,
+}
+
+impl Cell {
+    /// Which sides, the lower and the upper along each axis, lie within the leaf.
+    #[inline(always)]
+    fn shared(&self) -> [[bool; 2]; 2] {
+        [0, 1].map(|axis| [self.min[axis] > 0.0, self.max[axis] < 1.0])
+    }
 }
 
 /// A search for the point of a surface nearest to `point`.
@@ -57,16 +70,47 @@ pub struct Search<'a> {
     /// Differences of distance below this do not count.
     pub tolerance: f64,
     pub best: Best,
-    /// Places outside do not count.
-    pub trims: Option<&'a Trims>,
+    /// Places outside do not count. That the nearest place may lie on a trim is the caller's care: trims are
+    /// searched as curves.
+    pub inside: Option<&'a Inside>,
+    /// The leaf whose local minimum a start has led to.
+    pub started: Option<usize>,
+    /// Whether no cell was left out for lack of patience.
+    pub is_proven: bool,
     pub workspace: &'a mut Workspace,
 }
 
 impl Search<'_> {
     #[inline(always)]
-    fn offer(&mut self, distance_sq: f64, uv: DVec2) {
-        if distance_sq < self.best.distance_sq && self.trims.is_none_or(|trims| trims.contains(uv)) {
+    fn offer(&mut self, distance_sq: f64, uv: DVec2, is_cut: bool) {
+        let counts = || !is_cut || self.inside.is_none_or(|inside| inside.contains(uv));
+        if distance_sq < self.best.distance_sq && counts() {
             self.best = Best::new(distance_sq, uv, self.tolerance);
+        }
+    }
+
+    /// Offers the corners of a leaf that is probably near: a first bound for little.
+    #[inline(always)]
+    pub fn sample(&mut self, index: &Index) {
+        let (mut entry, mut is_found) = (0, index.leaf_count() > 0);
+        while is_found && entry & LEAF == 0 {
+            let bounds = index.distances_sq(entry, self.point);
+            let is_open = |b: &usize| !self.inside.is_some_and(|inside| inside.is_closed(entry, *b));
+            let children = index.children(entry);
+            let nearest =
+                (0..children.len()).filter(is_open).min_by(|&a, &b| bounds[a].total_cmp(&bounds[b]));
+            is_found = nearest.is_some();
+            entry = nearest.map_or(entry, |b| children[b]);
+        }
+        if !is_found {
+            return;
+        }
+        let leaf = (entry & !LEAF) as usize;
+        self.load(index, leaf);
+        let is_cut = self.inside.is_some_and(|inside| !inside.lines_of(leaf).is_empty());
+        for at in CORNERS {
+            let distance_sq = corner_distance_sq(index, &self.workspace.ordinates, at);
+            self.offer(distance_sq, index.place(leaf).uv(at), is_cut);
         }
     }
 
@@ -113,8 +157,8 @@ impl Search<'_> {
         let limit_sq = self.best.limit_sq;
         let mut near = [(0.0, 0); BRANCHES];
         let mut count = 0;
-        for (&child, &bound) in index.children(node).iter().zip(&bounds) {
-            if bound < limit_sq {
+        for (b, (&child, &bound)) in index.children(node).iter().zip(&bounds).enumerate() {
+            if bound < limit_sq && !self.inside.is_some_and(|inside| inside.is_closed(node, b)) {
                 let mut k = count;
                 while k > 0 && near[k - 1].0 < bound {
                     near[k] = near[k - 1];
@@ -130,10 +174,14 @@ impl Search<'_> {
     /// Starts from a place given by the caller: what it finds bounds the rest of the search.
     #[inline(always)]
     pub fn try_leaf(&mut self, index: &Index, leaf: usize, at: [f64; 2]) {
+        if self.inside.is_some_and(|inside| inside.is_outside(leaf)) {
+            return;
+        }
+        self.started = Some(leaf);
         self.load(index, leaf);
         let form = index.kernel.form;
         let foot = foot::find(&form, &self.workspace.ordinates[..form.len()], at);
-        self.offer(foot.distance_sq, index.place(leaf).uv(foot.at));
+        self.offer(foot.distance_sq, index.place(leaf).uv(foot.at), true);
     }
 
     /// Ordinates of a leaf relative to the point.
@@ -155,11 +203,19 @@ impl Search<'_> {
 
     #[inline(always)]
     fn search_leaf(&mut self, index: &Index, leaf: usize, can_wait: bool, budget: &mut usize) {
+        if self.started == Some(leaf) && index.is_convex_from(leaf, self.point) {
+            return; // its one local minimum is known
+        }
         self.load(index, leaf);
+        let lines = self.inside.map_or(&[][..], |inside| inside.lines_of(leaf));
+        self.workspace.lines.clear();
+        self.workspace.lines.extend_from_slice(lines);
         self.workspace.cells.clear();
-        self.workspace.cells.push(Cell { min: [0.0; 2], max: [1.0; 2], is_whole: true });
+        let line_count = lines.len();
+        self.workspace.cells.push(Cell { min: [0.0; 2], max: [1.0; 2], is_whole: true, line_count });
         while let Some(cell) = self.workspace.cells.pop() {
             if *budget == 0 {
+                self.is_proven = false;
                 return;
             }
             *budget -= 1;
@@ -172,39 +228,85 @@ impl Search<'_> {
     fn search_cell(&mut self, index: &Index, leaf: usize, cell: Cell, can_wait: bool) {
         let form = index.kernel.form;
         let first = self.workspace.ordinates.len() - form.len();
+        let is_cut = cell.line_count > 0;
         let uv = |at: [f64; 2]| {
             index.place(leaf).uv([0, 1].map(|k| cell.min[k] + at[k] * (cell.max[k] - cell.min[k])))
         };
         if !cell.is_whole || self.best.distance_sq == f64::INFINITY {
-            for at in [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0]] {
-                self.offer(corner_distance_sq(index, &self.workspace.ordinates[first..], at), uv(at));
+            for at in CORNERS {
+                let distance_sq = corner_distance_sq(index, &self.workspace.ordinates[first..], at);
+                self.offer(distance_sq, uv(at), is_cut);
             }
         }
         let (limit_sq, slack) = (self.best.limit_sq, self.tolerance * self.best.distance_sq.sqrt());
         let workspace = &mut *self.workspace;
         let ordinates = &workspace.ordinates[first..];
-        let (axis, start) = match index.kernel.judge(ordinates, limit_sq, slack, &mut workspace.square) {
-            Verdict::Beyond => return workspace.ordinates.truncate(first),
+        let square = &mut workspace.square;
+        let (axis, start) = match index.kernel.judge(ordinates, limit_sq, slack, cell.shared(), square) {
+            Verdict::Beyond | Verdict::Slope => return self.drop_cell(&cell, first),
+            // of a cut cell: where this minimum lies outside the least distance is found on a trim
             Verdict::Convex(start) => (None, start),
             Verdict::Split(axis, start) => (Some(axis), start),
         };
         // a least coefficient on the border says that the nearest place is probably on a neighbour
         let is_inside = |k: usize| form.degree[k] == 0 || (start[k] > 0.0 && start[k] < 1.0);
+        if axis.is_none() && cell.is_whole && self.started == Some(leaf) {
+            return self.drop_cell(&cell, first); // its one local minimum is known
+        }
         if axis.is_none() && cell.is_whole && can_wait && !(is_inside(0) && is_inside(1)) {
             let sample = foot::distance_sq(&form, ordinates, start);
             workspace.waiting.push((sample, workspace.square.lowest, leaf as u32));
-            workspace.ordinates.truncate(first);
-            return self.offer(sample, uv(start));
+            self.drop_cell(&cell, first);
+            return self.offer(sample, uv(start), is_cut);
         }
         if axis.is_none() || cell.is_whole {
             let foot = foot::find(&form, ordinates, start);
-            self.offer(foot.distance_sq, uv(foot.at));
+            self.offer(foot.distance_sq, uv(foot.at), is_cut);
         }
         let ordinates = &self.workspace.ordinates[first..];
         match axis {
-            Some(axis) if extent(index, ordinates) > self.tolerance => self.halve(index, cell, first, axis),
-            _ => self.workspace.ordinates.truncate(first),
+            Some(axis) if extent(index, ordinates) > self.tolerance => {
+                self.halve(index, cell, first, axis);
+                if let (Some(inside), true) = (self.inside, is_cut) {
+                    self.sort_lines(inside, index, leaf, cell.line_count);
+                }
+            }
+            _ => self.drop_cell(&cell, first),
         }
+    }
+
+    /// Forgets the ordinates and the lines of the cell popped last.
+    #[inline(always)]
+    fn drop_cell(&mut self, cell: &Cell, first: usize) {
+        self.workspace.ordinates.truncate(first);
+        self.workspace.lines.truncate(self.workspace.lines.len() - cell.line_count);
+    }
+
+    /// Gives the two halves on top of the stack the lines that touch them, of the last `count`; a half that lies
+    /// outside goes.
+    fn sort_lines(&mut self, inside: &Inside, index: &Index, leaf: usize, count: usize) {
+        let (len, place) = (index.kernel.form.len(), index.place(leaf));
+        let workspace = &mut *self.workspace;
+        let begin = workspace.lines.len() - count;
+        let end = begin + count;
+        for from_top in [1, 0] {
+            let number = workspace.cells.len() - 1 - from_top;
+            let Cell { min, max, .. } = workspace.cells[number];
+            let cell = Domain { min: place.uv(min), max: place.uv(max) };
+            let before = workspace.lines.len();
+            for k in begin..end {
+                if inside.touches(workspace.lines[k], &cell) {
+                    workspace.lines.push(workspace.lines[k]);
+                }
+            }
+            workspace.cells[number].line_count = workspace.lines.len() - before;
+            if workspace.lines.len() == before && !inside.holds(&cell) {
+                workspace.cells.remove(number);
+                let last = workspace.ordinates.len() - from_top * len;
+                workspace.ordinates.drain(last - len..last);
+            }
+        }
+        workspace.lines.drain(begin..end);
     }
 
     /// Replaces the cell that begins at `first` by its halves, the nearer one last.
@@ -246,6 +348,9 @@ fn halve_ordinates(degree: &[usize; 2], axis: usize, low: &mut [f64], high: &mut
         }
     }
 }
+
+/// Of the unit square.
+const CORNERS: [[f64; 2]; 4] = [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0]];
 
 /// The squared distance at a corner.
 fn corner_distance_sq(index: &Index, ordinates: &[f64], at: [f64; 2]) -> f64 {

@@ -1,6 +1,7 @@
 use super::*;
 use crate::knots::KnotVector;
 use crate::samples::Random;
+use crate::surface::Trims;
 use crate::surface::tensor::TensorSurface;
 
 fn knots(degree: usize) -> KnotVector {
@@ -37,11 +38,10 @@ fn sphere() -> TensorSurface {
 }
 
 fn project(surface: &dyn Surface, points: &[f64], options: &ProjectOptions) -> (Vec<DVec2>, Vec<f64>) {
-    let count = points.len() / surface.dim();
-    let (mut uv, mut distances) = (vec![DVec2::ZERO; count], vec![0.0; count]);
     let projector = Projector::new(surface).unwrap();
-    projector.project(points, options, &mut uv, &mut distances, &Pool::new(1)).unwrap();
-    (uv, distances)
+    let projection = projector.project(points, options, &Pool::new(1)).unwrap();
+    assert_eq!(projection.unproven(), 0);
+    (projection.uv, projection.distances)
 }
 
 /// Points around a surface of size one, some on planes of symmetry.
@@ -116,18 +116,17 @@ fn results_do_not_depend_on_threads_order_or_guesses() {
     let rows: Vec<[f64; 3]> = points(2000);
     let (uv, distances) = project(&surface, &rows.concat(), &ProjectOptions::default());
     let reversed: Vec<[f64; 3]> = rows.iter().rev().copied().collect();
-    let (mut uv2, mut distances2) = (vec![DVec2::ZERO; 2000], vec![0.0; 2000]);
     let projector = Projector::new(&surface).unwrap();
     let options = ProjectOptions::default();
-    projector.project(&reversed.concat(), &options, &mut uv2, &mut distances2, &Pool::new(3)).unwrap();
-    uv2.reverse();
-    distances2.reverse();
-    assert_eq!((&uv, &distances), (&uv2, &distances2));
+    let mut again = projector.project(&reversed.concat(), &options, &Pool::new(3)).unwrap();
+    again.uv.reverse();
+    again.distances.reverse();
+    assert_eq!((&uv, &distances), (&again.uv, &again.distances));
     let mut random = Random::new(2);
     let guesses: Vec<DVec2> = (0..2000).map(|_| 2.0 * DVec2::new(random.signed(), random.signed())).collect();
     let options = ProjectOptions { guesses: Some(&guesses), ..options };
-    projector.project(&rows.concat(), &options, &mut uv2, &mut distances2, &Pool::new(2)).unwrap();
-    for (a, b) in distances.iter().zip(&distances2) {
+    let guessed = projector.project(&rows.concat(), &options, &Pool::new(2)).unwrap();
+    for (a, b) in distances.iter().zip(&guessed.distances) {
         assert!((a - b).abs() <= 4.0 * DISTANCE_TOLERANCE, "{a} {b}");
     }
 }
@@ -135,11 +134,11 @@ fn results_do_not_depend_on_threads_order_or_guesses() {
 #[test]
 fn points_beyond_the_largest_distance_get_nan() {
     let rows = [0.5, 0.5, 0.5, 0.5, 0.5, 0.5000001, 0.5, 0.5, -0.4, 9.0, 0.0, 0.0];
-    let (mut uv, mut distances) = ([DVec2::ZERO; 4], [0.0; 4]);
     let options = ProjectOptions { max_distance: 0.5, ..ProjectOptions::default() };
     let projector = Projector::new(&plane()).unwrap();
-    let missed = projector.project(&rows, &options, &mut uv, &mut distances, &Pool::new(1)).unwrap();
-    assert_eq!(missed, 2);
+    let projection = projector.project(&rows, &options, &Pool::new(1)).unwrap();
+    assert_eq!((projection.missed(), projection.unproven()), (2, 0));
+    let Projection { uv, distances, .. } = projection;
     assert_eq!(distances[0], 0.5);
     assert!((distances[2] - 0.4).abs() <= 4.0 * f64::EPSILON && uv[2] == DVec2::new(0.25, 0.5));
     assert!(distances[1].is_nan() && distances[3].is_nan() && uv[1].is_nan() && uv[3].is_nan());
@@ -189,8 +188,7 @@ fn fields_of_any_dimension_have_nearest_values() {
 fn refusals_name_the_point() {
     let projector = Projector::new(&plane()).unwrap();
     let refuse = |rows: &[f64], options: &ProjectOptions| {
-        let (mut uv, mut distances) = ([DVec2::ZERO; 2], [0.0; 2]);
-        projector.project(rows, options, &mut uv, &mut distances, &Pool::new(1)).unwrap_err()
+        projector.project(rows, options, &Pool::new(1)).unwrap_err()
     };
     let (options, good) = (ProjectOptions::default(), [0.0; 6]);
     let bad = [0., 0., 0., 0., f64::NAN, 0.];
@@ -200,8 +198,9 @@ fn refusals_name_the_point() {
     assert_eq!(refuse(&good, &guessed), ProjectError::GuessNotFinite { index: 1 });
     let negative = ProjectOptions { max_distance: -1.0, ..options };
     assert_eq!(refuse(&good, &negative), ProjectError::MaxDistance { value: -1.0 });
-    let counts = ProjectError::Count { what: "the parameters", count: 2, expected: 3 };
-    assert_eq!(refuse(&[0.0; 9], &options), counts);
+    let guessed = ProjectOptions { guesses: Some(&[DVec2::ZERO; 2]), ..options };
+    let counts = ProjectError::Count { what: "the first guesses", count: 2, expected: 3 };
+    assert_eq!(refuse(&[0.0; 9], &guessed), counts);
 }
 
 #[test]
@@ -215,15 +214,38 @@ fn the_nearest_place_of_a_curve_is_no_farther_than_any_other() {
         let mut rows = vec![0.0; dim * places.len()];
         curve.eval_rows(&places, 0, &mut rows);
         let queries: Vec<f64> = (0..dim * 200).map(|_| 2.0 * random.signed()).collect();
-        let (mut uv, mut distances) = (vec![DVec2::ZERO; 200], vec![0.0; 200]);
         let projector = Projector::of_curve(&curve);
-        let pool = Pool::new(1);
-        projector.project(&queries, &ProjectOptions::default(), &mut uv, &mut distances, &pool).unwrap();
+        let Projection { uv, distances, .. } =
+            projector.project(&queries, &ProjectOptions::default(), &Pool::new(1)).unwrap();
         for ((query, uv), distance) in queries.chunks(dim).zip(&uv).zip(&distances) {
             let to = |row: &[f64]| row.iter().zip(query).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
             assert!((to(&curve.eval(uv.x)) - distance).abs() <= 1e-14, "{uv} {distance}");
             let sampled = rows.chunks(dim).map(to).fold(f64::INFINITY, f64::min);
             assert!(*distance <= sampled + 1e-12, "{distance} {sampled}");
+        }
+    }
+}
+
+#[test]
+fn sizes_at_the_ends_of_the_range_change_nothing() {
+    let near = points(200);
+    let wave = |scale: f64| {
+        let breaks: Vec<f64> = (0..=6).map(f64::from).collect();
+        let knots = KnotVector::clamped(&breaks, 3).unwrap();
+        let count = knots.basis_count();
+        let place = |k: usize| ((k / count) as f64 / 4.0, (k % count) as f64 / 4.0);
+        let rows = (0..count * count).map(place).flat_map(|(u, v)| [u, v, (3.0 * u).sin() * (2.0 * v).cos()]);
+        TensorSurface::new(3, knots.clone(), knots, rows.map(|x| scale * x).collect(), None).unwrap()
+    };
+    let plain = project(&wave(1.0), &near.concat(), &ProjectOptions::default());
+    // powers of two, so that rounding is the same; about 1e-100 and 1e100
+    for exponent in [-333, 333] {
+        let scale = 2.0_f64.powi(exponent);
+        let rows: Vec<f64> = near.concat().iter().map(|x| scale * x).collect();
+        let (uv, distances) = project(&wave(scale), &rows, &ProjectOptions::default());
+        for k in 0..near.len() {
+            assert!((distances[k] / scale - plain.1[k]).abs() <= 1e-11, "{exponent}: {}", distances[k]);
+            assert!(uv[k].is_finite());
         }
     }
 }

@@ -22,7 +22,7 @@ pub use error::TransferError;
 
 use super::right_side::{Data, RightSide, Scratch};
 use super::{FieldFitter, FieldOptions};
-use crate::control::{Control, Pool, Stage};
+use crate::control::{Control, Stage};
 use crate::fit::common::FitError;
 use crate::fit::common::checks::check_rows;
 use crate::fit::common::report::{FitReport, ToleranceScale};
@@ -31,7 +31,6 @@ use crate::options::with_fields;
 use crate::query::project::{ProjectOptions, Projector};
 use crate::summary::{sum, summarize};
 use crate::surface::tensor::TensorSurface;
-use crate::surface::{Surface, Trims};
 use glam::{DVec2, DVec3};
 use std::time::Instant;
 
@@ -281,41 +280,16 @@ fn project(
 ) -> Result<(Vec<DVec2>, Vec<f64>), TransferError> {
     control.enter(Stage::Project);
     let projector = Projector::new(shape)?;
-    let mut parameters = vec![DVec2::ZERO; targets.len()];
-    let mut distances = vec![0.0; targets.len()];
-    let pieces = targets.chunks(PROJECTED_AT_ONCE).zip(parameters.chunks_mut(PROJECTED_AT_ONCE));
-    let mut first = 0;
-    for ((points, uv), distances) in pieces.zip(distances.chunks_mut(PROJECTED_AT_ONCE)) {
-        control.report(first as f64 / targets.len() as f64, f64::NAN)?;
-        project_piece(&projector, &shape.region().trims, points, uv, distances, control.pool())?;
-        first += uv.len();
+    let (mut parameters, mut distances) = (Vec::new(), Vec::new());
+    for points in targets.chunks(PROJECTED_AT_ONCE) {
+        control.report(parameters.len() as f64 / targets.len() as f64, f64::NAN)?;
+        let rows: Vec<f64> = points.iter().flat_map(|p| p.to_array()).collect();
+        let nearest = projector.project(&rows, &ProjectOptions::default(), control.pool())?;
+        parameters.extend(nearest.uv);
+        distances.extend(nearest.distances);
     }
     control.report(1.0, f64::NAN)?;
     Ok((parameters, distances))
-}
-
-/// The nearest place anywhere, where it lies inside the trims, is the nearest one inside them: most targets need no
-/// search along the trims.
-fn project_piece(
-    projector: &Projector,
-    trims: &Trims,
-    points: &[DVec3],
-    uv: &mut [DVec2],
-    distances: &mut [f64],
-    pool: &Pool,
-) -> Result<(), TransferError> {
-    let rows = |points: &[DVec3]| -> Vec<f64> { points.iter().flat_map(|p| p.to_array()).collect() };
-    let anywhere = ProjectOptions { keep_trims: false, ..ProjectOptions::default() };
-    projector.project(&rows(points), &anywhere, uv, distances, pool)?;
-    let outside: Vec<usize> = (0..uv.len()).filter(|&k| !trims.contains(uv[k])).collect();
-    let again: Vec<DVec3> = outside.iter().map(|&k| points[k]).collect();
-    let (mut inside_uv, mut inside_distances) = (vec![DVec2::ZERO; again.len()], vec![0.0; again.len()]);
-    let inside = ProjectOptions::default();
-    projector.project(&rows(&again), &inside, &mut inside_uv, &mut inside_distances, pool)?;
-    for ((&k, place), distance) in outside.iter().zip(inside_uv).zip(inside_distances) {
-        (uv[k], distances[k]) = (place, distance);
-    }
-    Ok(())
 }
 
 fn check_room(what: &'static str, out: &[f64], count: usize, dim: usize) -> Result<(), FitError> {
