@@ -24,7 +24,8 @@ pub enum planish_remark {
     ToleranceRaised = 32,
     /// Some cells hold no data; the surface is extrapolated there.
     EmptyCells = 64,
-    /// Between the nodes the surface departs from the facets by more than tolerance and facet sagitta.
+    /// Between the nodes the surface departs from the facets by more than the tolerance and what the facets explain:
+    /// beside sharp edges, or where it swings.
     RoughBetweenNodes = 128,
     /// The map is so compressed that one chart is the wrong tool: cut the mesh into several.
     SegmentationAdvised = 256,
@@ -90,7 +91,8 @@ record! {
         /// Largest distance from a triangle's centroid or an edge's middle to the surface's tangent plane at the
         /// mean of the nodes' (u,v) (for a field: to its value there); 0 for data without triangles.
         pub max_interior_error: f64,
-        /// The part of max_interior_error that flat facets on a curved shape explain.
+        /// The part of max_interior_error that flat facets on a curved shape explain, never more than there is.
+        /// Facets at an edge across which normals turn by more than 30 degrees explain nothing: they are the shape.
         pub facet_sagitta: f64,
         /// Largest closest-point distance from a node to the surface; NaN unless measure_distance asked for it.
         pub max_distance: f64,

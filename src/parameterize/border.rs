@@ -11,7 +11,7 @@
 //!      '-- ___ --'
 //! ```
 
-use super::{Border, ParameterizeError, ParameterizeOptions};
+use super::{Border, ParameterizeError, ParameterizeOptions, patch};
 use crate::mesh::Mesh;
 use glam::{DVec2, DVec3};
 
@@ -41,7 +41,9 @@ pub(super) fn candidates(
     mesh: &Mesh,
     options: &ParameterizeOptions,
 ) -> Result<Vec<BorderLine>, ParameterizeError> {
-    let nodes = &mesh.loops()[0];
+    let outer = &mesh.loops()[patch::outer_loop(mesh).unwrap_or(0)];
+    let mut nodes = outer.clone();
+    nodes.rotate_left(patch::landmark(mesh, outer));
     let points: Vec<DVec3> = nodes.iter().map(|&node| mesh.points()[node as usize]).collect();
     let lengths = edge_lengths(&points)?;
     let line = |kind, corners, slide| BorderLine {
@@ -76,7 +78,7 @@ pub(super) fn candidates(
         Border::SquareByTurns => vec![line(Border::SquareByTurns, turns(), slide)],
         Border::SquareByArc => vec![line(Border::SquareByArc, arcs(), slide)],
         Border::Corners(given) => {
-            vec![line(options.border, Some(given_corners(nodes, given)?), slide)]
+            vec![line(options.border, Some(given_corners(&nodes, given)?), slide)]
         }
         Border::Kept => vec![line(Border::Kept, None, 0.0)],
     })
@@ -120,7 +122,7 @@ impl BorderLine {
     pub fn slid(&self, s: &[f64], eta: f64) -> Self {
         let mut line = self.clone();
         if self.slide > 0.0 {
-            for (length, (a, b)) in line.lengths.iter_mut().zip(super::patch::edges(&self.nodes)) {
+            for (length, (a, b)) in line.lengths.iter_mut().zip(patch::edges(&self.nodes)) {
                 *length *= (s[a as usize] * s[b as usize]).powf(self.slide * eta / 2.0);
             }
         }

@@ -3,7 +3,8 @@
 //! A map of least stretch follows every bump, and the surface over it has to undo that; the plane's own coordinates
 //! are as smooth as the shape. Sheets that unroll without stretch need no such help.
 
-use super::isometric::{boundary_crosses, in_unit_square};
+use super::crossings::boundary_crosses;
+use super::isometric::in_unit_square;
 use crate::geometry::Orientation;
 use crate::mesh::Mesh;
 use glam::{DVec2, DVec3};
@@ -12,6 +13,8 @@ use glam::{DVec2, DVec3};
 const LEAST_COSINE: f64 = 0.1;
 /// The middle of the cap is found to a few hundredths of its radius, near enough for a choice of a plane.
 const STEPS: usize = 64;
+/// Cosines that differ by less are the same but for rounding.
+const SAME: f64 = 1e-9;
 
 /// The nodes in the plane across the best direction, turned and scaled as an unrolled map is; None if the mesh is no
 /// height field over it: a triangle is too steep or turned over, or the border covers itself.
@@ -38,8 +41,11 @@ fn best_direction(mesh: &Mesh) -> Option<DVec3> {
         mesh.triangles().iter().filter_map(|t| area_vector(mesh, t).try_normalize()).collect();
     let mut middle = mesh.triangles().iter().map(|t| area_vector(mesh, t)).sum::<DVec3>().try_normalize()?;
     for step in 1..=STEPS {
-        let steepest = normals.iter().min_by(|a, b| a.dot(middle).total_cmp(&b.dot(middle)))?;
-        middle = (middle + (*steepest - middle) / (step + 1) as f64).try_normalize()?;
+        let least = normals.iter().map(|normal| normal.dot(middle)).fold(f64::INFINITY, f64::min);
+        // of a symmetric shape several are equally steep: their mean does not depend on which comes first
+        let steepest = normals.iter().filter(|normal| normal.dot(middle) <= least + SAME);
+        let (sum, count) = steepest.fold((DVec3::ZERO, 0), |(sum, count), normal| (sum + normal, count + 1));
+        middle = (middle + (sum / f64::from(count) - middle) / (step + 1) as f64).try_normalize()?;
     }
     Some(middle)
 }

@@ -10,6 +10,8 @@
 //! triangles flip. So the result is a candidate only: it is taken if no triangle flips, no two pieces of the
 //! boundary cross, and the stretch is less.
 
+use super::crossings::boundary_crosses;
+use super::patch::{landmark, outer_loop};
 use crate::control::Pool;
 use crate::geometry::{Orientation, orientation};
 use crate::linalg::SymbolicCholesky;
@@ -40,9 +42,12 @@ pub fn unroll(mesh: &Mesh, start: &[DVec2], pool: &Pool) -> Option<Vec<DVec2>> {
         let mut columns = pool.run(|| sheet.right_sides(mesh, &uv));
         factor.solve(&mut columns, 2);
         let moved: Vec<DVec2> = (0..n).map(|i| DVec2::new(columns[i], columns[n + i])).collect();
-        // both maps are known up to a shift only; the system pins the first used node to the origin
-        let shift = uv[sheet.pinned] - moved[sheet.pinned];
-        let step = uv.iter().zip(&moved).map(|(a, b)| (*b + shift).distance(*a)).fold(0.0, f64::max);
+        // both maps are known up to a shift only; counted by triangles, so that unused nodes do not matter, nor
+        // which node is first
+        let corners = || mesh.triangles().iter().flatten().map(|&node| node as usize);
+        let middle = |uv: &[DVec2]| corners().map(|n| uv[n]).sum::<DVec2>() / corners().count() as f64;
+        let shift = middle(&uv) - middle(&moved);
+        let step = corners().map(|n| (moved[n] + shift).distance(uv[n])).fold(0.0, f64::max);
         uv = moved;
         if step <= STILL * sheet.size {
             break;
@@ -166,9 +171,15 @@ fn pulls(places: [DVec2; 3], flat: &[DVec2; 3], cotangents: &[f64; 3]) -> [DVec2
 }
 
 /// Turns the smallest bounding rectangle upright, its longer side along u, and scales it into the unit square.
+///
+/// Of several smallest rectangles, as symmetric outlines have, the one in which the border's landmark has the least u,
+/// and of these the least v, is taken.
 pub(super) fn in_unit_square(mesh: &Mesh, uv: &[DVec2]) -> Vec<DVec2> {
-    let border: Vec<DVec2> = mesh.loops()[0].iter().map(|&n| uv[n as usize]).collect();
-    let hull = convex_hull(border);
+    /// Differences below this are rounding.
+    const SAME: f64 = 1e-9;
+    let border = &mesh.loops()[outer_loop(mesh).unwrap_or(0)];
+    let mark = uv[border[landmark(mesh, border)] as usize];
+    let hull = convex_hull(border.iter().map(|&n| uv[n as usize]).collect());
     let box_along = |direction: DVec2| {
         let turn =
             DMat2::from_cols(DVec2::new(direction.x, -direction.y), DVec2::new(direction.y, direction.x));
@@ -181,10 +192,17 @@ pub(super) fn in_unit_square(mesh: &Mesh, uv: &[DVec2]) -> Vec<DVec2> {
     let sides = hull.iter().zip(hull.iter().cycle().skip(1)).map(|(a, b)| (*b - *a).normalize_or_zero());
     let boxes =
         sides.filter(|side| *side != DVec2::ZERO).flat_map(|side| [box_along(side), box_along(side.perp())]);
-    let best = boxes
-        .filter(|(_, _, size)| size.x >= size.y)
-        .min_by(|a, b| a.2.element_product().total_cmp(&b.2.element_product()));
-    let Some((turn, min, size)) = best else { return uv.to_vec() };
+    // a square may lie on either pair of sides
+    let boxes: Vec<(DMat2, DVec2, DVec2)> =
+        boxes.filter(|(_, _, size)| size.x >= (1.0 - SAME) * size.y).collect();
+    let least = boxes.iter().map(|(_, _, size)| size.element_product()).fold(f64::INFINITY, f64::min);
+    let place = |(turn, min, size): &(DMat2, DVec2, DVec2)| (*turn * mark - *min) / size.x;
+    let smallest = boxes.iter().filter(|(_, _, size)| size.element_product() <= (1.0 + SAME) * least);
+    let best = smallest.min_by(|a, b| {
+        let (a, b) = (place(a), place(b));
+        if (a.x - b.x).abs() > SAME { a.x.total_cmp(&b.x) } else { a.y.total_cmp(&b.y) }
+    });
+    let Some(&(turn, min, size)) = best else { return uv.to_vec() };
     uv.iter().map(|&p| (turn * p - min) / size.x).collect()
 }
 
@@ -207,45 +225,6 @@ fn convex_hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     }
     hull.pop();
     hull
-}
-
-/// Whether any two pieces of the boundary meet other than at a common node. Without flips and without such
-/// crossings the map covers no place twice.
-pub(super) fn boundary_crosses(mesh: &Mesh, uv: &[DVec2]) -> bool {
-    let mut pieces: Vec<[u32; 2]> = mesh
-        .loops()
-        .iter()
-        .flat_map(|nodes| nodes.iter().zip(nodes.iter().cycle().skip(1)).map(|(&a, &b)| [a, b]))
-        .collect();
-    let place = |node: u32| uv[node as usize];
-    let left = |piece: &[u32; 2]| place(piece[0]).x.min(place(piece[1]).x);
-    let right = |piece: &[u32; 2]| place(piece[0]).x.max(place(piece[1]).x);
-    pieces.sort_by(|a, b| left(a).total_cmp(&left(b)));
-    // sweep along u: only pieces that have not ended yet can meet the next
-    let mut active: Vec<[u32; 2]> = Vec::new();
-    for piece in pieces {
-        active.retain(|other| right(other) >= left(&piece));
-        if active.iter().any(|other| pieces_meet(other.map(place), piece.map(place), *other, piece)) {
-            return true;
-        }
-        active.push(piece);
-    }
-    false
-}
-
-fn pieces_meet([a, b]: [DVec2; 2], [c, d]: [DVec2; 2], first: [u32; 2], second: [u32; 2]) -> bool {
-    if first.iter().any(|node| second.contains(node)) {
-        return false;
-    }
-    let apart = |p: DVec2, q: DVec2, r: DVec2, s: DVec2| {
-        let (one, other) = (orientation(p, q, r), orientation(p, q, s));
-        one == other && one != Orientation::Zero
-    };
-    let overlap = |min1: f64, max1: f64, min2: f64, max2: f64| min1 <= max2 && min2 <= max1;
-    !apart(a, b, c, d)
-        && !apart(c, d, a, b)
-        && overlap(a.x.min(b.x), a.x.max(b.x), c.x.min(d.x), c.x.max(d.x))
-        && overlap(a.y.min(b.y), a.y.max(b.y), c.y.min(d.y), c.y.max(d.y))
 }
 
 #[cfg(test)]

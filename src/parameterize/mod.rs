@@ -15,6 +15,7 @@
 //! triangles keeps the parameters given with the mesh and is refused if there are none.
 
 mod border;
+mod crossings;
 pub(crate) mod dirichlet;
 mod error;
 mod height_field;
@@ -27,6 +28,7 @@ mod stretch;
 mod system;
 mod weights;
 
+pub(crate) use crossings::crossing_nodes;
 pub use error::ParameterizeError;
 pub use options::{Border, Method, ParameterizeOptions};
 pub use regularize::{
@@ -140,6 +142,8 @@ pub fn parameterize_weighted(
     let start = Instant::now();
     options.check()?;
     check_node_weights(mesh, node_weights)?;
+    let (mesh, _) = mesh.at_safe_scale();
+    let mesh = mesh.as_ref();
     patch::check_disk(mesh)?;
     let given = start_values(mesh, options)?;
     let zero_area = zero_area_count(mesh)?;
@@ -167,7 +171,7 @@ pub fn parameterize_weighted(
         let mut stage = Part { control: &mut *control, from: i as f64 / count, to: (i + 1) as f64 / count };
         let map = lower_stretch(map, &mut system, options, node_weights, &mut stage)?;
         best = Some(match best {
-            Some(best) if best.rank() <= map.rank() => best,
+            Some(best) if !map.is_better_than(&best) => best,
             _ => map,
         });
     }
@@ -242,7 +246,7 @@ struct Map {
     weights: Vec<f64>,
     uv: Vec<DVec2>,
     stretch: PatchStretch,
-    /// Triangles of the mesh that are not counter-clockwise.
+    /// Triangles of the mesh that are turned against the rest, or flat.
     folded: usize,
     steps: usize,
 }
@@ -257,9 +261,8 @@ impl Map {
         control: &Control,
     ) -> Self {
         let stretch = PatchStretch::new(patch, &uv, node_weights, control);
-        let triangles = &patch.triangles[..patch.mesh_triangle_count];
-        let is_folded = |t: &&[u32; 3]| triangle_orientation(&uv, t) != Orientation::Positive;
-        let folded = triangles.iter().filter(is_folded).count();
+        let (reversed, flat) = folds(&patch.triangles[..patch.mesh_triangle_count], &uv);
+        let folded = reversed + flat;
         Self { line, weights, uv, stretch, folded, steps: 0 }
     }
 
@@ -269,8 +272,9 @@ impl Map {
     }
 
     /// What decides between borders.
-    fn rank(&self) -> (usize, f64) {
-        (self.folded, self.stretch.of_mesh.l2)
+    fn is_better_than(&self, other: &Self) -> bool {
+        self.folded < other.folded
+            || (self.folded == other.folded && is_less(self.stretch.of_mesh.l2, other.stretch.of_mesh.l2))
     }
 
     fn report(&self, mesh: &Mesh, solves: usize) -> ParameterizeReport {
@@ -324,7 +328,7 @@ fn lower_stretch(
         let s = map.stretch.of_nodes(patch, node_weights, options.rings);
         let next = next_map(&map, &s, eta, system, node_weights, stage.control)?;
         let enough = next.folded <= map.folded && next.l2() < (1.0 - LEAST_GAIN) * map.l2();
-        if (next.folded, next.l2()) < (map.folded, map.l2()) {
+        if next.folded < map.folded || (next.folded == map.folded && is_less(next.l2(), map.l2())) {
             map = Map { steps: map.steps + 1, ..next };
         }
         if !enough {
@@ -355,6 +359,13 @@ fn next_map(
     system.set_weights(weights.clone(), control)?;
     system.solve(&mut uv, control);
     Ok(Map::new(patch, line, weights, uv, node_weights, control))
+}
+
+/// Whether one stretch is less than another by more than rounding: what is equal stays, whatever the last digits say.
+fn is_less(stretch: f64, other: f64) -> bool {
+    /// Roundoff of a sum over all triangles and of the map's system, with room.
+    const ROUNDING: f64 = 1e-10;
+    stretch < (1.0 - ROUNDING) * other
 }
 
 fn triangle_orientation(uv: &[DVec2], triangle: &[u32; 3]) -> Orientation {

@@ -7,6 +7,7 @@ use super::ParameterizeError;
 use crate::lists::Lists;
 use crate::mesh::Mesh;
 use glam::DVec3;
+use std::cmp::Ordering;
 
 /// No unknown: the node is fixed.
 pub(super) const FIXED: u32 = u32::MAX;
@@ -81,19 +82,27 @@ impl Patch {
     pub fn new(mesh: &Mesh, holes: Holes) -> Self {
         let (mut points, mut triangles) = (mesh.points().to_vec(), mesh.triangles().to_vec());
         let loops = mesh.loops();
-        let inner = loops.get(1..).unwrap_or_default();
+        let outer = outer_loop(mesh);
+        let (outer, inner): (Vec<&Vec<u32>>, Vec<&Vec<u32>>) = match outer {
+            Some(outer) => {
+                let inner = loops.iter().enumerate().filter(|&(k, _)| k != outer);
+                (vec![&loops[outer]], inner.map(|(_, nodes)| nodes).collect())
+            }
+            None => (Vec::new(), Vec::new()),
+        };
+        let all = [outer.clone(), inner.clone()].concat();
         let (open, fixed) = match holes {
             Holes::Filled => {
                 inner.iter().for_each(|hole| fill(hole, &mut points, &mut triangles));
-                (&loops[..loops.len() - inner.len()], &loops[..loops.len() - inner.len()])
+                (outer.clone(), outer)
             }
-            Holes::Open => (loops, &loops[..loops.len() - inner.len()]),
-            Holes::Fixed => (loops, loops),
+            Holes::Open => (all, outer),
+            Holes::Fixed => (all.clone(), all),
         };
         let open_edges: Vec<(u32, u32)> = open.iter().flat_map(|nodes| edges(nodes)).collect();
         let neighbours = Neighbours::new(points.len(), &triangles, &open_edges);
         let mut is_fixed: Vec<bool> = (0..points.len()).map(|i| neighbours.slots(i).is_empty()).collect();
-        fixed.iter().flatten().for_each(|&node| is_fixed[node as usize] = true);
+        fixed.iter().copied().flatten().for_each(|&node| is_fixed[node as usize] = true);
         let nodes: Vec<u32> = (0..points.len() as u32).filter(|&i| !is_fixed[i as usize]).collect();
         let mut unknown = vec![FIXED; points.len()];
         nodes.iter().enumerate().for_each(|(k, &node)| unknown[node as usize] = k as u32);
@@ -116,6 +125,34 @@ impl Patch {
     pub fn is_movable(&self, triangle: &[u32; 3]) -> bool {
         !triangle.iter().all(|&node| self.is_fixed(node))
     }
+}
+
+/// Loops whose lengths differ by no more than this share are equally long but for rounding.
+const SAME_LENGTH: f64 = 1e-9;
+
+/// The loop that becomes the border of the map: the longest; of equally long ones the one with the first landmark,
+/// so that it is the same one however nodes are numbered.
+pub(super) fn outer_loop(mesh: &Mesh) -> Option<usize> {
+    let place = |node: u32| mesh.points()[node as usize];
+    let length =
+        |nodes: &Vec<u32>| edges(nodes).map(|(a, b)| place(a).distance(place(b))).sum::<f64>();
+    let lengths: Vec<f64> = mesh.loops().iter().map(length).collect();
+    let longest = lengths.iter().copied().fold(0.0, f64::max);
+    let first = |k: usize| place(mesh.loops()[k][landmark(mesh, &mesh.loops()[k])]);
+    (0..lengths.len())
+        .filter(|&k| lengths[k] >= (1.0 - SAME_LENGTH) * longest)
+        .min_by(|&a, &b| in_space_order(&first(a), &first(b)))
+}
+
+/// Where in a loop the node with the least x, of these the least y and z, stands: a place to begin that does not
+/// depend on the numbers of nodes.
+pub(super) fn landmark(mesh: &Mesh, nodes: &[u32]) -> usize {
+    let place = |k: &usize| &mesh.points()[nodes[*k] as usize];
+    (0..nodes.len()).min_by(|a, b| in_space_order(place(a), place(b))).unwrap_or(0)
+}
+
+fn in_space_order(a: &DVec3, b: &DVec3) -> Ordering {
+    a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z))
 }
 
 /// A loop's edges, closing one last.

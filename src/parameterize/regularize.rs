@@ -115,6 +115,8 @@ pub fn regularize(
     control: &mut Control,
 ) -> Result<Regularization, ParameterizeError> {
     let start = Instant::now();
+    let (mesh, _) = mesh.at_safe_scale();
+    let mesh = mesh.as_ref();
     let given = mesh.parameters().ok_or(ParameterizeError::NoParameters)?;
     let (value, allowed) = (options.corner_angle, "0 to pi");
     if !(0.0..=std::f64::consts::PI).contains(&value) {

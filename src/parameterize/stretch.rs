@@ -11,6 +11,7 @@
 
 use super::patch::Patch;
 use crate::Control;
+use crate::geometry::safe_scale;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -75,7 +76,12 @@ fn singular_values(x: DVec3, y: DVec3) -> (f64, f64) {
 
 /// Measures a map on all triangles; the sign of parameter areas does not matter here.
 pub fn stretch(points: &[DVec3], triangles: &[[u32; 3]], uv: &[DVec2]) -> StretchMeasure {
-    let parts: Vec<TriangleStretch> = triangles.iter().map(|t| triangle_stretch(points, uv, t)).collect();
+    let scale = safe_scale(points.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max));
+    let part = |t: &[u32; 3]| {
+        let places = t.map(|node| scale * points[node as usize]);
+        TriangleStretch::new(places, t.map(|node| uv[node as usize]))
+    };
+    let parts: Vec<TriangleStretch> = triangles.iter().map(part).collect();
     summed(parts.iter().map(|part| (part, 1.0)))
 }
 
@@ -130,7 +136,10 @@ impl PatchStretch {
             None => 1.0,
         };
         let movable = patch.triangles.iter().zip(&parts).filter(|(triangle, _)| patch.is_movable(triangle));
-        let collapsed = !movable.clone().all(|(_, part)| part.parameter_area > 0.0);
+        // a kept border may run clockwise: the map is mirrored then, and as good
+        let turned = movable.clone().filter(|(_, part)| part.parameter_area < 0.0).count();
+        let sign = if 2 * turned > movable.clone().count() { -1.0 } else { 1.0 };
+        let collapsed = !movable.clone().all(|(_, part)| sign * part.parameter_area > 0.0);
         let movable_l2 = if collapsed {
             f64::INFINITY
         } else {

@@ -491,3 +491,95 @@ proptest! {
         prop_assert!(largest_distance(&map.uv, &exact) < 1e-13);
     }
 }
+
+/// A tube of radius 1 that is open at both ends.
+fn open_tube(around: usize, rows: usize) -> Mesh {
+    let place = |k: usize| {
+        let angle = std::f64::consts::TAU * (k % around) as f64 / around as f64;
+        DVec2::from_angle(angle).extend((k / around) as f64 / 3.0)
+    };
+    let cell = |k: usize| {
+        let next = k - k % around + (k + 1) % around;
+        let [a, b, c, d] = [k, next, next + around, k + around].map(|n| n as u32);
+        [[a, b, c], [a, c, d]]
+    };
+    let triangles = (0..around * (rows - 1)).flat_map(cell).collect();
+    Mesh::new((0..around * rows).map(place).collect(), triangles).unwrap()
+}
+
+/// The same mesh with its nodes in another order, and the new number of each.
+fn renumbered(mesh: &Mesh, seed: u64) -> (Mesh, Vec<usize>) {
+    let mut random = crate::samples::Random::new(seed);
+    let mut order: Vec<(f64, usize)> = (0..mesh.points().len()).map(|n| (random.unit(), n)).collect();
+    order.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut numbers = vec![0; order.len()];
+    order.iter().enumerate().for_each(|(new, &(_, old))| numbers[old] = new);
+    let points = order.iter().map(|&(_, old)| mesh.points()[old]).collect();
+    let triangles = mesh.triangles().iter().map(|t| t.map(|n| numbers[n as usize] as u32)).collect();
+    (Mesh::new(points, triangles).unwrap(), numbers)
+}
+
+#[test]
+fn numbers_of_nodes_do_not_matter() {
+    use crate::samples;
+    let shapes = [
+        ("planar", samples::planar(1).unwrap()),
+        ("notch", samples::curved_notch(1).unwrap()),
+        ("sphere", samples::sphere_with_holes(800, 1).unwrap()),
+        ("bumps", samples::bumps([20, 20], 10, 2).unwrap().0),
+        // symmetric ones, of which each choice has equals: a tube whose ends are equally long, a square, a pyramid
+        ("tube", open_tube(24, 7)),
+        ("lidded tube", tube(1.0, 16).0),
+        ("square", grid(9, 9, |i, j| DVec3::new(i as f64, j as f64, 0.0))),
+        ("pyramid", pyramid(0.7)),
+        ("dome", grid(11, 11, |i, j| {
+            let p = DVec2::new(i as f64, j as f64) / 5.0 - 1.0;
+            p.extend(-0.4 * p.length_squared())
+        })),
+    ];
+    for (name, mesh) in shapes {
+        for (what, options) in [
+            ("tensor", ParameterizeOptions::TENSOR),
+            ("pht", ParameterizeOptions::PHT),
+            ("mean value", ParameterizeOptions::MEAN_VALUE),
+        ] {
+            let plain = fit(&mesh, options).uv;
+            for seed in 1..=3 {
+                let (other, numbers) = renumbered(&mesh, seed);
+                let moved = fit(&other, options).uv;
+                let farthest =
+                    plain.iter().zip(&numbers).map(|(uv, &n)| uv.distance(moved[n])).fold(0.0, f64::max);
+                assert!(farthest <= 1e-9, "{name}, {what}, order {seed}: {farthest:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_node_at_the_rounded_middle_of_a_side_is_mapped() {
+    // the middle of a side, as rounded: on this or that side of it, or exactly there
+    let mut random = crate::samples::Random::new(8);
+    for _ in 0..200 {
+        let mut corner = || DVec3::new(random.signed(), random.signed(), random.signed());
+        let [a, b, c, d] = [corner(), corner(), corner(), corner()];
+        let middle = (a + b) / 2.0;
+        // (a, b, middle) has no area but for rounding; all around the middle are triangles
+        let mesh = Mesh::new(
+            vec![a, b, c, d, middle],
+            vec![[0, 1, 4], [1, 2, 4], [2, 0, 4], [1, 0, 3]],
+        )
+        .unwrap();
+        let map = fit(&mesh, ParameterizeOptions::MEAN_VALUE);
+        assert_eq!(folds(mesh.triangles(), &map.uv), (0, 0), "{:?}", mesh.points());
+    }
+}
+
+#[test]
+fn a_border_kept_clockwise_is_not_folded() {
+    let mut mesh = crate::samples::curved_notch(2).unwrap();
+    let mirrored = mesh.parameters().unwrap().iter().map(|uv| DVec2::new(-uv.x, uv.y)).collect();
+    mesh.set_parameters(mirrored).unwrap();
+    let map = fit(&mesh, ParameterizeOptions::TENSOR.with_border(Border::Kept));
+    assert!(!map.report.remarks.contains(Remarks::FOLDED), "{:?}", map.report);
+    assert!(map.report.steps > 0);
+}

@@ -38,11 +38,21 @@ pub(super) fn weights(patch: &Patch, method: Method) -> Result<Vec<f64>, Paramet
     Ok(weights)
 }
 
+/// Of half an angle, 2e-4 short of a right one. A node on the side of its own triangle would have weights without
+/// bound, and a map that leaves that triangle no area; this far from the side nothing is lost by rounding.
+const LARGEST_TANGENT: f64 = 1e4;
+
 /// What the triangle adds to the weights of its two edges at the first corner.
 fn mean_value_shares([at, next, last]: [DVec3; 3]) -> [f64; 2] {
     let (e1, e2) = (next - at, last - at);
     let (length1, length2) = (e1.length(), e2.length());
-    let tangent = e1.cross(e2).length() / (length1 * length2 + e1.dot(e2)); // of the half angle
+    let (sine, cosine) = (e1.cross(e2).length(), e1.dot(e2)); // times both lengths
+    // of the half angle; of the two forms the one in which nothing cancels
+    let tangent = if cosine > 0.0 {
+        sine / (length1 * length2 + cosine)
+    } else {
+        ((length1 * length2 - cosine) / sine).min(LARGEST_TANGENT)
+    };
     let shares = [tangent / length1, tangent / length2];
     if shares.iter().all(|share| share.is_finite()) { shares } else { [0.0; 2] }
 }

@@ -4,6 +4,9 @@
 //! the rule that keeps triangles from folding: `parameterization.md` 5.
 
 use crate::control::Pool;
+use crate::geometry::safe_scale;
+use crate::mesh::Mesh;
+use crate::parameterize::crossing_nodes;
 use crate::surface::Surface;
 use glam::DVec2;
 use rayon::prelude::*;
@@ -58,7 +61,9 @@ pub fn foot_points(
 fn gauss_newton_step(row: &[f64], value: &[f64]) -> DVec2 {
     let dim = value.len();
     let (s, su, sv) = (&row[..dim], &row[dim..2 * dim], &row[2 * dim..]);
-    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    // products of products, of tangents of any length
+    let scale = safe_scale(row[dim..].iter().fold(0.0, |most: f64, x| most.max(x.abs())));
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (scale * a) * (scale * b)).sum::<f64>();
     let miss: Vec<f64> = value.iter().zip(s).map(|(p, s)| p - s).collect();
     let (a, b, c) = (dot(su, su), dot(su, sv), dot(sv, sv));
     let (p, q) = (dot(su, &miss), dot(sv, &miss));
@@ -69,34 +74,66 @@ fn gauss_newton_step(row: &[f64], value: &[f64]) -> DVec2 {
     DVec2::new(c * p - b * q, a * q - b * p) / determinant
 }
 
-/// Halves the moves of the nodes of every triangle that would lose nearly all its area, until none does.
+/// Halves the moves of the nodes of every triangle that would lose nearly all its area, and of every two pieces of the
+/// boundary that would meet, until there are none.
 ///
-/// `first` are the parameters whose areas count, of which a triangle keeps at least the share `least`.
-pub fn hold_back(triangles: &[[u32; 3]], (first, least): (&[DVec2], f64), from: &[DVec2], to: &mut [DVec2]) {
+/// `first` are the parameters whose areas count, of which a triangle keeps at least the share `least`. A map that is
+/// mirrored as a whole, as texture coordinates may be, is held as firmly: areas count with the sign that most have.
+pub fn hold_back(mesh: &Mesh, (first, least): (&[DVec2], f64), from: &[DVec2], to: &mut [DVec2]) {
+    let triangles = mesh.triangles();
     let area = |uv: &[DVec2], t: &[u32; 3]| {
         let [a, b, c] = t.map(|n| uv[n as usize]);
         (b - a).perp_dot(c - a)
     };
+    let turned = triangles.iter().filter(|t| area(first, t) < 0.0).count();
+    let sign = if 2 * turned > triangles.len() { -1.0 } else { 1.0 };
     let mut halvings = vec![0; from.len()];
-    let mut suspects: Vec<usize> = (0..triangles.len()).collect();
     loop {
-        suspects.retain(|&t| {
-            let before = area(first, &triangles[t]);
-            !(area(to, &triangles[t]) >= least * before) && before > 0.0
-        });
-        let mut nodes: Vec<u32> = suspects.iter().flat_map(|&t| triangles[t]).collect();
+        let is_spoilt = |t: &&[u32; 3]| {
+            let before = sign * area(first, t);
+            !(sign * area(to, t) >= least * before) && before > 0.0
+        };
+        let mut nodes: Vec<u32> = triangles.iter().filter(is_spoilt).flatten().copied().collect();
+        nodes.extend(crossing_nodes(mesh, to));
         nodes.sort_unstable();
         nodes.dedup();
         nodes.retain(|&n| to[n as usize] != from[n as usize]);
         if nodes.is_empty() {
             return;
         }
+        // a node that moves back may spoil a neighbour
         for n in nodes {
             let n = n as usize;
             halvings[n] += 1;
             to[n] = if halvings[n] > HALVINGS { from[n] } else { from[n] + (to[n] - from[n]) / 2.0 };
         }
-        // a node that moved back may have spoilt a neighbour
-        suspects = (0..triangles.len()).collect();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parameterize::folds;
+    use crate::samples::{Random, curved_notch};
+
+    #[test]
+    fn wild_moves_neither_fold_a_map_nor_tangle_its_borders() {
+        for mirror in [1.0, -1.0] {
+            let mesh = curved_notch(1).unwrap();
+            let from: Vec<DVec2> =
+                mesh.parameters().unwrap().iter().map(|uv| DVec2::new(mirror * uv.x, uv.y)).collect();
+            for reach in [0.1, 1.0] {
+                let mut random = Random::new(5);
+                let mut to: Vec<DVec2> =
+                    from.iter().map(|uv| uv + reach * DVec2::new(random.signed(), random.signed())).collect();
+                let wanted = to.clone();
+                assert!(!crossing_nodes(&mesh, &to).is_empty());
+                hold_back(&mesh, (&from, 1e-3), &from, &mut to);
+                assert_eq!(folds(mesh.triangles(), &to), (0, 0), "mirrored {mirror}, moves of {reach}");
+                assert!(crossing_nodes(&mesh, &to).is_empty(), "mirrored {mirror}, moves of {reach}");
+                assert!(to.iter().zip(&from).any(|(a, b)| a != b));
+                assert!(reach > 0.5 || to.iter().zip(&wanted).any(|(a, b)| a == b));
+            }
+        }
     }
 }

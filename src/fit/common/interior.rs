@@ -4,7 +4,7 @@ use super::errors::data_errors;
 use super::neighbours::triangles_between;
 use crate::control::Pool;
 use crate::geometry::Domain;
-use crate::mesh::Mesh;
+use crate::mesh::{HalfEdge, Mesh};
 use crate::surface::{Surface, normal};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -14,10 +14,12 @@ use rayon::prelude::*;
 pub struct InteriorErrors {
     /// The largest error.
     pub max: f64,
-    /// The largest height of the shape above a facet; 0 for a field, which has no facets in space.
+    /// The largest part of an error that its own facet explains; 0 for a field, which has no facets in space.
     pub sagitta: f64,
     /// The largest error beyond what its own facet explains.
     pub max_excess: f64,
+    /// The same without the facets beside sharp edges, which a smooth surface cannot follow.
+    pub max_smooth_excess: f64,
 }
 
 /// Values on the nodes of a mesh over parameters.
@@ -43,7 +45,7 @@ pub struct Between {
     pub uv: Vec<DVec2>,
     values: Vec<f64>,
     /// What each triangle explains.
-    allowances: Vec<f64>,
+    explained: Sagittas,
     is_shape: bool,
 }
 
@@ -52,30 +54,33 @@ impl Between {
     pub fn nodes(data: &MeshData, dim: usize) -> Self {
         let triangles = data.mesh.triangles();
         let (uv, values) = interior_samples(triangles, data.uv, data.values, dim);
-        let allowances = if data.is_shape {
+        let explained = if data.is_shape {
             triangle_sagittas(data.mesh)
         } else {
-            triangle_spreads(triangles, data.values, dim)
+            Sagittas::smooth(triangle_spreads(triangles, data.values, dim))
         };
-        Self { uv, values, allowances, is_shape: data.is_shape }
+        Self { uv, values, explained, is_shape: data.is_shape }
     }
 
     /// Between scattered data, of which neighbours in (u,v) make triangles.
     pub fn scattered(uv: &[DVec2], values: &[f64], dim: usize, data: &Domain) -> Self {
         let triangles = triangles_between(uv, data);
         let (places, rows) = interior_samples(&triangles, uv, values, dim);
-        let allowances = triangle_spreads(&triangles, values, dim);
-        Self { uv: places, values: rows, allowances, is_shape: false }
+        let explained = Sagittas::smooth(triangle_spreads(&triangles, values, dim));
+        Self { uv: places, values: rows, explained, is_shape: false }
     }
 
     /// What is known in one triangle of so many that at most `most` are left.
     pub fn thinned(&self, most: usize) -> Self {
-        let every = self.allowances.len().div_ceil(most).max(1);
+        let every = self.explained.heights.len().div_ceil(most).max(1);
         let width = self.values.len() / self.uv.len().max(1);
         let places = self.uv.chunks(4).step_by(every).flatten().copied().collect();
         let values = self.values.chunks((4 * width).max(1)).step_by(every).flatten().copied().collect();
-        let allowances = self.allowances.iter().step_by(every).copied().collect();
-        Self { uv: places, values, allowances, is_shape: self.is_shape }
+        let explained = Sagittas {
+            heights: self.explained.heights.iter().step_by(every).copied().collect(),
+            is_sharp: self.explained.is_sharp.iter().step_by(every).copied().collect(),
+        };
+        Self { uv: places, values, explained, is_shape: self.is_shape }
     }
 
     /// The error at each place.
@@ -91,13 +96,17 @@ impl Between {
     pub fn measure(&self, surface: &dyn Surface, pool: &Pool) -> InteriorErrors {
         let errors = self.errors(surface, pool);
         let mut result = InteriorErrors::default();
-        for (errors, &allowance) in errors.chunks_exact(4).zip(&self.allowances) {
+        for (triangle, errors) in errors.chunks_exact(4).enumerate() {
             let max = errors.iter().copied().fold(0.0, f64::max);
+            let explained_here = self.explained.of(triangle);
             result.max = result.max.max(max);
-            result.max_excess = result.max_excess.max(max - allowance);
-        }
-        if self.is_shape {
-            result.sagitta = self.allowances.iter().copied().fold(0.0, f64::max);
+            result.max_excess = result.max_excess.max(max - explained_here);
+            if !self.explained.is_sharp[triangle] {
+                result.max_smooth_excess = result.max_smooth_excess.max(max - explained_here);
+            }
+            if self.is_shape {
+                result.sagitta = result.sagitta.max(max.min(explained_here));
+            }
         }
         result
     }
@@ -105,8 +114,11 @@ impl Between {
     /// The error at each place beyond what its triangle explains.
     pub fn excess(&self, surface: &dyn Surface, pool: &Pool) -> Vec<f64> {
         let mut errors = self.errors(surface, pool);
-        for (errors, allowance) in errors.chunks_exact_mut(4).zip(&self.allowances) {
-            errors.iter_mut().for_each(|error| *error -= allowance);
+        for (triangle, errors) in errors.chunks_exact_mut(4).enumerate() {
+            let (explained, is_sharp) = (self.explained.of(triangle), self.explained.is_sharp[triangle]);
+            // what a smooth surface misses beside a sharp edge asks for no more knots
+            let excess = |error: f64| if is_sharp { 0.0 } else { error - explained };
+            errors.iter_mut().for_each(|error| *error = excess(*error));
         }
         errors
     }
@@ -159,30 +171,120 @@ fn interior_samples(
     (places, rows)
 }
 
+/// What the facets of a shape explain.
+pub struct Sagittas {
+    /// The height of the shape above each facet.
+    pub heights: Vec<f64>,
+    /// Whether an edge of the facet is sharp: there the facets are the shape, and explain nothing.
+    pub is_sharp: Vec<bool>,
+}
+
+impl Sagittas {
+    /// Without sharp edges.
+    fn smooth(heights: Vec<f64>) -> Self {
+        Self { is_sharp: vec![false; heights.len()], heights }
+    }
+
+    /// By how much a facet may be missed.
+    fn of(&self, triangle: usize) -> f64 {
+        if self.is_sharp[triangle] { 0.0 } else { self.heights[triangle] }
+    }
+}
+
+/// An edge across which normals turn by more than this, 30 degrees, is sharp.
+const SHARP_COSINE: f64 = 0.866_025_403_784_438_6;
+
 /// The height of the shape above each facet. A chord of length l whose end normals enclose the angle a belongs
 /// to an arc of height `l/2 tan(a/4)`; the middle of an equilateral triangle on a sphere lies 4/3 as high as
 /// the middle of its edges. Normals are rough at borders and on uneven triangles, so each facet takes the
-/// largest height among the edges at its nodes.
-pub fn triangle_sagittas(mesh: &Mesh) -> Vec<f64> {
-    let normals = mesh.node_normals();
-    let mut heights = vec![0.0_f64; normals.len()];
-    let mut is_border = vec![false; normals.len()];
-    mesh.loops().iter().flatten().for_each(|&node| is_border[node as usize] = true);
-    for &[a, b, c] in mesh.triangles() {
-        for (a, b) in [(a, b), (b, c), (c, a)] {
-            let (a, b) = (a as usize, b as usize);
-            let angle = normals[a].angle_between(normals[b]);
-            let angle = if angle.is_finite() { angle } else { 0.0 };
-            let height = mesh.points()[a].distance(mesh.points()[b]) / 2.0 * (angle / 4.0).tan();
-            // a normal at the border is that of one side only, half an edge away
-            let is_border = is_border[a] || is_border[b];
-            let height = if is_border { 2.0 * height } else { height };
-            heights[a] = heights[a].max(height);
-            heights[b] = heights[b].max(height);
+/// largest height among the edges at its nodes. Sharp edges divide what meets at a node: each side has a normal of
+/// its own.
+/// ```text
+///        |  /            corners of the triangles at a node, joined across smooth edges:
+///    a   | /  b          two sides, a and b, between two sharp edges (=)
+///  ======n======
+///    c  /|\  c           and a third, c
+/// ```
+pub fn triangle_sagittas(mesh: &Mesh) -> Sagittas {
+    let (mesh, scale) = mesh.at_safe_scale();
+    let mesh = mesh.as_ref();
+    let (points, triangles) = (mesh.points(), mesh.triangles());
+    let areas: Vec<DVec3> = triangles.iter().map(|t| area_vector(points, t)).collect();
+    let half_edges = (0..triangles.len()).flat_map(|t| (0..3).map(move |k| HalfEdge::new(t, k)));
+    let twin = |h: HalfEdge| mesh.topology().twin(h);
+    let is_sharp = |h: HalfEdge| {
+        twin(h).is_some_and(|twin| {
+            let (a, b) = (areas[h.triangle()], areas[twin.triangle()]);
+            a.dot(b) < SHARP_COSINE * a.length() * b.length()
+        })
+    };
+    let mut sides = Sides::new(3 * triangles.len());
+    for h in half_edges.clone().filter(|&h| !is_sharp(h)) {
+        if let Some(twin) = twin(h) {
+            sides.join(h.index(), twin.next().index());
+            sides.join(h.next().index(), twin.index());
         }
     }
-    let highest = |nodes: &[u32; 3]| nodes.iter().map(|&n| heights[n as usize]).fold(0.0, f64::max);
-    mesh.triangles().iter().map(|nodes| 4.0 / 3.0 * highest(nodes)).collect()
+    let side: Vec<usize> = (0..3 * triangles.len()).map(|corner| sides.of(corner)).collect();
+    let mut normals = vec![DVec3::ZERO; side.len()];
+    let mut is_open = vec![false; side.len()];
+    for h in half_edges.clone() {
+        normals[side[h.index()]] += areas[h.triangle()];
+        if twin(h).is_none() || is_sharp(h) {
+            is_open[side[h.index()]] = true;
+            is_open[side[h.next().index()]] = true;
+        }
+    }
+    let mut heights = vec![0.0_f64; side.len()];
+    for h in half_edges.clone() {
+        let (a, b) = (side[h.index()], side[h.next().index()]);
+        let angle = normals[a].cross(normals[b]).length().atan2(normals[a].dot(normals[b]));
+        let ends = [h.origin(triangles), h.target(triangles)].map(|node| points[node as usize]);
+        let height = ends[0].distance(ends[1]) / 2.0 * (angle / 4.0).tan();
+        // a normal at the border is that of one side only, half an edge away
+        let height = if is_open[a] || is_open[b] { 2.0 * height } else { height };
+        heights[a] = heights[a].max(height);
+        heights[b] = heights[b].max(height);
+    }
+    let corners = |t: usize| 3 * t..3 * t + 3;
+    let highest = |t: usize| corners(t).map(|corner| heights[side[corner]]).fold(0.0, f64::max);
+    let all = 0..triangles.len();
+    Sagittas {
+        heights: all.clone().map(|t| 4.0 / 3.0 * highest(t) / scale).collect(),
+        is_sharp: all.map(|t| (0..3).any(|k| is_sharp(HalfEdge::new(t, k)))).collect(),
+    }
+}
+
+/// Corners that belong together, as a forest: each points towards the one that stands for its side.
+struct Sides {
+    towards: Vec<u32>,
+}
+
+impl Sides {
+    fn new(count: usize) -> Self {
+        Self { towards: (0..count as u32).collect() }
+    }
+
+    fn of(&mut self, corner: usize) -> usize {
+        let mut at = corner;
+        while self.towards[at] as usize != at {
+            let next = self.towards[at] as usize;
+            self.towards[at] = self.towards[next];
+            at = next;
+        }
+        at
+    }
+
+    fn join(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.of(a), self.of(b));
+        self.towards[a.max(b)] = a.min(b) as u32;
+    }
+}
+
+/// Across the triangle, of twice its area.
+fn area_vector(points: &[DVec3], triangle: &[u32; 3]) -> DVec3 {
+    let [a, b, c] = triangle.map(|node| points[node as usize]);
+    (b - a).cross(c - a)
 }
 
 /// How far the values of a field differ along the edges around each facet. What a field does between its nodes

@@ -100,7 +100,7 @@ impl Remarks {
     pub const TOLERANCE_RAISED: Self = Self(1 << 5);
     /// Some cells hold no data; the surface is extrapolated there.
     pub const EMPTY_CELLS: Self = Self(1 << 6);
-    /// Between the nodes the surface departs from the facets by more than tolerance and facet sagitta.
+    /// Between the nodes the surface departs from the facets by more than the tolerance and what the facets explain.
     pub const ROUGH_BETWEEN_NODES: Self = Self(1 << 7);
     /// The map is so compressed that one patch is the wrong tool: cut the mesh into charts, or use a
     /// PHT-spline.
@@ -153,8 +153,9 @@ pub struct FitReport {
     /// Largest distance from a triangle's centroid or an edge's middle to the surface's tangent plane at the
     /// mean of the nodes' parameters (for a field: to its value there); 0 for data without triangles.
     pub max_interior_error: f64,
-    /// The part of `max_interior_error` that flat facets on a curved shape explain: the largest height of
-    /// the shape above a facet, estimated from the angles between node normals.
+    /// The part of it that flat facets on a curved shape explain: the largest of what facets are missed by, up to the
+    /// height of the shape above each, estimated from the angles between node normals. Facets at an edge across which
+    /// normals turn by more than 30 degrees explain nothing: they are the shape.
     pub facet_sagitta: f64,
     /// Largest closest-point distance from a node to the surface; NaN unless asked for.
     pub max_distance: f64,

@@ -254,7 +254,7 @@ impl<'a> Problem<'a> {
             if surface.contains(to) { to } else { from }
         };
         let mut moved = foot_points(surface, self.values, uv, |_| longest, settle, pool);
-        hold_back(self.mesh.triangles(), (&placement.uv, LEAST_AREA), uv, &mut moved);
+        hold_back(self.mesh, (&placement.uv, LEAST_AREA), uv, &mut moved);
         moved
     }
 

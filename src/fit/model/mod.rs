@@ -78,7 +78,7 @@ pub fn fit_over_layout(
         (level, _) => level,
     };
     let (tolerance, is_raised) = options.tolerance.absolute(&mesh.bounds());
-    let sagittas = triangle_sagittas(mesh);
+    let sagittas = triangle_sagittas(mesh).heights;
     let samples = Samples::new(mesh, places, layout, &sagittas);
     super::common::checks::check_count(samples.nodes.len())?;
     let mut refinement = Refinement {

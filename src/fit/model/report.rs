@@ -109,8 +109,9 @@ pub fn measure(
     let mut remarks = Remarks::default();
     remarks.add_if(errors.max > tolerance, Remarks::TOLERANCE_NOT_MET);
     remarks.add_if(outcome.stop == StopReason::Stagnated, Remarks::STAGNATED);
-    let facet_sagitta = largest(&refinement.sagittas);
     let max_interior_error = largest(&round.distances[nodes..]);
+    // what facets explain is never more than there is
+    let facet_sagitta = largest(&refinement.sagittas).min(max_interior_error);
     let unexplained = round.distances[nodes..].iter().zip(&refinement.samples.allowances[nodes..]);
     let excess = unexplained.map(|(distance, allowance)| distance - allowance).fold(0.0, f64::max);
     remarks.add_if(excess > tolerance, Remarks::ROUGH_BETWEEN_NODES);

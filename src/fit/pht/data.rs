@@ -5,7 +5,7 @@
 
 use crate::control::Pool;
 use crate::fit::common::Frame;
-use crate::fit::common::interior::{MeshData, heights_over, triangle_sagittas};
+use crate::fit::common::interior::{MeshData, Sagittas, heights_over, triangle_sagittas};
 use crate::fit::common::samples::bulge;
 use crate::geometry::{Bounds, Domain};
 use crate::mesh::Mesh;
@@ -95,7 +95,10 @@ impl<'a> Data<'a> {
         let middles = if is_shape { bulged_middles(mesh, &data) } else { flat_middles(mesh, &data) };
         data.sample_values.extend(middles);
         if is_shape {
-            data.sagittas = triangle_sagittas(mesh);
+            let Sagittas { heights, is_sharp } = triangle_sagittas(mesh);
+            // a smooth surface cannot follow a sharp edge: what it misses beside one asks for no more cells
+            let allowed = |(height, is_sharp)| if is_sharp { f64::INFINITY } else { height };
+            data.sagittas = heights.into_iter().zip(is_sharp).map(allowed).collect();
         }
         let weight = |n: u32| weights.map_or(1.0, |weights| weights[n as usize]);
         let mean = |nodes: &[u32; 3]| nodes.iter().map(|&n| weight(n)).sum::<f64>() / 3.0;

@@ -288,7 +288,7 @@ fn moved(data: &Data, surface: &PhtSurface, pool: &Pool) -> Vec<DVec2> {
     let settle = |_, _, to| data.data_box.clamp(to);
     let mut moved = foot_points::foot_points(surface, &data.values, &data.uv, longest, settle, pool);
     if let Some(mesh) = data.mesh {
-        hold_back(mesh.triangles(), (&data.first_uv, LEAST_AREA), &data.uv, &mut moved);
+        hold_back(mesh, (&data.first_uv, LEAST_AREA), &data.uv, &mut moved);
     }
     moved
 }

@@ -55,7 +55,7 @@ impl Rounds for Problem<'_> {
         let candidate = self.correct(candidate, control)?;
         let mut round = Round { candidate, uv: self.uv.clone(), excess: 0.0 };
         if round.merit() < self.least {
-            round.excess = self.interior_errors(&round.candidate.surface, control.pool()).max_excess;
+            round.excess = self.interior_errors(&round.candidate.surface, control.pool()).max_smooth_excess;
             self.least = self.least.min(round.merit());
         }
         Ok(round)
@@ -190,7 +190,7 @@ impl Problem<'_> {
         let settle = |_, _, to| self.data_box.clamp(to);
         let mut moved = foot_points(&candidate.surface, self.values, &self.uv, |_| longest, settle, pool);
         if let Some(mesh) = self.mesh {
-            hold_back(mesh.triangles(), (&self.uv, LEAST_AREA), &self.uv, &mut moved);
+            hold_back(mesh, (&self.uv, LEAST_AREA), &self.uv, &mut moved);
         }
         moved
     }

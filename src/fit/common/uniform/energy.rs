@@ -50,8 +50,9 @@ pub enum FreeFunctions {
     Linear,
 }
 
-/// A pivot below this share of its diagonal entry is zero: data this close to a line (the root of it, as a share
-/// of their range) are on it.
+/// A pivot below this share of the number of data is zero: data this close to a line (the root of it, as a share
+/// of their range) are on it. Not a share of its own diagonal entry, which is nothing but rounding where a function
+/// vanishes at all data.
 const LEAST_PIVOT: f64 = 1e-13;
 
 impl FreeFunctions {
@@ -69,9 +70,9 @@ impl FreeFunctions {
                 }
             }
         }
-        let diagonal = [0, 1, 2, 3].map(|k| gram[k][k]);
+        let count = gram[0][0];
         for k in 0..4 {
-            if gram[k][k] <= LEAST_PIVOT * diagonal[k] {
+            if gram[k][k] <= LEAST_PIVOT * count {
                 return if k < 3 { Self::Linear } else { Self::Bilinear };
             }
             for i in k + 1..4 {

@@ -64,7 +64,7 @@ impl Problem<'_> {
         let tolerance = self.goal.tolerance;
         control.report((tolerance / plain.errors.max).min(1.0), plain.errors.max)?;
         let is_met = plain.errors.max <= tolerance
-            && self.interior_errors(&plain.surface, control.pool()).max_excess <= tolerance;
+            && self.interior_errors(&plain.surface, control.pool()).max_smooth_excess <= tolerance;
         if is_met {
             return Ok(self.finish(plain.into(), StopReason::ToleranceMet, 1, control));
         }
