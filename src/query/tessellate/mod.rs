@@ -1,10 +1,11 @@
 //! Triangle meshes of surfaces, with trims kept.
 //!
-//! A surface over triangles is divided along with them (`subdivide`). For the others, a
+//! A surface over triangles is divided along with them (`bisect`). For the others, a
 //! constrained Delaunay triangulation in the parameter plane (stretched so that both parameters count alike
 //! in space) starts from the trims and a grid as coarse as the surface's patches; then the middles of all
 //! edges that are too long or too far from the surface become nodes, until none is left.
 
+mod bisect;
 mod error;
 pub(super) mod subdivide;
 mod tessellation;
@@ -19,10 +20,10 @@ use glam::{DVec2, DVec3};
 use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation, mitigate_underflow};
 use std::collections::HashMap;
-use subdivide::{Fineness, tessellate_facets};
+use bisect::{Fineness, tessellate_facets};
 pub(crate) use tessellation::{distance_to_segment, least_angle};
 
-pub use subdivide::CHORD_SHARE;
+pub use bisect::CHORD_SHARE;
 
 /// How fine a tessellation is.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,7 +1,5 @@
-//! Tessellation of surfaces over triangles: all faces divided alike, so that neighbours share their nodes.
-//!
-//! Each side of a face falls into n parts, n doubling until the middles of all short edges, which are nodes of
-//! the next division, are near enough to these edges:
+//! Triangles in the parameter plane divided alike, so that neighbours share their nodes: each side of a face falls into
+//! n parts.
 //! ```text
 //!   c                 node (i,j) of a face: a + i/n (b - a) + j/n (c - a)
 //!   | \               corners are the mesh's; nodes of sides are counted once,
@@ -11,50 +9,14 @@
 //! ```
 
 use super::error::TessellateError;
-use super::tessellation::{Tessellation, distance_to_segment, least_angle};
 use crate::control::Watch;
 use crate::mesh::Mesh;
 use crate::surface::Facets;
 use glam::{DVec2, DVec3};
 
-/// Chord tolerance where none is given, as a share of the diagonal: that of fits, and what the eye takes for smooth.
-pub const CHORD_SHARE: f64 = 1e-3;
-
-/// Sides are not divided into more parts than this: a kink that no edge follows would go on for ever.
-const MOST_PARTS: usize = 64;
-
-/// When a division is fine enough.
-pub struct Fineness {
-    pub chord_tolerance: f64,
-    /// 0 for no limit.
-    pub max_edge_length: f64,
-    pub max_points: usize,
-}
-
-/// The coarsest division that is fine enough.
-pub fn tessellate_facets(
-    surface: &dyn Facets,
-    fineness: &Fineness,
-    watch: &Watch,
-) -> Result<Tessellation, TessellateError> {
-    let mut coarse = Division::new(surface, 1, fineness.max_points, watch)?;
-    let diagonal = coarse.diagonal();
-    let tolerance =
-        if fineness.chord_tolerance > 0.0 { fineness.chord_tolerance } else { CHORD_SHARE * diagonal };
-    loop {
-        let fine = Division::new(surface, 2 * coarse.parts, fineness.max_points, watch)?;
-        let (chord_error, longest) = coarse.measure(&fine);
-        let is_short = fineness.max_edge_length == 0.0 || longest <= fineness.max_edge_length;
-        if (chord_error <= tolerance && is_short) || coarse.parts == MOST_PARTS {
-            return coarse.finish(chord_error);
-        }
-        coarse = fine;
-    }
-}
-
 /// A division into `parts` parts a side, as a mesh.
 pub fn subdivided(surface: &dyn Facets, parts: usize, max_points: usize) -> Result<Mesh, TessellateError> {
-    Ok(Division::new(surface, parts.max(1), max_points, &Watch::default())?.finish(0.0)?.mesh)
+    Division::new(surface, parts.max(1), max_points, &Watch::default())?.finish()
 }
 
 struct Division {
@@ -160,36 +122,9 @@ impl Division {
         self.nodes[face * size + place_in_face(self.parts, i, j)] as usize
     }
 
-    fn diagonal(&self) -> f64 {
-        let used = self.nodes.iter().map(|&node| self.points[node as usize]);
-        let (min, max) = used.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(a, b), p| (a.min(p), b.max(p)));
-        min.distance(max)
-    }
-
-    /// Largest distance of the middle of an edge, a node of twice as many parts, and the longest edge.
-    fn measure(&self, fine: &Self) -> (f64, f64) {
-        let (mut chord_error, mut longest) = (0.0_f64, 0.0_f64);
-        for face in 0..self.face_count {
-            for j in 0..self.parts {
-                for i in 0..self.parts - j {
-                    let corners = [(i, j), (i + 1, j), (i, j + 1)];
-                    for side in 0..3 {
-                        let ((i0, j0), (i1, j1)) = (corners[side], corners[(side + 1) % 3]);
-                        let [p, q] = [(i0, j0), (i1, j1)].map(|(i, j)| self.points[self.node(face, i, j)]);
-                        let middle = fine.points[fine.node(face, i0 + i1, j0 + j1)];
-                        chord_error = chord_error.max(distance_to_segment(middle, p, q));
-                        longest = longest.max(p.distance(q));
-                    }
-                }
-            }
-        }
-        (chord_error, longest)
-    }
-
-    fn finish(self, chord_error: f64) -> Result<Tessellation, TessellateError> {
+    fn finish(self) -> Result<Mesh, TessellateError> {
         let mut numbers = vec![u32::MAX; self.points.len()];
         let (mut points, mut uv, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
-        let mut smallest_angle = f64::INFINITY;
         for face in 0..self.face_count {
             for j in 0..self.parts {
                 for i in 0..self.parts - j {
@@ -198,7 +133,6 @@ impl Division {
                     let has_upper = i + j + 1 < self.parts;
                     for corners in std::iter::once(lower).chain(has_upper.then_some(upper)) {
                         let nodes = corners.map(|(i, j)| self.node(face, i, j));
-                        smallest_angle = smallest_angle.min(least_angle(nodes.map(|node| self.points[node])));
                         triangles.push(nodes.map(|node| {
                             if numbers[node] == u32::MAX {
                                 numbers[node] = points.len() as u32;
@@ -213,7 +147,7 @@ impl Division {
         }
         let mut mesh = Mesh::new(points, triangles)?;
         mesh.set_parameters(uv)?;
-        Ok(Tessellation { mesh, smallest_angle, chord_error })
+        Ok(mesh)
     }
 }
 
@@ -279,19 +213,5 @@ mod tests {
                 assert!(DVec3::from_slice(row).distance(*point) <= 1e-14, "{parts} parts");
             }
         }
-    }
-
-    #[test]
-    fn the_chord_tolerance_is_kept() {
-        let surface = bowl();
-        let facets = surface.facets().unwrap();
-        for chord_tolerance in [1e-2, 1e-3, 1e-4] {
-            let fineness = Fineness { chord_tolerance, max_edge_length: 0.0, max_points: 1_000_000 };
-            let tessellation = tessellate_facets(facets.as_ref(), &fineness, &Watch::default()).unwrap();
-            assert!(tessellation.chord_error <= chord_tolerance, "{}", tessellation.chord_error);
-        }
-        let fineness = Fineness { chord_tolerance: 1e-4, max_edge_length: 0.0, max_points: 100 };
-        let refused = tessellate_facets(facets.as_ref(), &fineness, &Watch::default()).unwrap_err();
-        assert_eq!(refused, TessellateError::TooLarge { limit: 100 });
     }
 }
