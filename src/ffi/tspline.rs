@@ -13,7 +13,7 @@ use crate::Control;
 use crate::curve::Curve;
 use crate::fit::report::{Tolerance, ToleranceScale};
 use crate::fit::skin::{
-    Rows, SectionEnds, SkinError, SkinFit, SkinMethod, SkinOptions, SkinReport, VRule, skin, skin_curves,
+    Rows, SectionEnds, SkinError, SkinFit, SkinMethod, SkinOptions, SkinReport, VRule, VSlopes, skin, skin_curves,
 };
 use crate::knots::KnotVector;
 use crate::surface::tspline::{DEGREE, TSplineError, TSplineSurface};
@@ -53,6 +53,17 @@ pub enum planish_v_rule {
     Endpoints = 0,
     /// As points at equal fractions of their lengths are on average.
     Mean = 1,
+}
+
+/// How a skin runs from row to row.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum planish_v_slopes {
+    /// Without a break in two derivatives; bunched rows make it swing between others.
+    Smooth = 0,
+    /// Without a break in one derivative, and no coordinate leaves the range of the two rows that it is between: it
+    /// cannot overshoot. Not together with tangents, closed_v or approximate_v.
+    Monotone = 1,
 }
 
 record! {
@@ -177,6 +188,10 @@ record! {
         pub compare: u32 = core.compare.into(),
         /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
         pub thread_count: u32,
+        /// A planish_v_slopes. Default PLANISH_V_SLOPES_SMOOTH.
+        pub v_slopes: u32 = planish_v_slopes::Smooth as u32,
+        /// 0.
+        pub reserved: u32,
     }
 }
 
@@ -199,6 +214,9 @@ impl planish_skin_options {
             // SAFETY: the caller's promise.
             false => unsafe { slice(at, array_len::<f64>(count, sizes.dim, name)?, name) }.map(Some),
         };
+        if self.reserved != 0 {
+            return Err(ArgumentError::Reserved { record: "planish_skin_options", given: self.reserved });
+        }
         let plain = [
             SectionEnds::Auto,
             SectionEnds::Parabolic,
@@ -223,6 +241,7 @@ impl planish_skin_options {
             begin_tangents: vectors(self.begin_tangents, sizes.end_counts[0], "begin_tangents")?,
             end_tangents: vectors(self.end_tangents, sizes.end_counts[1], "end_tangents")?,
             v_rule: choice(self.v_rule, &[VRule::Endpoints, VRule::Mean], "v_rule")?,
+            v_slopes: choice(self.v_slopes, &[VSlopes::Smooth, VSlopes::Monotone], "v_slopes")?,
             align: flag(self.align, "align")?,
             approximate_v: flag(self.approximate_v, "approximate_v")?,
             extra_checks: self.extra_checks as usize,

@@ -6,7 +6,7 @@
 //! half is left for the knots along u.
 
 use super::SkinError;
-use super::loft::{Combination, Loft};
+use super::loft::{Combination, Loft, overshoot};
 use super::sections::Sources;
 use crate::basis::basis_functions;
 use crate::control::Watch;
@@ -116,7 +116,8 @@ fn least_squares(parameters: &[f64], inner: &[usize]) -> Result<Option<Loft>, Sk
         j.checked_sub(*first).and_then(|r| basis.get(r)).is_some_and(|&n| n != 0.0)
     };
     let checked_rows = (0..count).map(|j| (0..=n).filter(|&row| reaches(j, row)).collect()).collect();
-    Ok(Some(Loft { knots_v, parameters: parameters.to_vec(), weights, checked_rows }))
+    let overshoot = overshoot(&weights);
+    Ok(Some(Loft { knots_v, parameters: parameters.to_vec(), weights, checked_rows, overshoot }))
 }
 
 /// Adds a row of basis functions to a right side that lacks the first and the last curve.

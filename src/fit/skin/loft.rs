@@ -33,6 +33,8 @@ pub(super) struct Loft {
     pub weights: Vec<Combination>,
     /// For each control curve the rows at whose data it has to be right.
     pub checked_rows: Vec<Vec<usize>>,
+    /// How much larger than the rows control curves may be.
+    pub overshoot: f64,
 }
 
 impl Loft {
@@ -83,7 +85,35 @@ impl Loft {
             _ => (j - 2..=j.min(n)).collect(),
         };
         let checked_rows = (0..n + 3).map(rows).collect();
-        Ok(Self { knots_v, parameters, weights, checked_rows })
+        Ok(Self { overshoot: overshoot(&weights), knots_v, parameters, weights, checked_rows })
+    }
+
+    /// Two knots for each row but the outer ones, and two control curves beside it,
+    /// ```text
+    /// R_l - (v_l - v_{l-1}) / 3 T_l,    R_l + (v_{l+1} - v_l) / 3 T_l
+    /// ```
+    /// where the slopes `T_l` are the sources after all rows ([`super::monotone`]).
+    pub fn monotone(parameters: Vec<f64>) -> Result<Self, SkinError> {
+        let (v, n) = (&parameters, parameters.len() - 1);
+        let ends = |at: usize| [v[at]; 4];
+        let inner = v[1..n].iter().flat_map(|&t| [t, t]);
+        let knots = ends(0).into_iter().chain(inner).chain(ends(n)).collect();
+        let knots_v = KnotVector::new(knots, 3)?;
+        let slope = |l: usize, step: f64| vec![(l, 1.0), (n + 1 + l, step / 3.0)];
+        let mut weights = vec![vec![(0, 1.0)]];
+        for l in 0..=n {
+            if l > 0 {
+                weights.push(slope(l, v[l - 1] - v[l]));
+            }
+            if l < n {
+                weights.push(slope(l, v[l + 1] - v[l]));
+            }
+        }
+        weights.push(vec![(n, 1.0)]);
+        // the slopes of a row follow its neighbours too
+        let near = |l: usize| (l.saturating_sub(1)..=(l + 1).min(n)).collect();
+        let checked_rows = (0..2 * n + 2).map(|j| near(j / 2)).collect();
+        Ok(Self { knots_v, parameters, weights, checked_rows, overshoot: 1.0 })
     }
 
     /// The last row is followed by the first: `period` is where it comes again. Needs three rows.
@@ -107,19 +137,19 @@ impl Loft {
         let sides: Vec<Vec<(usize, f64)>> = (0..count).map(|l| vec![(l, 1.0)]).collect();
         let weights = columns(&system, count, &sides, |equation| (equation + 1) % count);
         let checked_rows = (0..count).map(|j| [2, 1, 0].map(|k| (j + count - k) % count).to_vec()).collect();
-        Ok(Self { knots_v, parameters, weights, checked_rows })
+        Ok(Self { overshoot: overshoot(&weights), knots_v, parameters, weights, checked_rows })
     }
 
     /// Control curves that differ: the surface repeats the first of them at its end if it has more.
     pub fn curve_count(&self) -> usize {
         self.weights.len()
     }
+}
 
-    /// How much larger than the sources control curves may be.
-    pub fn overshoot(&self) -> f64 {
-        let sum = |combination: &Combination| combination.iter().map(|(_, weight)| weight.abs()).sum::<f64>();
-        self.weights.iter().map(sum).fold(0.0, f64::max)
-    }
+/// How much larger than the sources sums of them may be.
+pub(super) fn overshoot(weights: &[Combination]) -> f64 {
+    let sum = |combination: &Combination| combination.iter().map(|(_, weight)| weight.abs()).sum::<f64>();
+    weights.iter().map(sum).fold(0.0, f64::max)
 }
 
 /// Solves for each source, and sorts the solutions by unknowns. `unknown` numbers those of the equations.
@@ -185,7 +215,7 @@ mod tests {
 
     #[test]
     fn the_norm_tells_of_clustered_rows() {
-        let norm = |v: &[f64]| Loft::interpolating(v.to_vec(), [false; 2], 1.0).unwrap().overshoot();
+        let norm = |v: &[f64]| Loft::interpolating(v.to_vec(), [false; 2], 1.0).unwrap().overshoot;
         let equal: Vec<f64> = (0..40).map(f64::from).collect();
         // the values that the theory states, to the digits stated; many equal steps tend to 3
         assert!((norm(&equal[..5]) - 2.7).abs() < 0.05 && (norm(&equal) - 3.0).abs() < 1e-6);

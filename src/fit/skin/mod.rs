@@ -19,6 +19,7 @@ mod control_curve;
 mod distinct;
 mod error;
 mod loft;
+mod monotone;
 mod options;
 mod report;
 mod rows;
@@ -27,7 +28,7 @@ mod sections;
 mod tests;
 
 pub use error::SkinError;
-pub use options::{SectionEnds, SkinMethod, SkinOptions, VRule};
+pub use options::{SectionEnds, SkinMethod, SkinOptions, VRule, VSlopes};
 pub use report::SkinReport;
 pub use rows::Rows;
 
@@ -64,7 +65,7 @@ pub struct SkinFit {
 pub fn skin(rows: &Rows, options: &SkinOptions, control: &mut Control) -> Result<SkinFit, SkinError> {
     let start = Instant::now();
     check(options)?;
-    skin_data(&Data::of_rows(rows, options)?, options, control, start)
+    skin_data(Data::of_rows(rows, options)?, options, control, start)
 }
 
 /// Skins section curves, of any degree and over any domains. Their data are their values at their different knots;
@@ -76,7 +77,7 @@ pub fn skin_curves(
 ) -> Result<SkinFit, SkinError> {
     let start = Instant::now();
     check(options)?;
-    skin_data(&Data::of_curves(curves, options)?, options, control, start)
+    skin_data(Data::of_curves(curves, options)?, options, control, start)
 }
 
 /// Most places between two data at which a control curve may be checked.
@@ -93,7 +94,10 @@ fn check(options: &SkinOptions) -> Result<(), SkinError> {
     let has_tangents = options.begin_tangents.is_some() || options.end_tangents.is_some();
     check(!(options.closed_v && has_tangents), "closed_v", 1.0, "0 where tangents at the ends are given")?;
     let loose_ends = !options.closed_v && !has_tangents;
-    check(!options.approximate_v || loose_ends, "approximate_v", 1.0, "0 with tangents or closed along v")
+    check(!options.approximate_v || loose_ends, "approximate_v", 1.0, "0 with tangents or closed along v")?;
+    let is_plain = loose_ends && !options.approximate_v;
+    let needed = "0 with tangents, closed along v or with approximate_v";
+    check(options.v_slopes == VSlopes::Smooth || is_plain, "v_slopes", 1.0, needed)
 }
 
 /// The control curves with what it took to find them.
@@ -116,13 +120,18 @@ struct Solved {
 }
 
 fn skin_data(
-    data: &Data,
+    mut data: Data,
     options: &SkinOptions,
     control: &mut Control,
     start: Instant,
 ) -> Result<SkinFit, SkinError> {
     let goal = Goal::new(&options.tolerance, &data.bounds);
-    let steps = Steps::new(data, options)?;
+    let steps = Steps::new(&data, options)?;
+    if options.v_slopes == VSlopes::Monotone {
+        let parameters = steps.parameters(data.sources.row_count);
+        monotone::add_slopes(&mut data.sources, &parameters, data.is_periodic)?;
+    }
+    let data = &data;
     control.enter(Stage::Fit);
     let mut solved = control.watch(|_, watch| solve(data, &steps, options, goal.tolerance, watch))??;
     let surface = assemble(&mut solved)?;
@@ -198,7 +207,7 @@ fn skin_report(data: &Data, solved: &Solved, surface: &TSplineSurface) -> Result
         merged_point_count: data.merged_points,
         aligned_row_count: data.aligned_rows,
         twisted_row: data.twisted_row,
-        overshoot: solved.loft.overshoot(),
+        overshoot: solved.loft.overshoot,
         certified_distance: solved.found.certified_distance,
         v_error: solved.v_error,
     })
@@ -286,6 +295,9 @@ fn lofted(
     watch: &Watch,
 ) -> Result<(Loft, f64), SkinError> {
     let parameters = steps.parameters(data.sources.row_count);
+    if options.v_slopes == VSlopes::Monotone {
+        return Ok((Loft::monotone(parameters)?, 0.0));
+    }
     if options.closed_v {
         return Ok((Loft::closed(parameters, 1.0)?, 0.0));
     }

@@ -40,6 +40,17 @@ pub enum VRule {
     Mean,
 }
 
+/// How the surface runs from row to row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum VSlopes {
+    /// Without a break in two derivatives; bunched rows make it swing between others.
+    #[default]
+    Smooth,
+    /// Without a break in one derivative, and no coordinate leaves the range of the two rows that it is between: it
+    /// cannot overshoot.
+    Monotone,
+}
+
 /// Options of skins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SkinOptions<'a> {
@@ -60,6 +71,8 @@ pub struct SkinOptions<'a> {
     pub end_tangents: Option<&'a [f64]>,
     /// How far apart rows are along v.
     pub v_rule: VRule,
+    /// How the surface runs from row to row.
+    pub v_slopes: VSlopes,
     /// Turns rows round, and moves the first point of closed ones, where that brings them nearer to the row before.
     pub align: bool,
     /// Looks for fewer knots along v than rows.
@@ -87,6 +100,7 @@ impl Default for SkinOptions<'_> {
             begin_tangents: None,
             end_tangents: None,
             v_rule: VRule::default(),
+            v_slopes: VSlopes::default(),
             align: false,
             approximate_v: false,
             extra_checks: 3,
@@ -108,6 +122,7 @@ impl<'a> SkinOptions<'a> {
         with_begin_tangents begin_tangents: Option<&'a [f64]>,
         with_end_tangents end_tangents: Option<&'a [f64]>,
         with_v_rule v_rule: VRule,
+        with_v_slopes v_slopes: VSlopes,
         with_align align: bool,
         with_approximate_v approximate_v: bool,
         with_extra_checks extra_checks: usize,

@@ -455,3 +455,43 @@ fn a_listener_can_cancel() {
     let error = skin(&wave().as_rows(), &paper(1e-3), &mut control).unwrap_err();
     assert!(matches!(error, SkinError::Cancelled(_)), "{error}");
 }
+
+#[test]
+fn monotone_slopes_do_not_bulge() {
+    // circles round a body: bunched stations, and a long part of one radius
+    let stations = [0.0, 0.3, 1.0, 1.2, 3.0, 10.0, 10.2, 20.0, 28.0, 28.3, 32.0];
+    let radii = [0.1, 0.8, 1.4, 1.5, 2.0, 2.0, 2.0, 2.0, 2.0, 1.95, 0.2];
+    let counts: Vec<usize> = (0..stations.len()).map(|k| 24 + k).collect();
+    let mut points = Vec::new();
+    for ((&x, &radius), &count) in stations.iter().zip(&radii).zip(&counts) {
+        for k in 0..count {
+            let (sin, cos) = (std::f64::consts::TAU * k as f64 / count as f64).sin_cos();
+            points.extend([x, radius * cos, radius * sin]);
+        }
+    }
+    let rows = Rows { points: &points, counts: &counts, dim: 3 };
+    let largest_radius = |v_slopes: VSlopes| {
+        let options = SkinOptions { v_slopes, closed: true, ..SkinOptions::default() };
+        let fit = skin(&rows, &options, &mut Control::new(1)).unwrap();
+        assert!(fit.report.max_error <= fit.report.tolerance, "{:?}", fit.report);
+        assert_eq!(fit.report.remarks.has(Remarks::CLUSTERED_ROWS), v_slopes == VSlopes::Smooth);
+        let places: Vec<DVec2> =
+            (0..40_000).map(|k| DVec2::new((k % 200) as f64, (k / 200) as f64) / 199.0).collect();
+        let mut values = vec![0.0; 3 * places.len()];
+        fit.surface.eval_rows(&places, 0, &mut values);
+        let radius = values.chunks_exact(3).map(|p| p[1].hypot(p[2])).fold(0.0, f64::max);
+        (radius, fit.report.tolerance)
+    };
+    let (smooth, _) = largest_radius(VSlopes::Smooth);
+    let (monotone, tolerance) = largest_radius(VSlopes::Monotone);
+    assert!(smooth > 2.1, "{smooth}");
+    assert!(monotone <= 2.0 + 2.0 * tolerance, "{monotone}, tolerance {tolerance}");
+    for refused in [
+        SkinOptions { closed_v: true, ..SkinOptions::default() },
+        SkinOptions { approximate_v: true, ..SkinOptions::default() },
+    ] {
+        let options = SkinOptions { v_slopes: VSlopes::Monotone, closed: true, ..refused };
+        let error = skin(&rows, &options, &mut Control::new(1)).unwrap_err();
+        assert!(error.to_string().contains("v_slopes"), "{error}");
+    }
+}
