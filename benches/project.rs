@@ -70,7 +70,8 @@ fn timed(mut run: impl FnMut() -> f64) -> (f64, f64) {
 /// The answers, off by a thousandth of the domain.
 fn starts(projector: &Projector, points: &[f64]) -> Vec<DVec2> {
     let mut random = Random::new(4);
-    let answers = projector.project(points, &ProjectOptions::default(), &Pool::new(1)).expect("finite points");
+    let answers =
+        projector.project(points, &ProjectOptions::default(), &Pool::new(1)).expect("finite points");
     answers.uv.iter().map(|uv| uv + 1e-3 * DVec2::new(random.signed(), random.signed())).collect()
 }
 
@@ -96,7 +97,11 @@ fn trimmed() {
             };
             let (inside, whole) = (cost(true), cost(false));
             let label = format!("{name} {kind}");
-            println!("{label:>28} {:>8} {inside:>14.2} {whole:>14.2} {:>8.2}", points.len() / 3, inside / whole);
+            println!(
+                "{label:>28} {:>8} {inside:>14.2} {whole:>14.2} {:>8.2}",
+                points.len() / 3,
+                inside / whole
+            );
         }
     }
 }

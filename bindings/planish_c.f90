@@ -37,6 +37,8 @@ module planish_records
   integer(c_int), parameter, public :: PLANISH_STATUS_INPUT_REPAIRED = 4
   !> Some triangles are turned over or flat in the parameter plane: a surface over them may fold
   integer(c_int), parameter, public :: PLANISH_STATUS_FOLDED_PARAMETERS = 5
+  !> A search could not prove that its answers are the nearest places; a flag says for which points
+  integer(c_int), parameter, public :: PLANISH_STATUS_NOT_PROVEN = 6
   integer(c_int), parameter, public :: PLANISH_STATUS_NULL_POINTER = -1 !! An argument that must not be NULL is
   !> An argument or option is out of its range, or contradicts another
   integer(c_int), parameter, public :: PLANISH_STATUS_INVALID_ARGUMENT = -2
@@ -151,7 +153,8 @@ module planish_records
   integer(c_int64_t), parameter, public :: PLANISH_REMARK_TOLERANCE_RAISED = 32
   !> Some cells hold no data; the surface is extrapolated there
   integer(c_int64_t), parameter, public :: PLANISH_REMARK_EMPTY_CELLS = 64
-  !> Between the nodes the surface departs from the facets by more than tolerance and facet sagitta
+  !> Between the nodes the surface departs from the facets by more than the tolerance and what the facets explain:
+  !> beside sharp edges, or where it swings
   integer(c_int64_t), parameter, public :: PLANISH_REMARK_ROUGH_BETWEEN_NODES = 128
   !> The map is so compressed that one chart is the wrong tool: cut the mesh into several
   integer(c_int64_t), parameter, public :: PLANISH_REMARK_SEGMENTATION_ADVISED = 256
@@ -202,6 +205,9 @@ module planish_records
   integer(c_int8_t), parameter, public :: PLANISH_FLAG_IN_BUFFER = 4
   !> The surface has no normal there, so that normal and curvatures are NaN
   integer(c_int8_t), parameter, public :: PLANISH_FLAG_NO_NORMAL = 8
+  !> The answer for the point is not proved: the distance is that of a place on the surface, and the least one may be
+  !> smaller
+  integer(c_int8_t), parameter, public :: PLANISH_FLAG_NOT_PROVEN = 16
 
   !> A parameter direction.
   integer(c_int32_t), parameter, public :: PLANISH_AXIS_U = 0 !! The first parameter
@@ -319,6 +325,13 @@ module planish_records
   integer(c_int32_t), parameter, public :: PLANISH_V_RULE_ENDPOINTS = 0
   !> As points at equal fractions of their lengths are on average
   integer(c_int32_t), parameter, public :: PLANISH_V_RULE_MEAN = 1
+
+  !> How a skin runs from row to row.
+  !> Without a break in two derivatives; bunched rows make it swing between others
+  integer(c_int32_t), parameter, public :: PLANISH_V_SLOPES_SMOOTH = 0
+  !> Without a break in one derivative, and no coordinate leaves the range of the two rows that it is between: it
+  !> cannot overshoot
+  integer(c_int32_t), parameter, public :: PLANISH_V_SLOPES_MONOTONE = 1
 
   !> What determines a PHT-spline at its vertices.
   !> Least squares over all data with a weak bending energy: fewest coefficients
@@ -629,7 +642,8 @@ module planish_records
     !> Largest distance from a triangle's centroid or an edge's middle to the surface's tangent plane at the mean of
     !> the nodes' (u,v) (for a field: to its value there); 0 for data without triangles
     real(c_double) :: max_interior_error = 0
-    real(c_double) :: facet_sagitta = 0 !! The part of max_interior_error that flat facets on a curved shape explain
+    !> The part of max_interior_error that flat facets on a curved shape explain, never more than there is
+    real(c_double) :: facet_sagitta = 0
     !> Largest closest-point distance from a node to the surface; NaN unless measure_distance asked for it
     real(c_double) :: max_distance = 0
     real(c_double) :: smoothing = 0 !! Weight of the smoothing energy in the surface returned
@@ -857,7 +871,7 @@ module planish_records
 
   !> How points are projected.
   type, bind(c), public :: planish_project_options
-    integer(c_size_t) :: struct_size = 6 * word + 16
+    integer(c_size_t) :: struct_size = 7 * word + 16
     type(c_ptr) :: guesses = c_null_ptr !! A row u, v near the answer for each point, or NULL (default)
     !> Points farther from the surface than this get NaN, and the call returns PLANISH_STATUS_POINTS_OUTSIDE
     real(c_double) :: max_distance = infinity
@@ -870,6 +884,8 @@ module planish_records
     !> 1 (default) looks for the nearest place inside the trims, 0 in the whole domain
     integer(c_int32_t) :: keep_trims = 1
     integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 (default) for all cores
+    !> Receives the planish_flag bits of each point, of which PLANISH_FLAG_NOT_PROVEN occurs here, or NULL (default)
+    type(c_ptr) :: out_flags = c_null_ptr
   end type
 
   !> How a surface is compared with a mesh.
@@ -897,7 +913,7 @@ module planish_records
 
   !> Distances between a surface and a mesh, in model units.
   type, bind(c), public :: planish_deviation_report
-    integer(c_size_t) :: struct_size = 3 * word + 48
+    integer(c_size_t) :: struct_size = 4 * word + 48
     real(c_double) :: max_distance = 0 !! Largest distance from a node to its nearest place on the surface
     real(c_double) :: rms_distance = 0 !! Square root of the mean of its square
     real(c_double) :: mean_distance = 0 !! Its mean
@@ -907,6 +923,8 @@ module planish_records
     real(c_double) :: worst_back_v = 0 !! v of that place; NaN unless asked for
     integer(c_size_t) :: worst_index = 0 !! The node farthest from the surface
     integer(c_size_t) :: back_count = 0 !! Places on the surface that were measured back from
+    !> Nodes whose distance is not proved to be the least one: planish_surface_project() says when
+    integer(c_size_t) :: unproven_count = 0
   end type
 
   !> What rows to take from a mesh.
@@ -1217,7 +1235,7 @@ module planish_records
 
   !> Options of skins.
   type, bind(c), public :: planish_skin_options
-    integer(c_size_t) :: struct_size = 12 * word + 64
+    integer(c_size_t) :: struct_size = 12 * word + 72
     !> The largest error allowed at the points, positive, measured in tolerance_scale
     real(c_double) :: tolerance = 1e-3_c_double
     !> For each row two vectors of dim numbers, the slopes at its begin and its end, derivatives with respect to chord
@@ -1259,6 +1277,8 @@ module planish_records
     !> 1 counts the control points of PLANISH_SKIN_METHOD_COMMON_KNOTS for the report
     integer(c_int32_t) :: compare = 0
     integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 (default) for all cores
+    integer(c_int32_t) :: v_slopes = PLANISH_V_SLOPES_SMOOTH !! A planish_v_slopes
+    integer(c_int32_t) :: reserved = 0
   end type
 
   !> Options of PHT fits.

@@ -44,7 +44,7 @@
  *
  * A positive status is a success with a remark: all outputs are filled. Where several remarks hold the
  * gravest is returned, in the order FOLDED_PARAMETERS, TOLERANCE_NOT_MET, STAGNATED, POINTS_OUTSIDE,
- * INPUT_REPAIRED; reports have all of them. After an error no output has been touched, and
+ * NOT_PROVEN, INPUT_REPAIRED; reports have all of them. After an error no output has been touched, and
  * planish_error_message() and planish_error_index() say more. Numbers are never reused; new ones may come.
  */
 typedef enum planish_status {
@@ -73,6 +73,10 @@ typedef enum planish_status {
      * Some triangles are turned over or flat in the parameter plane: a surface over them may fold.
      */
     PLANISH_STATUS_FOLDED_PARAMETERS = 5,
+    /**
+     * A search could not prove that its answers are the nearest places; a flag says for which points.
+     */
+    PLANISH_STATUS_NOT_PROVEN = 6,
     /**
      * An argument that must not be NULL is.
      */
@@ -383,7 +387,8 @@ typedef enum planish_remark {
      */
     PLANISH_REMARK_EMPTY_CELLS = 64,
     /**
-     * Between the nodes the surface departs from the facets by more than tolerance and facet sagitta.
+     * Between the nodes the surface departs from the facets by more than the tolerance and what the facets explain:
+     * beside sharp edges, or where it swings.
      */
     PLANISH_REMARK_ROUGH_BETWEEN_NODES = 128,
     /**
@@ -512,6 +517,11 @@ typedef enum planish_flag {
      * The surface has no normal there, so that normal and curvatures are NaN.
      */
     PLANISH_FLAG_NO_NORMAL = 8,
+    /**
+     * The answer for the point is not proved: the distance is that of a place on the surface, and the least one may
+     * be smaller.
+     */
+    PLANISH_FLAG_NOT_PROVEN = 16,
 } planish_flag;
 
 /**
@@ -842,6 +852,21 @@ typedef enum planish_v_rule {
 } planish_v_rule;
 
 /**
+ * How a skin runs from row to row.
+ */
+typedef enum planish_v_slopes {
+    /**
+     * Without a break in two derivatives; bunched rows make it swing between others.
+     */
+    PLANISH_V_SLOPES_SMOOTH = 0,
+    /**
+     * Without a break in one derivative, and no coordinate leaves the range of the two rows that it is between: it
+     * cannot overshoot. Not together with tangents, closed_v or approximate_v.
+     */
+    PLANISH_V_SLOPES_MONOTONE = 1,
+} planish_v_slopes;
+
+/**
  * What determines a PHT-spline at its vertices.
  */
 typedef enum planish_pht_estimator {
@@ -954,6 +979,7 @@ typedef enum planish_d1rc_sharp {
  * planish_curve_interpolate(), planish_curve_new() or planish_curve_load(), destroyed by planish_curve_free().
  *
  * Calls that take it const may run at once on any threads.
+ * The first projection onto it builds an index, which it keeps.
  */
 typedef struct planish_curve planish_curve;
 
@@ -994,6 +1020,8 @@ typedef struct planish_model planish_model;
  * destroyed by planish_surface_free().
  *
  * Calls that take it const may run at once on any threads; a call that takes it non-const needs it alone.
+ * The first projection onto it builds an index, some hundred bytes for each control point, which it keeps until it
+ * is changed or destroyed.
  */
 typedef struct planish_surface planish_surface;
 
@@ -1955,7 +1983,8 @@ typedef struct planish_fit_report {
      */
     double max_interior_error;
     /**
-     * The part of max_interior_error that flat facets on a curved shape explain.
+     * The part of max_interior_error that flat facets on a curved shape explain, never more than there is.
+     * Facets at an edge across which normals turn by more than 30 degrees explain nothing: they are the shape.
      */
     double facet_sagitta;
     /**
@@ -2400,6 +2429,12 @@ typedef struct planish_project_options {
      * Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
      */
     uint32_t thread_count;
+    /**
+     * Receives the planish_flag bits of each point, of which PLANISH_FLAG_NOT_PROVEN occurs here, or NULL
+     * (default).
+     * Array: [points].
+     */
+    uint8_t *out_flags;
 } planish_project_options;
 
 /**
@@ -2500,6 +2535,10 @@ typedef struct planish_deviation_report {
      * Places on the surface that were measured back from.
      */
     size_t back_count;
+    /**
+     * Nodes whose distance is not proved to be the least one: planish_surface_project() says when.
+     */
+    size_t unproven_count;
 } planish_deviation_report;
 
 /**
@@ -3487,6 +3526,14 @@ typedef struct planish_skin_options {
      * Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
      */
     uint32_t thread_count;
+    /**
+     * A planish_v_slopes. Default PLANISH_V_SLOPES_SMOOTH.
+     */
+    uint32_t v_slopes;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
 } planish_skin_options;
 
 /**
@@ -4993,7 +5040,8 @@ enum planish_status planish_tensor_fit(const struct planish_mesh *mesh,
  * values:      count rows of dim numbers.
  * count:       at least 3.
  * dim:         numbers of a value, at least 1.
- * options:     NULL for the defaults; parameterize and regularize are not used.
+ * options:     NULL for the defaults; parameterize and regularize are not used, and refused unless they are at
+ *              their defaults.
  * out_surface: receives a new surface; destroy with planish_surface_free().
  * out_report:  receives what the fit did and how good it is; NULL for no report.
  * Arrays: uv[count, 2], values[count, dim].
@@ -5597,8 +5645,15 @@ enum planish_status planish_project_options_init(struct planish_project_options 
                                                  size_t struct_size);
 
 /**
- * Finds the place on a surface nearest to each point, anywhere on the surface: there is no start to choose,
- * and no local minimum to fall into.
+ * Finds the place on a surface nearest to each point, inside its trims unless the options say otherwise.
+ *
+ * On tensor surfaces, T-splines and PHT-splines the answer is the nearest of all places: there is no start to
+ * choose, and no local minimum to fall into. Should a search end without a proof (it takes a continuum of places
+ * that are nearest but for roundoff, such as a tube seen from its axis), the point is flagged. D1RC-splines are
+ * searched from the nearest place of a tessellation: the answer is a local minimum, each point that does not lie on
+ * the surface is flagged, and the call returns PLANISH_STATUS_NOT_PROVEN.
+ *
+ * The first call for a surface builds an index that later calls use; points may be given one at a time.
  *
  * surface:       not NULL.
  * points:        count rows of planish_surface_dim() doubles.
@@ -5608,7 +5663,8 @@ enum planish_status planish_project_options_init(struct planish_project_options 
  * out_distances: receives count distances; NULL for none.
  * Arrays: points[count, surface_dim], out_uv[count, 2], out_distances[count].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_POINTS_OUTSIDE (some points are farther than max_distance),
- * PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_NOT_FINITE (the index is the point),
+ * PLANISH_STATUS_NOT_PROVEN (some answers are flagged), PLANISH_STATUS_NULL_POINTER,
+ * PLANISH_STATUS_NOT_FINITE (the index is the point),
  * PLANISH_STATUS_INVALID_ARGUMENT, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOO_LARGE or
  * PLANISH_STATUS_VERSION.
  */
@@ -5633,7 +5689,8 @@ enum planish_status planish_deviation_options_init(struct planish_deviation_opti
                                                    size_t struct_size);
 
 /**
- * Measures how far the nodes of a mesh lie from a surface in space: closest-point distances.
+ * Measures how far the nodes of a mesh lie from a surface in space: closest-point distances, as
+ * planish_surface_project() finds them.
  *
  * surface:       not NULL, of dimension 3.
  * mesh:          not NULL.
@@ -5642,7 +5699,8 @@ enum planish_status planish_deviation_options_init(struct planish_deviation_opti
  * count:         doubles that out_distances has room for.
  * out_report:    receives the sizes of the distances; NULL for none.
  * Arrays: out_distances[count].
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, or the
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NOT_PROVEN (some distances are not proved to be the least ones, as
+ * to a D1RC-spline), PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, or the
  * dimension), PLANISH_STATUS_BUFFER_TOO_SMALL, PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOPOLOGY or
  * PLANISH_STATUS_TOO_LARGE (measuring back only), or PLANISH_STATUS_VERSION.
  */
@@ -6959,7 +7017,8 @@ enum planish_status planish_pht_fit(const struct planish_mesh *mesh,
  * values:      count rows of dim numbers.
  * count:       at least 3.
  * dim:         numbers of a value, at least 1.
- * options:     NULL for the defaults; parameterize, regularize and correction_sweeps are not used.
+ * options:     NULL for the defaults; parameterize, regularize and correction_sweeps are not used, and
+ *              refused unless they are at their defaults.
  * out_surface: receives a new surface; destroy with planish_surface_free().
  * out_report:  receives what the fit did and how good it is; NULL for no report.
  * Arrays: uv[count, 2], values[count, dim].
@@ -6983,7 +7042,8 @@ enum planish_status planish_pht_fit_points(const double *uv,
  * values:      count rows of dim numbers.
  * count:       planish_mesh_point_count().
  * dim:         numbers of a value, at least 1.
- * options:     NULL for the defaults; correction_sweeps is not used.
+ * options:     NULL for the defaults; correction_sweeps is not used, and refused unless it is at its
+ *              default.
  * out_surface: receives a new surface; destroy with planish_surface_free().
  * out_report:  receives what the fit did and how good it is; NULL for no report.
  * Arrays: values[count, dim].

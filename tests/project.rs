@@ -250,20 +250,26 @@ fn check_nodes(name: &str, mesh: &Mesh, fit: &TensorFit) {
     assert_eq!((projection.missed(), projection.unproven()), (0, 0), "{name}");
     for (n, (distance, own)) in projection.distances.iter().zip(&fit.errors).enumerate() {
         let limit = own + 1e-12 * fit.report.diagonal;
-        assert!(*distance <= limit, "{name}, node {n}: {distance} from the surface, {own} from its own place");
+        assert!(
+            *distance <= limit,
+            "{name}, node {n}: {distance} from the surface, {own} from its own place"
+        );
     }
 }
 
 #[test]
 fn nodes_are_no_farther_than_from_their_own_places() {
-    let holed = [samples::planar(5), samples::curved_notch(3), samples::sphere_with_holes(3000, 2), samples::wing()];
+    let holed =
+        [samples::planar(5), samples::curved_notch(3), samples::sphere_with_holes(3000, 2), samples::wing()];
     for (k, mesh) in holed.into_iter().enumerate() {
         let mesh = mesh.unwrap();
         for tolerance in [1e-2, 1e-4] {
             check_nodes(&format!("sample {k}"), &mesh, &fit(&mesh, tolerance));
         }
     }
-    for name in ["neon_side_holes_16k.off", "airplane_holes_8k.off", "igea_disk_43k.ply", "mask_control_1290.off"] {
+    for name in
+        ["neon_side_holes_16k.off", "airplane_holes_8k.off", "igea_disk_43k.ply", "mask_control_1290.off"]
+    {
         let Some(path) = common::shared_data(name) else { return };
         let (mesh, _) = planish::mesh::read(&path, &planish::mesh::MeshOptions::default()).unwrap();
         check_nodes(name, &mesh, &fit(&mesh, 1e-2));

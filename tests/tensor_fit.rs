@@ -8,6 +8,8 @@ use planish::fit::common::{FitError, Regularize};
 use planish::fit::report::{FitReport, Remarks, StopReason, Tolerance, ToleranceScale};
 use planish::fit::tensor::{Ends, Knots, Method, TensorFit, TensorOptions, fit_field, fit_mesh, fit_points};
 use planish::mesh::Mesh;
+use planish::parameterize::{Border, ParameterizeOptions};
+use planish::query::tessellate::{TessellateOptions, tessellate};
 use planish::samples::{self, Random};
 use planish::surface::Surface;
 
@@ -417,5 +419,120 @@ fn free_knots_take_few_coefficients_and_hold_at_places_not_given() {
         let uniform =
             fit_points(&places, &heights(&places, function), 3, &uniform, &mut Control::new(2)).unwrap();
         assert!(uniform.report.coefficient_count > 2 * most, "{name}: {:?}", uniform.report);
+    }
+}
+
+#[test]
+fn any_flat_square_of_two_triangles_is_fitted() {
+    let mut random = Random::new(12);
+    let mut tenth = || (20.0 * random.unit()).round() / 10.0;
+    let mut done = 0;
+    while done < 300 {
+        // corners of one decimal, in a plane across an axis: most are turned, some stand on a corner
+        let (at, side) = (DVec2::new(tenth(), tenth()), DVec2::new(tenth(), tenth()));
+        if side == DVec2::ZERO {
+            continue;
+        }
+        let corners = [at, at + side, at + side + side.perp(), at + side.perp()];
+        let points = corners.iter().map(|p| DVec3::new(p.x, 1.5, -p.y)).collect();
+        let mesh = Mesh::new(points, vec![[0, 1, 2], [0, 2, 3]]).unwrap();
+        for border in [Border::Auto, Border::Circle, Border::SquareByTurns, Border::SquareByArc] {
+            let map = ParameterizeOptions::TENSOR.with_border(border);
+            let report = fit(&mesh, &TensorOptions { parameterize: map, ..TensorOptions::default() }).report;
+            assert!(report.max_error <= report.tolerance, "{corners:?}, {border:?}: {report:?}");
+        }
+        done += 1;
+    }
+}
+
+#[test]
+fn mirrored_parameters_are_held_as_firmly() {
+    let mesh = samples::sphere_with_holes(2000, 3).unwrap();
+    let uv = mesh.parameters().unwrap().to_vec();
+    let with = |mirror: f64| {
+        let mut mesh = mesh.clone();
+        mesh.set_parameters(uv.iter().map(|p| DVec2::new(mirror * p.x, p.y)).collect()).unwrap();
+        let tolerance = Tolerance { value: 1e-5, ..Tolerance::default() };
+        let options =
+            TensorOptions { tolerance, correction_sweeps: 3, max_grid: 33, ..TensorOptions::default() };
+        let options = TensorOptions { knots: Knots::Uniform, ..options };
+        fit(&mesh, &options)
+    };
+    let (plain, mirrored) = (with(1.0), with(-1.0));
+    assert_eq!((plain.report.flipped_count, mirrored.report.flipped_count), (0, 0));
+    assert_eq!(plain.report.coefficient_count, mirrored.report.coefficient_count);
+    for fit in [plain, mirrored] {
+        // the border is a simple polygon, and its nodes count at their own places
+        let trims = &fit.surface.region().trims;
+        assert!(mesh.loops().iter().flatten().all(|&node| trims.contains(fit.parameters[node as usize])));
+        tessellate(&fit.surface, &TessellateOptions::default()).unwrap();
+    }
+}
+
+#[test]
+fn the_size_of_a_model_changes_nothing() {
+    let mesh = samples::curved_notch(3).unwrap();
+    let of_size = |size: f64| {
+        let points = mesh.points().iter().map(|&p| size * p).collect();
+        let scaled = Mesh::new(points, mesh.triangles().to_vec()).unwrap();
+        let options =
+            TensorOptions { correction_sweeps: 1, measure_distance: true, ..TensorOptions::default() };
+        let options = TensorOptions { knots: Knots::Uniform, ..options };
+        fit(&scaled, &options)
+    };
+    let plain = of_size(1.0);
+    for size in [1e-100, 1e-60, 1e-9, 1e9, 1e60, 1e100] {
+        let scaled = of_size(size);
+        let (report, expected) = (&scaled.report, &plain.report);
+        assert_eq!(report.coefficient_count, expected.coefficient_count, "{size:e}");
+        assert_eq!(report.remarks, expected.remarks, "{size:e}");
+        // the data differ by rounding, which the normal equations multiply by their condition
+        let near = |a: f64, b: f64| (a / size - b).abs() <= 1e-7 * expected.diagonal;
+        let points = scaled.surface.control_points().iter().zip(plain.surface.control_points());
+        assert!(points.into_iter().all(|(a, b)| near(*a, *b)), "{size:e}");
+        for (a, b) in [
+            (report.max_error, expected.max_error),
+            (report.max_interior_error, expected.max_interior_error),
+            (report.max_distance, expected.max_distance),
+        ] {
+            assert!(near(a, b), "{size:e}: {a:e} is not {b:e}");
+        }
+    }
+}
+
+#[test]
+fn what_no_double_can_hold_is_refused_by_name() {
+    let uv: Vec<DVec2> = (0..100).map(|k| DVec2::new((k / 10) as f64, (k % 10) as f64)).collect();
+    let values: Vec<f64> = uv.iter().map(|p| p.x * p.y).collect();
+    let fit = |size: f64, height: f64| {
+        let uv: Vec<DVec2> = uv.iter().map(|p| size * *p).collect();
+        let values: Vec<f64> = values.iter().map(|x| height * x).collect();
+        let options = TensorOptions { knots: Knots::Uniform, ..TensorOptions::default() };
+        fit_points(&uv, &values, 1, &options, &mut Control::new(1))
+    };
+    let count = fit(1.0, 1.0).unwrap().report.coefficient_count;
+    for size in [1e-130, 1e-100, 1e100, 1e130] {
+        assert_eq!(fit(size, 1.0).unwrap().report.coefficient_count, count, "parameters of {size:e}");
+        assert_eq!(fit(1.0, size).unwrap().report.coefficient_count, count, "values of {size:e}");
+    }
+    for size in [1e-320, 1e-305, 1e-200, 1e200, 1e306] {
+        let sentence = fit(size, 1.0).unwrap_err().to_string();
+        assert!(sentence.contains("parameters") && sentence.contains("1e140"), "{sentence}");
+        let sentence = fit(1.0, size).unwrap_err().to_string();
+        assert!(sentence.contains("value") && sentence.contains("1e140"), "{sentence}");
+    }
+}
+
+#[test]
+fn options_that_do_nothing_are_refused_by_name() {
+    let mesh = samples::curved_notch(3).unwrap();
+    let weights = vec![1.0; mesh.points().len()];
+    let plain = TensorOptions { method: Method::Ferguson, ..TensorOptions::default() };
+    for (options, name) in [
+        (TensorOptions { ends: Ends::Free, ..plain }, "ends"),
+        (TensorOptions { weights: Some(&weights), ..plain }, "weights"),
+    ] {
+        let error = fit_mesh(&mesh, &options, &mut Control::new(1)).unwrap_err().to_string();
+        assert!(error.starts_with(name) && error.contains("not used"), "{error}");
     }
 }

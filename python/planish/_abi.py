@@ -18,6 +18,7 @@ ENUMERATIONS = {
         "points_outside": 3,
         "input_repaired": 4,
         "folded_parameters": 5,
+        "not_proven": 6,
         "null_pointer": -1,
         "invalid_argument": -2,
         "not_finite": -3,
@@ -130,6 +131,7 @@ ENUMERATIONS = {
         "outside_trims": 2,
         "in_buffer": 4,
         "no_normal": 8,
+        "not_proven": 16,
     },
     "planish_axis": {
         "u": 0,
@@ -221,6 +223,10 @@ ENUMERATIONS = {
     "planish_v_rule": {
         "endpoints": 0,
         "mean": 1,
+    },
+    "planish_v_slopes": {
+        "smooth": 0,
+        "monotone": 1,
     },
     "planish_pht_estimator": {
         "global": 0,
@@ -842,17 +848,21 @@ class planish_project_options(Structure):
         ("out_stage", c_void_p),
         ("keep_trims", c_uint32),
         ("thread_count", c_uint32),
+        ("out_flags", c_void_p),
     ]
     choices = {
         "out_stage": "planish_stage",
+        "out_flags": "planish_flag",
     }
     elements = {
         "guesses": c_double,
         "out_stage": c_uint32,
+        "out_flags": c_uint8,
     }
     arrays = {
         "guesses": ("points", "2",),
         "out_stage": ("1",),
+        "out_flags": ("points",),
     }
 
 
@@ -892,6 +902,7 @@ class planish_deviation_report(Structure):
         ("worst_back_v", c_double),
         ("worst_index", c_size_t),
         ("back_count", c_size_t),
+        ("unproven_count", c_size_t),
     ]
 
 
@@ -1280,6 +1291,8 @@ class planish_skin_options(Structure):
         ("certify", c_uint32),
         ("compare", c_uint32),
         ("thread_count", c_uint32),
+        ("v_slopes", c_uint32),
+        ("reserved", c_uint32),
     ]
     choices = {
         "out_stage": "planish_stage",
@@ -1287,6 +1300,7 @@ class planish_skin_options(Structure):
         "method": "planish_skin_method",
         "ends": "planish_section_ends",
         "v_rule": "planish_v_rule",
+        "v_slopes": "planish_v_slopes",
     }
     elements = {
         "end_slopes": c_double,
@@ -1500,9 +1514,9 @@ SIZES = {
     planish_balance_report: 152,
     planish_tessellate_options: 80,
     planish_tessellate_report: 24,
-    planish_project_options: 64,
+    planish_project_options: 72,
     planish_deviation_options: 72,
-    planish_deviation_report: 72,
+    planish_deviation_report: 80,
     planish_sample_rows_options: 72,
     planish_vtk_options: 64,
     planish_step_report: 64,
@@ -1517,7 +1531,7 @@ SIZES = {
     planish_curve_options: 104,
     planish_interpolate_options: 24,
     planish_skin_report: 112,
-    planish_skin_options: 160,
+    planish_skin_options: 168,
     planish_pht_options: 144,
     planish_pht_simplify_options: 40,
     planish_pht_convert_options: 64,

@@ -59,6 +59,8 @@ pub(super) enum ArgumentError {
     NoPatches { found: Kind },
     #[error("the surface is of the family {found:?}, which has no control net")]
     NoControlNet { found: Kind },
+    #[error("{name} is not used by {call}(): leave it at its default")]
+    Unused { name: &'static str, call: &'static str },
     #[error("{name} must be another handle")]
     NotTwo { name: &'static str },
     #[error("no memory for {count} elements of {name}")]
@@ -95,6 +97,11 @@ impl From<ArgumentError> for Failure {
     fn from(error: ArgumentError) -> Self {
         Self { status: error.status(), sentence: error.to_string(), index: error.index() }
     }
+}
+
+/// An option that a call does not use is at its default.
+pub(super) fn unused(is_default: bool, name: &'static str, call: &'static str) -> Argument<()> {
+    if is_default { Ok(()) } else { Err(ArgumentError::Unused { name, call }) }
 }
 
 type Argument<T> = Result<T, ArgumentError>;

@@ -15,14 +15,21 @@ use crate::fit::common::uniform::{Ends, Method};
 use crate::fit::curve::{CurveOptions, fit_curve};
 use crate::fit::report::{Tolerance, ToleranceScale};
 use crate::knots::KnotVector;
+use crate::query::project::Projector;
 use crate::surface::evaluate::OutsideRule;
 use libc::c_void;
+use std::sync::OnceLock;
 
 /// A B-spline curve: a map from an interval of parameters u to R^dim. Made by planish_curve_fit(),
 /// planish_curve_interpolate(), planish_curve_new() or planish_curve_load(), destroyed by planish_curve_free().
 ///
 /// Calls that take it const may run at once on any threads.
-pub struct planish_curve(Curve);
+/// The first projection onto it builds an index, which it keeps.
+pub struct planish_curve {
+    curve: Curve,
+    /// Made when first needed; a curve does not change.
+    projector: OnceLock<Projector>,
+}
 
 const _: () = {
     const fn is_shared<T: Send + Sync>() {}
@@ -31,11 +38,16 @@ const _: () = {
 
 impl planish_curve {
     pub(super) fn into_raw(curve: Curve) -> *mut Self {
-        Box::into_raw(Box::new(Self(curve)))
+        Box::into_raw(Box::new(Self { curve, projector: OnceLock::new() }))
     }
 
     pub(super) fn core(&self) -> &Curve {
-        &self.0
+        &self.curve
+    }
+
+    /// What projects onto it; the first call makes it.
+    pub(super) fn projector(&self) -> &Projector {
+        self.projector.get_or_init(|| Projector::of_curve(&self.curve))
     }
 }
 
@@ -255,7 +267,7 @@ pub(super) unsafe fn query_curve<T: Default>(
     find: impl FnOnce(&Curve) -> T,
 ) -> T {
     // SAFETY: the caller's promise.
-    query(|| Ok(find(&unsafe { deref(curve, "curve") }?.0)))
+    query(|| Ok(find(unsafe { deref(curve, "curve") }?.core())))
 }
 
 /// Numbers of a value; 0 for NULL.
@@ -302,7 +314,7 @@ pub unsafe extern "C" fn planish_curve_copy_knots(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let knots = deref(curve, "curve")?.0.knots().knots();
+        let knots = deref(curve, "curve")?.core().knots().knots();
         rows_mut(out_knots, count, knots.len(), 1, "out_knots")?.copy_from_slice(knots);
         Ok(())
     })
@@ -324,7 +336,7 @@ pub unsafe extern "C" fn planish_curve_copy_control_points(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let curve = &deref(curve, "curve")?.0;
+        let curve = deref(curve, "curve")?.core();
         let needed = curve.knots().basis_count();
         let rows = rows_mut(out_control_points, count, needed, curve.dim(), "out_control_points")?;
         rows.copy_from_slice(curve.control_points());
@@ -346,7 +358,7 @@ pub unsafe extern "C" fn planish_curve_domain(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let (from, to) = deref(curve, "curve")?.0.knots().domain();
+        let (from, to) = deref(curve, "curve")?.core().knots().domain();
         slice_mut(out_interval, 2, "out_interval")?.copy_from_slice(&[from, to]);
         Ok(())
     })
@@ -375,7 +387,7 @@ pub unsafe extern "C" fn planish_curve_eval(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let curve = &deref(curve, "curve")?.0;
+        let curve = deref(curve, "curve")?.core();
         let options = self::options(options)?;
         let order = max_derivative as usize;
         if order > MAX_DERIVATIVE {
@@ -441,7 +453,7 @@ pub unsafe extern "C" fn planish_curve_clone(
     guard(|| unsafe {
         let curve = deref(curve, "curve")?;
         let out_curve = out(out_curve, "out_curve")?;
-        out_curve.write(planish_curve::into_raw(curve.0.clone()));
+        out_curve.write(planish_curve::into_raw(curve.core().clone()));
         Ok(())
     })
 }

@@ -6,11 +6,12 @@ use super::arguments::{
 use super::curve::{planish_curve, query_curve};
 use super::guard::guard;
 use super::progress::thread_count;
+use super::query::status_of;
 use super::{planish_project_options, planish_status};
 use crate::control::Pool;
 use crate::curve::Curve;
 use crate::export::native;
-use crate::query::project::{ProjectOptions, Projector, piece_count};
+use crate::query::project::{ProjectOptions, piece_count};
 use glam::DVec2;
 use libc::{c_char, c_void};
 
@@ -71,9 +72,9 @@ pub unsafe extern "C" fn planish_curve_project(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let curve = deref(curve, "curve")?.core();
+        let curve = deref(curve, "curve")?;
         let given = self::options(options)?;
-        let points = slice(points, array_len::<f64>(count, curve.dim(), "points")?, "points")?;
+        let points = slice(points, array_len::<f64>(count, curve.core().dim(), "points")?, "points")?;
         let guesses = match given.guesses.is_null() {
             true => None,
             false => Some(copy_rows(given.guesses, count, 1, "guesses", |[u]| DVec2::new(u, 0.0))?),
@@ -83,15 +84,18 @@ pub unsafe extern "C" fn planish_curve_project(
         let pool = Pool::for_pieces(thread_count(given.thread_count)?, piece_count(count));
         let out_u = slice_mut_or_none(out_u, count, "out_u")?;
         let out_distances = slice_mut_or_none(out_distances, count, "out_distances")?;
-        let (mut uv, mut distances) = (vec![DVec2::ZERO; count], vec![0.0; count]);
-        let missed = Projector::of_curve(curve).project(points, &core, &mut uv, &mut distances, &pool)?;
+        let out_flags = slice_mut_or_none(given.out_flags, count, "out_flags")?;
+        let projection = curve.projector().project(points, &core, &pool)?;
         if let Some(out_u) = out_u {
-            out_u.iter_mut().zip(&uv).for_each(|(out, uv)| *out = uv.x);
+            out_u.iter_mut().zip(&projection.uv).for_each(|(out, uv)| *out = uv.x);
         }
         if let Some(out_distances) = out_distances {
-            out_distances.copy_from_slice(&distances);
+            out_distances.copy_from_slice(&projection.distances);
         }
-        Ok(if missed > 0 { planish_status::PointsOutside } else { planish_status::Ok })
+        if let Some(out_flags) = out_flags {
+            out_flags.copy_from_slice(&projection.flags);
+        }
+        Ok(status_of(&projection))
     })
 }
 

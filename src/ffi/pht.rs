@@ -2,7 +2,7 @@
 
 use super::arguments::{
     ArgumentError, array_len, choice, copy, copy_rows, deref, deref_mut, flag, options, out, rows_mut, slice,
-    slice_mut_or_none,
+    slice_mut_or_none, unused,
 };
 use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;
@@ -97,6 +97,12 @@ record! {
 }
 
 impl planish_pht_options {
+    /// Refuses what only the fit of a shape uses.
+    fn refuse_correction(&self, call: &'static str) -> Result<(), ArgumentError> {
+        let usual = Self::default();
+        unused(self.correction_sweeps == usual.correction_sweeps, "correction_sweeps", call)
+    }
+
     /// # Safety
     /// The pointers are NULL or as the header says, for `count` data, until the options are no longer used.
     unsafe fn to_core<'a>(self, count: usize) -> Result<PhtOptions<'a>, ArgumentError> {
@@ -199,7 +205,8 @@ pub unsafe extern "C" fn planish_pht_fit(
 /// values:      count rows of dim numbers.
 /// count:       at least 3.
 /// dim:         numbers of a value, at least 1.
-/// options:     NULL for the defaults; parameterize, regularize and correction_sweeps are not used.
+/// options:     NULL for the defaults; parameterize, regularize and correction_sweeps are not used, and
+///              refused unless they are at their defaults.
 /// out_surface: receives a new surface; destroy with planish_surface_free().
 /// out_report:  receives what the fit did and how good it is; NULL for no report.
 /// Arrays: uv[count, 2], values[count, dim].
@@ -218,6 +225,10 @@ pub unsafe extern "C" fn planish_pht_fit_points(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
+        let (given, call) = (self::options(options)?, "planish_pht_fit_points");
+        given.refuse_correction(call)?;
+        unused(given.regularize == planish_pht_options::default().regularize, "regularize", call)?;
+        unused(given.parameterize.is_null(), "parameterize", call)?;
         let uv = copy_rows(uv, count, 2, "uv", DVec2::from_array)?;
         let values = slice(values, array_len::<f64>(count, dim, "values")?, "values")?;
         fit(count, options, out_surface, out_report, |options, control| {
@@ -232,7 +243,8 @@ pub unsafe extern "C" fn planish_pht_fit_points(
 /// values:      count rows of dim numbers.
 /// count:       planish_mesh_point_count().
 /// dim:         numbers of a value, at least 1.
-/// options:     NULL for the defaults; correction_sweeps is not used.
+/// options:     NULL for the defaults; correction_sweeps is not used, and refused unless it is at its
+///              default.
 /// out_surface: receives a new surface; destroy with planish_surface_free().
 /// out_report:  receives what the fit did and how good it is; NULL for no report.
 /// Arrays: values[count, dim].
@@ -251,6 +263,7 @@ pub unsafe extern "C" fn planish_pht_fit_field(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
+        self::options(options)?.refuse_correction("planish_pht_fit_field")?;
         let mesh = &deref(mesh, "mesh")?.0;
         let expected = mesh.points().len();
         if count != expected {

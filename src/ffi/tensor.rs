@@ -2,6 +2,7 @@
 
 use super::arguments::{
     ArgumentError, array_len, choice, copy, copy_rows, deref, deref_mut, flag, options, out, rows_mut, slice,
+    unused,
 };
 use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;
@@ -162,6 +163,13 @@ record! {
 }
 
 impl planish_tensor_options {
+    /// Refuses what a fit without a mesh does not use.
+    pub(super) fn refuse_map_options(&self, call: &'static str) -> Result<(), ArgumentError> {
+        let usual = Self::default();
+        unused(self.regularize == usual.regularize, "regularize", call)?;
+        unused(self.parameterize.is_null(), "parameterize", call)
+    }
+
     /// # Safety
     /// The pointers are NULL or as the header says, for `count` data, until the options are no longer used.
     pub(super) unsafe fn to_core<'a>(self, count: usize) -> Result<TensorOptions<'a>, ArgumentError> {
@@ -261,7 +269,8 @@ pub unsafe extern "C" fn planish_tensor_fit(
 /// values:      count rows of dim numbers.
 /// count:       at least 3.
 /// dim:         numbers of a value, at least 1.
-/// options:     NULL for the defaults; parameterize and regularize are not used.
+/// options:     NULL for the defaults; parameterize and regularize are not used, and refused unless they are at
+///              their defaults.
 /// out_surface: receives a new surface; destroy with planish_surface_free().
 /// out_report:  receives what the fit did and how good it is; NULL for no report.
 /// Arrays: uv[count, 2], values[count, dim].
@@ -280,6 +289,7 @@ pub unsafe extern "C" fn planish_tensor_fit_points(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
+        self::options(options)?.refuse_map_options("planish_tensor_fit_points")?;
         let uv = copy_rows(uv, count, 2, "uv", DVec2::from_array)?;
         let values = slice(values, array_len::<f64>(count, dim, "values")?, "values")?;
         fit(count, options, out_surface, out_report, |options, control| {

@@ -13,7 +13,8 @@ use crate::Control;
 use crate::curve::Curve;
 use crate::fit::report::{Tolerance, ToleranceScale};
 use crate::fit::skin::{
-    Rows, SectionEnds, SkinError, SkinFit, SkinMethod, SkinOptions, SkinReport, VRule, VSlopes, skin, skin_curves,
+    Rows, SectionEnds, SkinError, SkinFit, SkinMethod, SkinOptions, SkinReport, VRule, VSlopes, skin,
+    skin_curves,
 };
 use crate::knots::KnotVector;
 use crate::surface::tspline::{DEGREE, TSplineError, TSplineSurface};

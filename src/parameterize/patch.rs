@@ -134,8 +134,7 @@ const SAME_LENGTH: f64 = 1e-9;
 /// so that it is the same one however nodes are numbered.
 pub(super) fn outer_loop(mesh: &Mesh) -> Option<usize> {
     let place = |node: u32| mesh.points()[node as usize];
-    let length =
-        |nodes: &Vec<u32>| edges(nodes).map(|(a, b)| place(a).distance(place(b))).sum::<f64>();
+    let length = |nodes: &Vec<u32>| edges(nodes).map(|(a, b)| place(a).distance(place(b))).sum::<f64>();
     let lengths: Vec<f64> = mesh.loops().iter().map(length).collect();
     let longest = lengths.iter().copied().fold(0.0, f64::max);
     let first = |k: usize| place(mesh.loops()[k][landmark(mesh, &mesh.loops()[k])]);

@@ -532,10 +532,13 @@ fn numbers_of_nodes_do_not_matter() {
         ("lidded tube", tube(1.0, 16).0),
         ("square", grid(9, 9, |i, j| DVec3::new(i as f64, j as f64, 0.0))),
         ("pyramid", pyramid(0.7)),
-        ("dome", grid(11, 11, |i, j| {
-            let p = DVec2::new(i as f64, j as f64) / 5.0 - 1.0;
-            p.extend(-0.4 * p.length_squared())
-        })),
+        (
+            "dome",
+            grid(11, 11, |i, j| {
+                let p = DVec2::new(i as f64, j as f64) / 5.0 - 1.0;
+                p.extend(-0.4 * p.length_squared())
+            }),
+        ),
     ];
     for (name, mesh) in shapes {
         for (what, options) in [
@@ -564,11 +567,8 @@ fn a_node_at_the_rounded_middle_of_a_side_is_mapped() {
         let [a, b, c, d] = [corner(), corner(), corner(), corner()];
         let middle = (a + b) / 2.0;
         // (a, b, middle) has no area but for rounding; all around the middle are triangles
-        let mesh = Mesh::new(
-            vec![a, b, c, d, middle],
-            vec![[0, 1, 4], [1, 2, 4], [2, 0, 4], [1, 0, 3]],
-        )
-        .unwrap();
+        let mesh =
+            Mesh::new(vec![a, b, c, d, middle], vec![[0, 1, 4], [1, 2, 4], [2, 0, 4], [1, 0, 3]]).unwrap();
         let map = fit(&mesh, ParameterizeOptions::MEAN_VALUE);
         assert_eq!(folds(mesh.triangles(), &map.uv), (0, 0), "{:?}", mesh.points());
     }

@@ -3,7 +3,7 @@
 use crate::input::{MeshInput, threads};
 use crate::model;
 use crate::output::{self, Fit, Step, Table};
-use crate::{Failure, Outcome};
+use crate::{Failure, Given, Outcome};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use planish::export::step::{StepOptions, Unit};
@@ -158,17 +158,25 @@ enum UnitName {
     Inch,
 }
 
-pub fn run(arguments: &FitArguments) -> Result<Outcome, Failure> {
+pub fn run(arguments: &FitArguments, given: &Given) -> Result<Outcome, Failure> {
     output::check_names(&arguments.out)?;
     arguments.picture.iter().try_for_each(|path| output::check_name(path, output::PICTURES))?;
     let (mut mesh, repairs) = arguments.input.read(&arguments.mesh)?;
     if arguments.ignore_parameters {
         mesh.clear_parameters();
     }
+    let why = "does nothing for a mesh that has parameters: add --ignore-parameters";
+    given.refuse("border", mesh.parameters().is_none(), why)?;
     let is_model = match arguments.family {
         FamilyName::Auto => mesh.loops().is_empty(),
         family => family == FamilyName::Model,
     };
+    let family = match arguments.family {
+        FamilyName::Auto if is_model => FamilyName::Model,
+        FamilyName::Auto => FamilyName::Tensor,
+        family => family,
+    };
+    check_used(arguments, family, given)?;
     if is_model {
         return model::run(&mesh, &repairs, arguments);
     }
@@ -199,7 +207,8 @@ pub fn run(arguments: &FitArguments) -> Result<Outcome, Failure> {
     } else {
         output::print(table(arguments, &mesh, &repairs, &fit.report))?;
     }
-    let is_met = !fit.report.remarks.has(Remarks::TOLERANCE_NOT_MET);
+    let remarks = fit.report.remarks;
+    let is_met = !(remarks.has(Remarks::TOLERANCE_NOT_MET) || remarks.has(Remarks::ROUGH_BETWEEN_NODES));
     Ok(if is_met { Outcome::Done } else { Outcome::ToleranceNotMet })
 }
 
@@ -209,6 +218,36 @@ pub fn unit(arguments: &FitArguments) -> Unit {
         UnitName::M => Unit::Metre,
         UnitName::Inch => Unit::Inch,
     }
+}
+
+/// Refuses what the family or the method would not look at.
+fn check_used(arguments: &FitArguments, family: FamilyName, given: &Given) -> Result<(), Failure> {
+    for (option, owner) in [
+        ("max-grid", FamilyName::Tensor),
+        ("free-ends", FamilyName::Tensor),
+        ("ferguson", FamilyName::Tensor),
+        ("sharp-angle", FamilyName::D1rc),
+        ("control", FamilyName::D1rc),
+        ("layout", FamilyName::Model),
+        ("patches", FamilyName::Model),
+    ] {
+        let name = |family: FamilyName| family.to_possible_value().map(|value| value.get_name().to_owned());
+        let (own, other) = (name(owner).unwrap_or_default(), name(family).unwrap_or_default());
+        let why = format!("is not used by --family {other}, only by --family {own}");
+        given.refuse(option, family == owner, &why)?;
+    }
+    given.refuse("free-ends", !arguments.ferguson, "is not used with --ferguson")?;
+    let writes_step = arguments.out.iter().any(|path| output::is_step(path));
+    for option in ["unit", "product", "step-form", "level-spread"] {
+        given.refuse(option, writes_step, "is not used: no STEP file is written")?;
+    }
+    given.refuse(
+        "step-form",
+        family == FamilyName::Pht,
+        "is not used: only a PHT-spline has several forms",
+    )?;
+    let is_patches = family == FamilyName::Model || matches!(arguments.step_form, FormName::Patches);
+    given.refuse("level-spread", is_patches, "is used with --step-form patches only")
 }
 
 fn fit_by_family(mesh: &Mesh, arguments: &FitArguments, control: &mut Control) -> Result<Fit, Error> {
@@ -333,7 +372,12 @@ fn table(arguments: &FitArguments, mesh: &Mesh, repairs: &MeshRepairs, report: &
     table.row("rms, mean error", format!("{:.3e}, {:.3e}", report.rms_error, report.mean_error));
     table.row(
         "between nodes",
-        format!("{:.3e}, of which facets explain {:.3e}", report.max_interior_error, report.facet_sagitta),
+        match report.facet_sagitta {
+            explained if explained > 0.0 => {
+                format!("{:.3e}, of which facets explain {explained:.3e}", report.max_interior_error)
+            }
+            _ => format!("{:.3e}", report.max_interior_error),
+        },
     );
     let (map, all) = (report.parameterize_seconds, report.seconds);
     table.row("seconds", format!("{map:.2} map, {:.2} fit, {} passes", all - map, report.passes));
@@ -359,9 +403,12 @@ pub fn verdict(remarks: Remarks, stop: StopReason) -> String {
         StopReason::DataExhausted => "more coefficients than data",
         StopReason::Stagnated => "refinement no longer helps",
     };
-    match remarks.has(Remarks::TOLERANCE_NOT_MET) {
-        true => format!("TOLERANCE NOT MET: {reason}"),
-        false => reason.to_owned(),
+    if remarks.has(Remarks::TOLERANCE_NOT_MET) {
+        format!("TOLERANCE NOT MET: {reason}")
+    } else if remarks.has(Remarks::ROUGH_BETWEEN_NODES) {
+        format!("{reason}, BUT NOT BETWEEN THE NODES")
+    } else {
+        reason.to_owned()
     }
 }
 
@@ -372,7 +419,11 @@ pub fn remarks(remarks: Remarks) -> impl Iterator<Item = &'static str> {
         (Remarks::REGULARIZED, "the given parameters were uneven and have been regularized"),
         (Remarks::TOLERANCE_RAISED, "the tolerance was below rounding and has been raised"),
         (Remarks::EMPTY_CELLS, "some cells inside the boundary hold no nodes"),
-        (Remarks::ROUGH_BETWEEN_NODES, "the surface departs from the facets between nodes"),
+        (
+            Remarks::ROUGH_BETWEEN_NODES,
+            "between the nodes the surface leaves the facets by more than the tolerance: at sharp edges, which \
+             --family d1rc --sharp-angle 30 keeps, or where it swings, which more --smoothing prevents",
+        ),
         (Remarks::SEGMENTATION_ADVISED, "the map is very compressed: cut the mesh into several charts"),
         (Remarks::PLATE_ENERGY_USED, "the plate energy was used: the beam energy leaves the data free"),
     ]

@@ -17,7 +17,8 @@ mod sample;
 mod skin;
 
 use clap::error::ErrorKind;
-use clap::{Parser, Subcommand};
+use clap::parser::ValueSource;
+use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -73,8 +74,26 @@ impl Failure {
     }
 }
 
+/// Which options stand on the command line, whatever their values.
+struct Given<'a>(Option<&'a ArgMatches>);
+
+impl Given<'_> {
+    /// Refuses an option that was given although it would do nothing; `why` goes on after its name.
+    fn refuse(&self, option: &str, is_used: bool, why: &str) -> Result<(), Failure> {
+        let is_given = self.0.is_some_and(|matches| {
+            matches.value_source(&option.replace('-', "_")) == Some(ValueSource::CommandLine)
+        });
+        match is_given && !is_used {
+            true => Err(Failure::new(format!("--{option} {why}"))),
+            false => Ok(()),
+        }
+    }
+}
+
 fn main() -> ExitCode {
-    let arguments = match Arguments::try_parse() {
+    let parsed = Arguments::command().try_get_matches();
+    let parsed = parsed.and_then(|matches| Ok((Arguments::from_arg_matches(&matches)?, matches)));
+    let (arguments, matches) = match parsed {
         Ok(arguments) => arguments,
         Err(error) if is_help(error.kind()) => {
             // help and version; a closed pipe is no error of ours
@@ -83,9 +102,10 @@ fn main() -> ExitCode {
         }
         Err(error) => return fail(&usage(&error.to_string())),
     };
+    let given = Given(matches.subcommand().map(|(_, matches)| matches));
     let outcome = match arguments.command {
-        Command::Fit(arguments) => fit::run(&arguments),
-        Command::Skin(arguments) => skin::run(&arguments),
+        Command::Fit(arguments) => fit::run(&arguments, &given),
+        Command::Skin(arguments) => skin::run(&arguments, &given),
         Command::Decimate(arguments) => decimate::run(&arguments),
         Command::D1rc(arguments) => d1rc::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),

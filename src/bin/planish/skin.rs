@@ -2,13 +2,13 @@
 
 use crate::input::threads;
 use crate::output::{self, Step, Table};
-use crate::{Failure, Outcome};
+use crate::{Failure, Given, Outcome};
 use clap::{Args, ValueEnum};
 use planish::Control;
 use planish::export::step::{StepOptions, Unit};
 use planish::fit::conversion::ConversionOptions;
 use planish::fit::report::{Remarks, Tolerance, ToleranceScale};
-use planish::fit::skin::{Rows, SectionEnds, SkinFit, SkinMethod, SkinOptions, VRule, skin};
+use planish::fit::skin::{Rows, SectionEnds, SkinFit, SkinMethod, SkinOptions, VRule, VSlopes, skin};
 use planish::model::{Form, FormOptions};
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -45,6 +45,9 @@ pub struct SkinArguments {
     /// Steps across the rows by mean distances instead of those of the end points.
     #[arg(long)]
     mean_steps: bool,
+    /// Run from row to row so that nothing can overshoot: for rows that are bunched, at the price of second derivatives.
+    #[arg(long)]
+    monotone: bool,
     /// Leave the ends of open rows straight instead of parabolic.
     #[arg(long)]
     natural_ends: bool,
@@ -78,23 +81,35 @@ enum FormName {
     Common,
 }
 
-pub fn run(arguments: &SkinArguments) -> Result<Outcome, Failure> {
+pub fn run(arguments: &SkinArguments, given: &Given) -> Result<Outcome, Failure> {
     output::check_names(&arguments.out)?;
+    let writes_step = arguments.out.iter().any(|path| output::is_step(path));
+    given.refuse("step-form", writes_step, "is not used: no STEP file is written")?;
     let text = output::read_text(&arguments.rows)?;
     let read = RowFile::parse(&text)
         .map_err(|Failure(sentence)| Failure::new(format!("{}: {sentence}", arguments.rows.display())))?;
     let rows = Rows { points: &read.points, counts: &read.counts, dim: 3 };
     let options = options(arguments, read.is_closed);
     let fit = skin(&rows, &options, &mut Control::new(arguments.threads))?;
+    // a STEP file over common knots is a skin of its own, with errors of its own
+    let common = match arguments.step_form {
+        FormName::Common => {
+            let options = SkinOptions { method: SkinMethod::CommonKnots, ..options };
+            Some(skin(&rows, &options, &mut Control::new(arguments.threads))?)
+        }
+        _ => None,
+    };
     for path in &arguments.out {
-        write(&fit, &rows, &options, arguments, path)?;
+        let written = common.as_ref().filter(|_| output::is_step(path)).unwrap_or(&fit);
+        write(written, arguments, path)?;
     }
     if arguments.json {
-        output::print(format_args!("{}\n", json_report(arguments, &rows, &fit)))?;
+        output::print(format_args!("{}\n", json_report(arguments, &rows, &fit, common.as_ref())))?;
     } else {
-        output::print(table(arguments, &rows, &fit))?;
+        output::print(table(arguments, &rows, &fit, common.as_ref()))?;
     }
-    let is_met = !fit.report.remarks.has(Remarks::TOLERANCE_NOT_MET);
+    let misses = |fit: &SkinFit| fit.report.remarks.has(Remarks::TOLERANCE_NOT_MET);
+    let is_met = !misses(&fit) && !common.as_ref().is_some_and(misses);
     Ok(if is_met { Outcome::Done } else { Outcome::ToleranceNotMet })
 }
 
@@ -106,6 +121,7 @@ fn options(arguments: &SkinArguments, is_closed: bool) -> SkinOptions<'static> {
         closed_v: arguments.closed_v,
         ends: if arguments.natural_ends { SectionEnds::Natural } else { SectionEnds::Auto },
         v_rule: if arguments.mean_steps { VRule::Mean } else { VRule::Endpoints },
+        v_slopes: if arguments.monotone { VSlopes::Monotone } else { VSlopes::Smooth },
         align: arguments.align,
         approximate_v: arguments.approximate_v,
         extra_checks: arguments.extra_checks,
@@ -117,14 +133,7 @@ fn options(arguments: &SkinArguments, is_closed: bool) -> SkinOptions<'static> {
     }
 }
 
-/// Writes the surface; a STEP file over common knots is a skin of its own.
-fn write(
-    fit: &SkinFit,
-    rows: &Rows,
-    options: &SkinOptions,
-    arguments: &SkinArguments,
-    path: &Path,
-) -> Result<(), Failure> {
+fn write(fit: &SkinFit, arguments: &SkinArguments, path: &Path) -> Result<(), Failure> {
     let stem = arguments.rows.file_stem().unwrap_or_default().to_string_lossy();
     let form = if arguments.step_form == FormName::Strips { Form::Strips } else { Form::Tensor };
     let form = FormOptions { form, ..FormOptions::default() };
@@ -132,11 +141,6 @@ fn write(
         text: StepOptions { unit: Unit::Millimetre, product: &stem, ..StepOptions::default() },
         conversion: ConversionOptions { form, ..ConversionOptions::default() },
     };
-    if output::is_step(path) && arguments.step_form == FormName::Common {
-        let options = SkinOptions { method: SkinMethod::CommonKnots, ..*options };
-        let common = skin(rows, &options, &mut Control::new(arguments.threads))?;
-        return output::write_surface(&common.surface.into(), path, &step);
-    }
     output::write_surface(&fit.surface.clone().into(), path, &step)
 }
 
@@ -194,7 +198,7 @@ impl RowFile {
     }
 }
 
-fn table(arguments: &SkinArguments, rows: &Rows, fit: &SkinFit) -> String {
+fn table(arguments: &SkinArguments, rows: &Rows, fit: &SkinFit, common: Option<&SkinFit>) -> String {
     let (report, skin) = (&fit.report, &fit.skin);
     let mut table = Table::default();
     let both = |error: f64| format!("{error:.3e}   {:.2e} of the diagonal", error / report.diagonal);
@@ -211,6 +215,11 @@ fn table(arguments: &SkinArguments, rows: &Rows, fit: &SkinFit) -> String {
     table.row("tolerance", both(report.tolerance));
     table.row("max error", both(report.max_error));
     table.row("rms, mean error", format!("{:.3e}, {:.3e}", report.rms_error, report.mean_error));
+    if let Some(SkinFit { report, .. }) = common {
+        let count = report.coefficient_count;
+        table
+            .row("in the STEP file", format!("{count} control points, max error {}", both(report.max_error)));
+    }
     if skin.certified_distance.is_finite() {
         table.row(
             "everywhere",
@@ -239,7 +248,11 @@ fn remarks(fit: &SkinFit) -> Vec<String> {
         (Remarks::TWISTED_ROWS, format!("row {twisted} looks turned round or shifted: see --align")),
         (
             Remarks::CLUSTERED_ROWS,
-            format!("clustered rows: control curves overshoot {:.0} times", skin.overshoot),
+            format!(
+                "clustered rows: control curves overshoot {:.0} times, and the surface may bulge between rows: see \
+                 --monotone",
+                skin.overshoot
+            ),
         ),
         (Remarks::MEAN_STEPS, "the end points of rows are too near to one another for steps".to_owned()),
     ]
@@ -249,7 +262,12 @@ fn remarks(fit: &SkinFit) -> Vec<String> {
     .collect()
 }
 
-fn json_report(arguments: &SkinArguments, rows: &Rows, fit: &SkinFit) -> serde_json::Value {
+fn json_report(
+    arguments: &SkinArguments,
+    rows: &Rows,
+    fit: &SkinFit,
+    common: Option<&SkinFit>,
+) -> serde_json::Value {
     let (report, skin) = (&fit.report, &fit.skin);
     json!({
         "points": rows.points.len() / 3,
@@ -269,6 +287,7 @@ fn json_report(arguments: &SkinArguments, rows: &Rows, fit: &SkinFit) -> serde_j
         "removed_knot_count": skin.removed_knot_count,
         "overshoot": skin.overshoot,
         "certified_distance": skin.certified_distance.is_finite().then_some(skin.certified_distance),
+        "step_max_error": common.map(|common| common.report.max_error),
         "passes": report.passes,
         "seconds": report.seconds,
         "remarks": remarks(fit),

@@ -131,7 +131,8 @@ fn a_surface_without_patches_takes_the_common_calls() {
         let beside = [at[0], at[1], at[2] + 0.01];
         let mut flags = [0u8];
         let options = planish_project_options { out_flags: flags.as_mut_ptr(), ..record() };
-        let status = planish_surface_project(s, beside.as_ptr(), 1, &options, null_mut(), distance.as_mut_ptr());
+        let status =
+            planish_surface_project(s, beside.as_ptr(), 1, &options, null_mut(), distance.as_mut_ptr());
         assert_eq!((status, flags[0]), (planish_status::NotProven, planish_flag::NotProven as u8));
         ok(planish_surface_write_vtk(s, path("sheet.vtu").as_ptr(), null()));
         let patches = planish_vtk_options { content: 1, ..record() };

@@ -16,6 +16,15 @@ pub(in crate::fit) fn check_option(
     if holds { Ok(()) } else { Err(FitError::Option { option, value, range }) }
 }
 
+/// An option that the method does not use is at its default: nobody waits in vain for what it does.
+pub(in crate::fit) fn check_unused(
+    is_default: bool,
+    option: &'static str,
+    by: &'static str,
+) -> Result<(), FitError> {
+    if is_default { Ok(()) } else { Err(FitError::Unused { option, by }) }
+}
+
 /// A positive tolerance.
 pub(in crate::fit) fn check_tolerance(tolerance: &Tolerance) -> Result<(), FitError> {
     let value = tolerance.value;
@@ -64,8 +73,15 @@ pub(in crate::fit) fn check_rows(count: usize, values: &[f64], dim: usize) -> Re
     }
     match values.iter().position(|x| !x.is_finite()) {
         Some(index) => Err(FitError::ValuesNotFinite { index: index / dim }),
-        None => Ok(()),
+        None => check_size(values),
     }
+}
+
+/// Values whose squares are numbers too.
+fn check_size(values: &[f64]) -> Result<(), FitError> {
+    let largest = values.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let is_within = largest == 0.0 || (LEAST_SIZE..=LARGEST_SIZE).contains(&largest);
+    if is_within { Ok(()) } else { Err(FitError::ValueRange { largest }) }
 }
 
 /// As many data as determine anything.
@@ -95,9 +111,21 @@ pub(in crate::fit) fn check_parameters(uv: &[DVec2]) -> Result<(), FitError> {
         if end - at <= LEAST_RANGE * at.abs().max(end.abs()) {
             return Err(FitError::DegenerateRange { axis, at });
         }
+        let (range, largest) = (end - at, at.abs().max(end.abs()));
+        if !(range >= LEAST_SIZE && largest <= LARGEST_SIZE) {
+            return Err(FitError::Range {
+                what: axis,
+                size: if range < LEAST_SIZE { range } else { largest },
+            });
+        }
     }
     Ok(())
 }
+
+/// Parameters and values that a fit can take: knots between them, and squares of sums of them, are numbers.
+const LEAST_SIZE: f64 = 1e-140;
+/// The same upwards.
+const LARGEST_SIZE: f64 = 1e140;
 
 /// A range of parameters of a few roundings has no room for knots.
 pub(in crate::fit) const LEAST_RANGE: f64 = 64.0 * f64::EPSILON;

@@ -56,6 +56,30 @@ pub enum FitError {
         /// Its weight.
         weight: f64,
     },
+    /// The method does not look at the option, which is not at its default.
+    #[error("{option} is not used by {by}: leave it at its default")]
+    Unused {
+        /// The option.
+        option: &'static str,
+        /// What does not use it.
+        by: &'static str,
+    },
+    /// The parameters are so near to one another, or so large, that knots between them are no numbers.
+    #[error(
+        "the parameters have a range or a size of {size:e} in {what}: scale them to between 1e-140 and 1e140"
+    )]
+    Range {
+        /// Which of them.
+        what: char,
+        /// The range, or the size.
+        size: f64,
+    },
+    /// The values are so small or so large that their squares are no numbers.
+    #[error("the largest value is {largest:e}: scale the values to between 1e-140 and 1e140")]
+    ValueRange {
+        /// The largest size of a value.
+        largest: f64,
+    },
     /// All data have the same u or the same v.
     #[error("all data have {axis} = {at}: the parameter range is degenerate")]
     DegenerateRange {
@@ -84,6 +108,7 @@ impl Classify for FitError {
                 ErrorKind::NotFinite
             }
             Self::DegenerateRange { .. } => ErrorKind::Degenerate,
+            Self::Range { .. } | Self::ValueRange { .. } | Self::Unused { .. } => ErrorKind::InvalidArgument,
             Self::Singular => ErrorKind::Singular,
             Self::Parameterize(error) => error.kind(),
             Self::Cancelled(_) => ErrorKind::Cancelled,

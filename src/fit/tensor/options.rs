@@ -1,7 +1,9 @@
 //! What a tensor fit may be asked for.
 
 use super::{Ends, Energy, Method};
-use crate::fit::common::checks::{check_buffer, check_grid, check_option, check_smoothing, check_tolerance};
+use crate::fit::common::checks::{
+    check_buffer, check_grid, check_option, check_smoothing, check_tolerance, check_unused,
+};
 use crate::fit::common::report::Tolerance;
 use crate::fit::common::{FitError, Regularize};
 use crate::options::with_fields;
@@ -104,6 +106,12 @@ impl<'a> TensorOptions<'a> {
         check_buffer(self.buffer)?;
         check_option(most_knots >= 2, "max_grid", most_knots as f64, "at least 2")?;
         check_option(most >= 4, "max_coefficients", most as f64, "at least 4")?;
+        if self.method == Method::Ferguson {
+            const BY: &str = "the equations of Dannenhoffer and Haimes";
+            check_unused(self.ends == Ends::default(), "ends", BY)?;
+            check_unused(self.energy == Energy::default(), "energy", BY)?;
+            check_unused(self.weights.is_none(), "weights", BY)?;
+        }
         check_grid(self.fixed_grid.into_iter().flatten())
     }
 }

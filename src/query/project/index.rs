@@ -94,7 +94,8 @@ impl Index {
         }
         let mut square = Square::default();
         for (leaf, bounds) in bounds.iter().enumerate() {
-            let centre: Vec<f64> = bounds.min.iter().zip(&bounds.max).map(|(a, b)| a + (b - a) / 2.0).collect();
+            let centre: Vec<f64> =
+                bounds.min.iter().zip(&bounds.max).map(|(a, b)| a + (b - a) / 2.0).collect();
             let radius = index.kernel.convex_radius(index.ordinates(leaf), &centre, &mut square);
             index.balls.extend(centre);
             index.balls.push(radius);

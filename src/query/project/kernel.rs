@@ -181,8 +181,11 @@ impl Kernel {
         if self.form.is_rational || q == 0 {
             return 0.0;
         }
-        let relative: Vec<f64> =
-            cell.chunks_exact(count).zip(centre).flat_map(|(row, c)| row.iter().map(move |a| a - c)).collect();
+        let relative: Vec<f64> = cell
+            .chunks_exact(count)
+            .zip(centre)
+            .flat_map(|(row, c)| row.iter().map(move |a| a - c))
+            .collect();
         self.expand(&relative, square);
         let hessian = Hessian::of(&square.distance, 2 * p, 2 * q);
         let largest = square.distance.iter().fold(0.0, |most: f64, x| most.max(x.abs()));

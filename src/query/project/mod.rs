@@ -311,10 +311,9 @@ impl Projector {
     fn check(&self, points: &[f64], options: &ProjectOptions) -> Result<(), ProjectError> {
         let count = points.len() / self.dim;
         let guess_count = options.guesses.map_or(count, <[DVec2]>::len);
-        for (what, given, expected) in [
-            ("the points", points.len(), count * self.dim),
-            ("the first guesses", guess_count, count),
-        ] {
+        for (what, given, expected) in
+            [("the points", points.len(), count * self.dim), ("the first guesses", guess_count, count)]
+        {
             if given != expected {
                 return Err(ProjectError::Count { what, count: given, expected });
             }

@@ -187,9 +187,8 @@ fn fields_of_any_dimension_have_nearest_values() {
 #[test]
 fn refusals_name_the_point() {
     let projector = Projector::new(&plane()).unwrap();
-    let refuse = |rows: &[f64], options: &ProjectOptions| {
-        projector.project(rows, options, &Pool::new(1)).unwrap_err()
-    };
+    let refuse =
+        |rows: &[f64], options: &ProjectOptions| projector.project(rows, options, &Pool::new(1)).unwrap_err();
     let (options, good) = (ProjectOptions::default(), [0.0; 6]);
     let bad = [0., 0., 0., 0., f64::NAN, 0.];
     assert_eq!(refuse(&bad, &options), ProjectError::NotFinite { index: 1 });

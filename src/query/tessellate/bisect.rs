@@ -121,9 +121,9 @@ impl<'a> Division<'a> {
             });
             triangles.push(Triangle { nodes, facet: facet as u32, error: f64::NAN });
         }
-        let around = points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), &p: &DVec3| {
-            (min.min(p), max.max(p))
-        });
+        let around = points
+            .iter()
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), &p: &DVec3| (min.min(p), max.max(p)));
         let asked = fineness.chord_tolerance;
         let tolerance = if asked > 0.0 { asked } else { CHORD_SHARE * around.0.distance(around.1) };
         let division = Self { surface, fineness, tolerance, uv, points, triangles, middles: HashMap::new() };
@@ -187,7 +187,8 @@ impl<'a> Division<'a> {
             for triangle in &self.triangles {
                 let around = edges(triangle.nodes);
                 let longest = around[self.longest(triangle.nodes)];
-                if around.iter().any(|edge| self.middles[edge].is_marked) && !self.middles[&longest].is_marked {
+                if around.iter().any(|edge| self.middles[edge].is_marked) && !self.middles[&longest].is_marked
+                {
                     self.middles.get_mut(&longest).expect("measured").is_marked = true;
                     has_grown = true;
                 }
@@ -217,8 +218,7 @@ impl<'a> Division<'a> {
                 divided.push(triangle);
                 continue;
             };
-            let mut add =
-                |nodes| divided.push(Triangle { nodes, facet: triangle.facet, error: f64::NAN });
+            let mut add = |nodes| divided.push(Triangle { nodes, facet: triangle.facet, error: f64::NAN });
             match p {
                 Some(p) => [[a, m, p], [m, c, p]].into_iter().for_each(&mut add),
                 None => add([a, m, c]),
@@ -301,7 +301,12 @@ mod tests {
             }
             // between the places measured a quadratic piece bulges no more than four thirds
             for t in mesh.triangles() {
-                let at = t.iter().map(|&n| uv[n as usize]).zip([0.6, 0.3, 0.1]).map(|(uv, w)| w * uv).sum::<DVec2>();
+                let at = t
+                    .iter()
+                    .map(|&n| uv[n as usize])
+                    .zip([0.6, 0.3, 0.1])
+                    .map(|(uv, w)| w * uv)
+                    .sum::<DVec2>();
                 let mut row = [0.0; 3];
                 surface.eval_rows(&[at], 0, &mut row);
                 let corners = t.map(|n| mesh.points()[n as usize]);

@@ -16,11 +16,11 @@ pub use tessellation::Tessellation;
 use crate::control::Watch;
 use crate::mesh::Mesh;
 use crate::surface::Surface;
+use bisect::{Fineness, tessellate_facets};
 use glam::{DVec2, DVec3};
 use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation, mitigate_underflow};
 use std::collections::HashMap;
-use bisect::{Fineness, tessellate_facets};
 pub(crate) use tessellation::{distance_to_segment, least_angle};
 
 pub use bisect::CHORD_SHARE;
