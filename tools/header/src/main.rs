@@ -1,4 +1,5 @@
-//! Writes what follows from `src/ffi`; with `--verify` it only tells whether the files are up to date:
+//! Writes what follows from `src/ffi`; with `--verify` it only tells whether the files are up to date and no promise is
+//! broken:
 //!
 //! | file | for |
 //! |---|---|
@@ -7,6 +8,8 @@
 //! | `bindings/planish_c.f90` | Fortran: names, records and interfaces below `include/planish.f90` |
 //! | `python/planish/_abi.py` | Python: the same for ctypes |
 //! | `cpp_tests/layout.c` | the tests: where a C compiler must put the fields of records |
+//!
+//! With `--freeze` it also writes `bindings/planish.abi`, the promises that `--verify` holds the interface to.
 //!
 //! Rust's declarations say the most; the rest is read from their documentation, where readers of the header need
 //! it too. What is missing is an error, which names the place.
@@ -31,6 +34,7 @@
 //! * **NULL.** An argument whose text speaks of NULL otherwise than as "not NULL" may be NULL.
 //! * **Freeing.** A new handle, `out_x: *mut *mut planish_x`, is destroyed by `planish_x_free`, which must exist.
 
+mod abi;
 mod api;
 mod documentation;
 mod fortran;
@@ -47,15 +51,16 @@ use std::path::Path;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let verify = match std::env::args().skip(1).collect::<Vec<_>>().as_slice() {
-        [] => false,
-        [flag] if flag == "--verify" => true,
+    let task = match std::env::args().skip(1).collect::<Vec<_>>().as_slice() {
+        [] => Task::Renew,
+        [flag] if flag == "--verify" => Task::Verify,
+        [flag] if flag == "--freeze" => Task::Freeze,
         _ => {
-            eprintln!("usage: planish-header [--verify]");
+            eprintln!("usage: planish-header [--verify | --freeze]");
             return ExitCode::FAILURE;
         }
     };
-    match run(verify) {
+    match run(task) {
         Ok(code) => code,
         Err(error) => {
             eprintln!("planish-header: {error}");
@@ -64,7 +69,17 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(verify: bool) -> Result<ExitCode, Box<dyn Error>> {
+#[derive(Clone, Copy, PartialEq)]
+enum Task {
+    Renew,
+    Verify,
+    Freeze,
+}
+
+/// Where the promises stand.
+const PROMISES: &str = "bindings/planish.abi";
+
+fn run(task: Task) -> Result<ExitCode, Box<dyn Error>> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize()?;
     let version = version(&fs::read_to_string(root.join("Cargo.toml"))?)?;
     let files = sources::read(&root.join("src/ffi"))?;
@@ -78,7 +93,13 @@ fn run(verify: bool) -> Result<ExitCode, Box<dyn Error>> {
     ];
     let mut same = true;
     for (name, text) in &written {
-        same &= if verify { is_up_to_date(&root, name, text) } else { renew(&root, name, text)? };
+        same &=
+            if task == Task::Verify { is_up_to_date(&root, name, text) } else { renew(&root, name, text)? };
+    }
+    match task {
+        Task::Renew => {}
+        Task::Verify => same &= keeps_promises(&api, &fs::read_to_string(root.join(PROMISES))?),
+        Task::Freeze => same &= renew(&root, PROMISES, &abi::text(&api))?,
     }
     Ok(if same { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
@@ -105,6 +126,15 @@ fn is_up_to_date(root: &Path, name: &str, text: &str) -> bool {
     eprintln!("  generated: {}", text.lines().nth(same).unwrap_or("(end of file)"));
     eprintln!("`cargo run -p planish-header` renews it");
     false
+}
+
+/// Whether all that compiled programs rely on is still so.
+fn keeps_promises(api: &Api, committed: &str) -> bool {
+    let broken = abi::broken(api, committed);
+    for fact in &broken {
+        eprintln!("{PROMISES}: no longer true: {fact}");
+    }
+    broken.is_empty()
 }
 
 /// Major, minor and patch version of the library.
