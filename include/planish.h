@@ -4591,8 +4591,8 @@ PLANISH_API PLANISH_NODISCARD enum planish_status planish_layout_cube(struct pla
  * out_report: receives how good it is; NULL for no report.
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_FOLDED_PARAMETERS (some nodes have triangles that are turned over, or spread
  * over too many patches; out_layout is there) or an error: PLANISH_STATUS_NULL_POINTER,
- * PLANISH_STATUS_INVALID_ARGUMENT (an option), PLANISH_STATUS_TOPOLOGY (several components; for a cube handles, or a
- * boundary, with one of its nodes as the index; a node where the surface touches itself, which is the index),
+ * PLANISH_STATUS_INVALID_ARGUMENT (an option), PLANISH_STATUS_TOPOLOGY (several components; a boundary, with one of its
+ * nodes as the index; handles, for a cube; a node where the surface touches itself, which is the index),
  * PLANISH_STATUS_DEGENERATE (no triangle has an area, or coarse triangles make no layout), PLANISH_STATUS_VERSION or
  * PLANISH_STATUS_CANCELLED.
  */

@@ -10,12 +10,9 @@ use planish::layout::of_mesh::{LayoutKind, MeshLayoutOptions, layout_of_mesh};
 #[test]
 fn base_complexes_of_real_meshes_are_as_good_as_measured() {
     // patches asked for, most that may be there, energy allowed
-    for (name, patches, energy) in [
-        ("rockerarm_genus1_10k.off", 40, 4.97),
-        ("fandisk_closed_6k.off", 38, 4.93),
-        ("bullet_closed_14k.ply", 40, 6.0),
-        ("hammer_closed_30k.ply", 40, 6.5),
-    ] {
+    for (name, patches, energy) in
+        [("rockerarm_genus1_10k.off", 40, 4.8), ("fandisk_closed_6k.off", 38, 5.05)]
+    {
         let Some(mesh) = common::mesh(name) else { continue };
         let options = MeshLayoutOptions::default().with_kind(LayoutKind::Complex).with_patches(patches);
         let made = layout_of_mesh(&mesh, &options, &mut Control::new(2)).expect(name);

@@ -125,7 +125,7 @@ impl From<&MeshLayout> for planish_mesh_layout_report {
             folded_node_count: made.report.folded_nodes,
             spread_node_count: made.report.spread_nodes,
             doublet_count: made.report.doublets,
-            split_count: 0,
+            split_count: made.report.splits,
             seconds: made.report.seconds,
             kind: kind.unwrap_or(0) as u32,
             reserved: 0,
@@ -195,8 +195,8 @@ pub unsafe extern "C" fn planish_layout_cube(out_layout: *mut *mut planish_layou
 /// out_report: receives how good it is; NULL for no report.
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_FOLDED_PARAMETERS (some nodes have triangles that are turned over, or spread
 /// over too many patches; out_layout is there) or an error: PLANISH_STATUS_NULL_POINTER,
-/// PLANISH_STATUS_INVALID_ARGUMENT (an option), PLANISH_STATUS_TOPOLOGY (several components; for a cube handles, or a
-/// boundary, with one of its nodes as the index; a node where the surface touches itself, which is the index),
+/// PLANISH_STATUS_INVALID_ARGUMENT (an option), PLANISH_STATUS_TOPOLOGY (several components; a boundary, with one of its
+/// nodes as the index; handles, for a cube; a node where the surface touches itself, which is the index),
 /// PLANISH_STATUS_DEGENERATE (no triangle has an area, or coarse triangles make no layout), PLANISH_STATUS_VERSION or
 /// PLANISH_STATUS_CANCELLED.
 #[must_use]

@@ -5,19 +5,19 @@
 
 use super::{Layout, LayoutError, NodeMap, complex, cube_place};
 use crate::Control;
-use crate::control::Cancelled;
+use crate::control::{Cancelled, Stage};
 use crate::failure::{Classify, ErrorKind};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, MeshError};
 use crate::parameterize::sphere::{SphereError, SphereOptions, map_to_sphere};
 use std::time::Instant;
 
 /// Which layout a mesh gets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum LayoutKind {
-    /// The cube for genus 0, else the base complex.
+    /// The cube for closed meshes of genus 0, else the base complex.
     #[default]
     Auto,
-    /// The six faces of a cube: genus 0 only.
+    /// The six faces of a cube: closed meshes of genus 0 only.
     Cube,
     /// Quads made of pairs of triangles of the coarse mesh.
     Complex,
@@ -72,6 +72,8 @@ pub struct MeshLayoutReport {
     pub spread_nodes: usize,
     /// Vertices of only two quads that were removed, each with one patch.
     pub doublets: usize,
+    /// Edges of the coarse mesh that were split because its triangles could not be paired; each adds a patch or half of one.
+    pub splits: usize,
     /// Wall time.
     pub seconds: f64,
 }
@@ -133,6 +135,9 @@ pub enum MeshLayoutError {
     /// The mesh cannot be mapped on to the sphere.
     #[error(transparent)]
     Sphere(#[from] SphereError),
+    /// The border cannot be closed while the layout is made.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
     /// The quads make no layout.
     #[error(transparent)]
     Layout(#[from] LayoutError),
@@ -148,6 +153,7 @@ impl Classify for MeshLayoutError {
             Self::ZeroArea { .. } | Self::NoPairing { .. } => ErrorKind::Degenerate,
             Self::Patches { .. } => ErrorKind::InvalidArgument,
             Self::Sphere(error) => error.kind(),
+            Self::Mesh(error) => error.kind(),
             Self::Layout(error) => error.kind(),
             Self::Cancelled(_) => ErrorKind::Cancelled,
         }
@@ -170,9 +176,10 @@ pub fn layout_of_mesh(
     control: &mut Control,
 ) -> Result<MeshLayout, MeshLayoutError> {
     let start = Instant::now();
+    control.enter(Stage::Layout);
     check(mesh, options)?;
     let is_cube = match options.kind {
-        LayoutKind::Auto => mesh.genus() == 0,
+        LayoutKind::Auto => mesh.genus() == 0 && mesh.loops().is_empty(),
         LayoutKind::Cube => true,
         LayoutKind::Complex => false,
     };
@@ -219,6 +226,7 @@ fn cube(mesh: &Mesh, control: &mut Control) -> Result<MeshLayout, MeshLayoutErro
         folded_nodes: sphere.report.folded_triangles,
         spread_nodes: 0,
         doublets: 0,
+        splits: 0,
         seconds: 0.0,
     };
     Ok(MeshLayout { layout: Layout::cube(), map: NodeMap::new(places), report })

@@ -38,7 +38,8 @@ fn defaults() -> planish_model_options {
 #[test]
 fn a_ball_becomes_a_solid_and_every_node_finds_its_place() {
     let mesh = ball(8, false);
-    let count = planish_mesh_point_count(mesh.0);
+    // SAFETY: a mesh.
+    let count = unsafe { planish_mesh_point_count(mesh.0) };
     let (mut faces, mut uv, mut errors) = (vec![9_u32; count], vec![9.0; 2 * count], vec![9.0; count]);
     let options = planish_model_options {
         out_faces: faces.as_mut_ptr(),

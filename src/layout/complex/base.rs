@@ -12,13 +12,14 @@
 //!          `- u -'                  `---- u
 //! ```
 //! A collapse keeps the topology (link condition) and valences between 4 and 8, from which pairs of triangles make quads
-//! with good corners.
+//! with good corners. Nodes of the border stay on it (`border`).
 
+use super::border::{Along, Border, BorderNode};
 use super::flatten::flattened;
 use crate::Control;
 use crate::control::Cancelled;
+use crate::mesh::Quadric;
 use crate::mesh::rings::{RingMarks, Rings};
-use crate::mesh::{Mesh, Quadric};
 use glam::{DVec2, DVec3};
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};
@@ -27,6 +28,11 @@ use std::collections::{BinaryHeap, HashMap};
 const LEAST_VALENCE: usize = 4;
 /// Most, unless it was above before and does not grow.
 const MOST_VALENCE: usize = 8;
+/// The same for nodes of the border, where a part of the triangles is void.
+const LEAST_BORDER_VALENCE: usize = 3;
+const MOST_BORDER_VALENCE: usize = 10;
+/// Planes across border edges weigh this much, in squares of the edges: chains keep their place in the tangent plane.
+const BORDER_WEIGHT: f64 = 4.0;
 /// Weight of the length of an edge, to the fourth power as the quadric, so that flat regions thin out evenly.
 const LENGTH_SHARE: f64 = 0.01;
 /// Weight of the squared distance of a valence from 6.
@@ -47,28 +53,51 @@ pub(super) struct TrianglePlace {
     pub weights: [f64; 3],
 }
 
-/// A coarse triangulation of a surface with the map of its nodes.
+/// A coarse triangulation of a surface with the map of the nodes of a middle level, and how the others come back.
 #[derive(Debug, Clone)]
 pub(super) struct Base {
-    /// The node that each vertex is.
-    pub vertices: Vec<u32>,
+    /// Where the vertices are.
+    pub points: Vec<DVec3>,
+    /// By vertex: where it lies on the border, and the quads that it needs.
+    pub border: Vec<Option<(Along, u32)>>,
     /// Three vertices each.
     pub triangles: Vec<[u32; 3]>,
-    /// By node; none for a node without triangles.
+    /// By node of the middle level.
     pub places: Vec<Option<TrianglePlace>>,
+    pub fine: Fine,
 }
 
-/// Collapses edges of a closed mesh until `target` nodes are left, or none can go.
-pub(super) fn decimate(mesh: &Mesh, target: usize, control: &mut Control) -> Result<Base, Cancelled> {
-    let mut decimation = Decimation::new(mesh);
-    let used = (0..mesh.points().len() as u32).filter(|&node| decimation.rings.valence(node) > 0).count();
+/// The nodes between a middle level and the mesh.
+#[derive(Debug, Clone)]
+pub(super) struct Fine {
+    /// The mesh of the middle level.
+    pub rings: Rings,
+    /// The nodes that went before it was reached, in order.
+    pub order: Vec<u32>,
+}
+
+/// Collapses edges of a mesh closed by cones until `target` nodes are left, or none can go; nodes are tracked from a
+/// middle level of `tracked` nodes on.
+pub(super) fn decimate(
+    border: &Border,
+    target: usize,
+    tracked: usize,
+    control: &mut Control,
+) -> Result<Base, Cancelled> {
+    let mut decimation = Decimation::new(border);
+    let used = decimation.present().count();
     let mut left = used;
     loop {
         let before = left;
         decimation.fill();
         while left > target {
             let Some((node, to)) = decimation.next() else { break };
-            decimation.collapse(node, to);
+            if left > tracked.max(target) {
+                decimation.order.push(node);
+                decimation.remove(node, to);
+            } else {
+                decimation.collapse(node, to);
+            }
             left -= 1;
             if (used - left).is_multiple_of(COLLAPSES_PER_REPORT) {
                 control.report((used - left) as f64 / (used - target) as f64, f64::NAN)?;
@@ -97,7 +126,10 @@ fn face(a: u32, b: u32, c: u32) -> Face {
 /// Cost (the bits of a positive number sort as it does), node, and its stamp.
 type Entry = Reverse<(u64, u32, u32)>;
 
-struct Decimation {
+struct Decimation<'a> {
+    border: &'a Border,
+    /// By node: the neighbours along the border, which change as others go.
+    chains: Vec<Option<[u32; 2]>>,
     /// Around the middle of the box, where quadrics keep their digits.
     points: Vec<DVec3>,
     rings: Rings,
@@ -110,22 +142,40 @@ struct Decimation {
     inside: HashMap<Face, Vec<u32>>,
     /// By node that went: its triangle and the weights of the corners.
     places: Vec<(Face, [f64; 3])>,
+    /// Nodes that went untracked, in order.
+    order: Vec<u32>,
+    /// The rings when tracking began.
+    fine_rings: Option<Rings>,
 }
 
-impl Decimation {
-    fn new(mesh: &Mesh) -> Self {
+impl<'a> Decimation<'a> {
+    fn new(border: &'a Border) -> Self {
+        let mesh = &border.closed;
         let count = mesh.points().len();
         let bounds = mesh.bounds();
         let middle = DVec3::from_slice(&bounds.min).midpoint(DVec3::from_slice(&bounds.max));
         let points: Vec<DVec3> = mesh.points().iter().map(|&point| point - middle).collect();
         let mut quadrics = vec![Quadric::ZERO; count];
-        for triangle in mesh.triangles() {
+        let mut add = |node: u32, plane: Quadric| quadrics[node as usize] = quadrics[node as usize] + plane;
+        for triangle in mesh.triangles().iter().filter(|t| !t.iter().any(|&node| border.is_tip(node))) {
             let [a, b, c] = triangle.map(|node| points[node as usize]);
             let double_area = (b - a).cross(c - a);
-            let plane = Quadric::plane(a, double_area.normalize_or_zero(), 0.5 * double_area.length());
-            triangle.iter().for_each(|&node| quadrics[node as usize] = quadrics[node as usize] + plane);
+            let normal = double_area.normalize_or_zero();
+            let plane = Quadric::plane(a, normal, 0.5 * double_area.length());
+            triangle.iter().for_each(|&node| add(node, plane));
+            for [from, to] in [[0, 1], [1, 2], [2, 0]].map(|side| side.map(|k| triangle[k])) {
+                if border.node(from).is_some_and(|node| node.neighbours[1] == to) {
+                    let along = points[to as usize] - points[from as usize];
+                    let across = along.cross(normal).normalize_or_zero();
+                    let plane =
+                        Quadric::plane(points[from as usize], across, BORDER_WEIGHT * along.length_squared());
+                    [from, to].into_iter().for_each(|node| add(node, plane));
+                }
+            }
         }
         Self {
+            border,
+            chains: border.nodes.iter().map(|node| node.map(|node| node.neighbours)).collect(),
             points,
             rings: Rings::new(mesh),
             quadrics,
@@ -135,6 +185,8 @@ impl Decimation {
             queue: BinaryHeap::new(),
             inside: HashMap::new(),
             places: vec![([u32::MAX; 3], [0.0; 3]); count],
+            order: Vec::new(),
+            fine_rings: None,
         }
     }
 
@@ -173,11 +225,14 @@ impl Decimation {
 
     /// The least cost of a collapse that is allowed, and the neighbour it leads to.
     fn cheapest(&mut self, node: u32) -> Option<(f64, u32)> {
+        let mut best: Option<(f64, u32)> = None;
         let ring = self.rings.of(node);
         self.marks.mark(ring);
-        let mut best: Option<(f64, u32)> = None;
+        if self.border.is_tip(node) || self.border.node(node).is_some_and(|node| node.is_corner) {
+            return None;
+        }
         for (k, &to) in ring.iter().enumerate() {
-            if self.is_allowed(ring, k) {
+            if self.is_allowed(node, ring, k) {
                 let cost = self.cost(node, ring, k);
                 if best.is_none_or(|(least, _)| cost < least) {
                     best = Some((cost, to));
@@ -187,15 +242,40 @@ impl Decimation {
         best
     }
 
-    /// Whether the node with this ring, which is marked, may go on to its neighbour k.
-    fn is_allowed(&self, ring: &[u32], k: usize) -> bool {
+    /// Whether a node with this ring, which is marked, may go on to its neighbour k.
+    fn is_allowed(&self, node: u32, ring: &[u32], k: usize) -> bool {
         let (to, valence) = (ring[k], ring.len());
         let sides = [ring[(k + 1) % valence], ring[(k + valence - 1) % valence]];
         let before = self.rings.valence(to);
         let after = before + valence - 4;
-        (LEAST_VALENCE..=MOST_VALENCE.max(before)).contains(&after)
-            && sides.iter().all(|&side| self.rings.valence(side) > LEAST_VALENCE)
+        let (least, most) = match self.border.node(to) {
+            None => (LEAST_VALENCE, MOST_VALENCE),
+            Some(_) => (LEAST_BORDER_VALENCE, MOST_BORDER_VALENCE),
+        };
+        (least..=most.max(before)).contains(&after)
+            && !self.border.is_tip(to)
+            && self.keeps_border(node, to, sides)
+            && sides.iter().all(|&side| self.may_lose_triangle(side, [node, to]))
             && self.marks.count(self.rings.of(to)) == 2
+    }
+
+    /// A node of the border goes along it, and not where the rest of its loop would be one edge.
+    fn keeps_border(&self, node: u32, to: u32, sides: [u32; 2]) -> bool {
+        self.chains[node as usize]
+            .is_none_or(|ends| ends.contains(&to) && ends.iter().all(|end| !sides.contains(end)))
+    }
+
+    /// Whether a node has triangles to spare for the one with this edge.
+    fn may_lose_triangle(&self, node: u32, edge: [u32; 2]) -> bool {
+        let valence = self.rings.valence(node);
+        match (self.border.node(node), self.chains[node as usize]) {
+            (Some(BorderNode { need, .. }), Some(ends)) => {
+                // two of its triangles are void
+                valence > 2 + *need as usize && !edge.iter().all(|end| ends.contains(end))
+            }
+            _ if self.border.is_tip(node) => valence > LEAST_BORDER_VALENCE,
+            _ => valence > LEAST_VALENCE,
+        }
     }
 
     fn cost(&self, node: u32, ring: &[u32], k: usize) -> f64 {
@@ -206,28 +286,53 @@ impl Decimation {
         let after = (self.rings.valence(to) + valence - 4) as f64;
         let cost = (height + length) * (1.0 + VALENCE_SHARE * (after - 6.0).powi(2));
         let turns_over = (1..valence - 1).any(|j| {
-            let [a, b] = [j, j + 1].map(|j| self.points[ring[(k + j) % valence] as usize]);
+            let others = [j, j + 1].map(|j| ring[(k + j) % valence]);
+            if others.iter().any(|&other| self.border.is_tip(other)) {
+                return false;
+            }
+            let [a, b] = others.map(|other| self.points[other as usize]);
             let [before, after] = [from, target].map(|apex| (a - apex).cross(b - apex));
             before.dot(after) < LEAST_TURN_COSINE * (before.length_squared() * after.length_squared()).sqrt()
         });
         if turns_over { TURNED_OVER * (cost + length) } else { cost }
     }
 
+    /// Moves a node on to another, and the nodes around it to triangles that are left.
     fn collapse(&mut self, node: u32, to: u32) {
+        if self.fine_rings.is_none() {
+            self.fine_rings = Some(self.rings.clone());
+        }
+        let chain = self.chains[node as usize];
+        self.remove(node, to);
+        self.relocate(node, &self.rings.of(node).to_vec(), chain);
+    }
+
+    /// Moves a node on to another.
+    fn remove(&mut self, node: u32, to: u32) {
         self.rings.collapse(node, to);
         self.is_gone[node as usize] = true;
         self.quadrics[to as usize] = self.quadrics[to as usize] + self.quadrics[node as usize];
-        let ring = self.rings.of(node).to_vec();
-        self.relocate(node, &ring);
-        ring.into_iter().for_each(|other| self.enqueue(other));
+        if let Some([before, after]) = self.chains[node as usize].take() {
+            for (end, side, other) in [(before, 1, after), (after, 0, before)] {
+                if let Some(ends) = &mut self.chains[end as usize] {
+                    ends[side] = other;
+                }
+            }
+        }
+        for k in 0..self.rings.valence(node) {
+            self.enqueue(self.rings.of(node)[k]);
+        }
     }
 
     /// Finds `node` and the nodes in the triangles around it again in those that replace them: a fan around the first
-    /// of the ring.
-    fn relocate(&mut self, node: u32, ring: &[u32]) {
+    /// of the ring. `chain`: the neighbours that the node had along the border.
+    fn relocate(&mut self, node: u32, ring: &[u32], chain: Option<[u32; 2]>) {
         let count = ring.len();
         let around: Vec<DVec3> = ring.iter().map(|&other| self.points[other as usize]).collect();
-        let flat = flattened(self.points[node as usize], &around);
+        // a chain of the border stays straight, and tips are beyond it
+        let beyond = chain.and_then(|ends| ends.into_iter().find(|&end| end != ring[0]));
+        let straight = ring.iter().position(|&other| Some(other) == beyond);
+        let flat = flattened(self.points[node as usize], &around, straight);
         let mut moved = vec![(node, DVec2::ZERO)];
         for k in 0..count {
             let old = face(node, ring[k], ring[(k + 1) % count]);
@@ -242,6 +347,7 @@ impl Decimation {
         }
         for (inner, place) in moved {
             let (k, weights) = (1..count - 1)
+                .filter(|&k| !self.border.is_tip(ring[k]) && !self.border.is_tip(ring[k + 1]))
                 .map(|k| (k, barycentric([flat[0], flat[k], flat[k + 1]], place)))
                 .max_by(|(_, a), (_, b)| least(a).total_cmp(&least(b)))
                 .expect("a ring has at least three nodes");
@@ -258,9 +364,9 @@ impl Decimation {
         }
     }
 
-    /// Numbers what is left.
+    /// Numbers what is left, without tips.
     fn finish(self) -> Base {
-        let vertices: Vec<u32> = self.present().collect();
+        let vertices: Vec<u32> = self.present().filter(|&node| !self.border.is_tip(node)).collect();
         let mut number = vec![u32::MAX; self.points.len()];
         (0..).zip(&vertices).for_each(|(vertex, &node)| number[node as usize] = vertex);
         let mut faces: HashMap<Face, u32> = HashMap::new();
@@ -269,7 +375,7 @@ impl Decimation {
         for &node in &vertices {
             let ring = self.rings.of(node);
             for (&a, &b) in ring.iter().zip(ring.iter().cycle().skip(1)) {
-                if node < a && node < b {
+                if node < a && node < b && !self.border.is_tip(a) && !self.border.is_tip(b) {
                     let triangle = triangles.len() as u32;
                     faces.insert([node, a, b], triangle);
                     triangles.push([node, a, b].map(|node| number[node as usize]));
@@ -282,11 +388,61 @@ impl Decimation {
             }
         }
         for (node, (face, weights)) in self.places.iter().enumerate() {
-            if self.is_gone[node] {
-                places[node] = Some(TrianglePlace { triangle: faces[face], weights: *weights });
+            if let Some(&triangle) = faces.get(face) {
+                places[node] = Some(TrianglePlace { triangle, weights: *weights });
             }
         }
-        Base { vertices, triangles, places }
+        let of_border = |&node: &u32| self.border.node(node).map(|node| (node.along, node.need));
+        Base {
+            points: vertices.iter().map(|&node| self.border.closed.points()[node as usize]).collect(),
+            border: vertices.iter().map(of_border).collect(),
+            triangles,
+            places,
+            fine: Fine { rings: self.fine_rings.unwrap_or(self.rings), order: self.order },
+        }
+    }
+}
+
+impl Base {
+    /// Splits the edge between two vertices in its middle, which becomes a vertex, on the border if the edge is;
+    /// `lengths` are those of the loops.
+    pub fn split(&mut self, [a, b]: [u32; 2], lengths: &[f64]) {
+        let middle = self.points.len() as u32;
+        self.points.push(self.points[a as usize].midpoint(self.points[b as usize]));
+        let at_edge: Vec<usize> = (0..self.triangles.len())
+            .filter(|&t| [a, b].iter().all(|end| self.triangles[t].contains(end)))
+            .collect();
+        let along = match (self.border[a as usize], self.border[b as usize], &at_edge[..]) {
+            (Some((p, _)), Some((q, _)), [t]) => {
+                // the triangle is on the left of the border
+                let corners = self.triangles[*t];
+                let is_forward = (0..3).any(|k| [corners[k], corners[(k + 1) % 3]] == [a, b]);
+                let (first, last) = if is_forward { (p, q) } else { (q, p) };
+                let all = lengths[p.index];
+                let half = 0.5 * (last.length - first.length).rem_euclid(all);
+                Some((Along { index: p.index, length: (first.length + half).rem_euclid(all) }, 2))
+            }
+            _ => None,
+        };
+        self.border.push(along);
+        for t in at_edge {
+            let corners = self.triangles[t];
+            let half = |old: u32| corners.map(|corner| if corner == old { middle } else { corner });
+            let new = self.triangles.len() as u32;
+            self.triangles[t] = half(b);
+            self.triangles.push(half(a));
+            let [at_a, at_b] =
+                [a, b].map(|end| corners.iter().position(|&corner| corner == end).expect("both ends"));
+            for place in self.places.iter_mut().flatten().filter(|place| place.triangle as usize == t) {
+                // the middle weighs twice the lesser of the two
+                let [near, far] =
+                    if place.weights[at_a] >= place.weights[at_b] { [at_a, at_b] } else { [at_b, at_a] };
+                let lesser = place.weights[far];
+                place.weights[near] -= lesser;
+                place.weights[far] = 2.0 * lesser;
+                place.triangle = if near == at_a { t as u32 } else { new };
+            }
+        }
     }
 }
 

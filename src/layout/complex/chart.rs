@@ -31,20 +31,25 @@ impl<'a> Chart<'a> {
     pub fn around(layout: &'a Layout, place: Place, quads: impl Iterator<Item = u32> + Clone) -> Self {
         let others = quads.filter(|&quad| quad != place.quad);
         let Some(other) = others.clone().next() else { return Self::Quad(place.quad) };
-        if others.into_iter().all(|quad| quad == other) {
+        if others.clone().all(|quad| quad == other) {
             let mut sides = (0..4).map(|side| Side { quad: place.quad, side });
             let mut common = sides.by_ref().filter(|&side| meets(layout, side, other));
             if let (Some(side), None) = (common.next(), common.next()) {
                 return Self::edge(layout, side, place).unwrap_or(Self::Quad(place.quad));
             }
         }
-        let corner = match (place.uv.x > 0.5, place.uv.y > 0.5) {
-            (false, false) => 0,
-            (true, false) => 1,
-            (true, true) => 2,
-            (false, true) => 3,
+        // the nearest vertex whose quads they all are; if there is none the nearest
+        let sees_all = |sector: &Sector| {
+            others.clone().all(|quad| sector.corners.iter().any(|corner| corner.quad == quad))
         };
-        Self::Vertex(layout.sector_at(Side { quad: place.quad, side: corner }))
+        let nearest = nearest_corners(place);
+        let sectors = nearest.map(|corner| layout.sector_at(corner));
+        Self::Vertex(sectors.into_iter().find(|sector| sees_all(sector)).unwrap_or(sectors[0]))
+    }
+
+    /// The pictures of the vertices of the quad of a place, the nearest first.
+    pub fn of_vertices(layout: &'a Layout, place: Place) -> [Self; 4] {
+        nearest_corners(place).map(|corner| Self::Vertex(layout.sector_at(corner)))
     }
 
     fn edge(layout: &Layout, side: Side, place: Place) -> Option<Self> {
@@ -100,6 +105,23 @@ impl<'a> Chart<'a> {
     }
 }
 
+/// The corners of the quad of a place, the nearest first.
+fn nearest_corners(place: Place) -> [Side; 4] {
+    let [right, high] = [place.uv.x > 0.5, place.uv.y > 0.5];
+    let first = match (right, high) {
+        (false, false) => 0,
+        (true, false) => 1,
+        (true, true) => 2,
+        (false, true) => 3,
+    };
+    // how far the place is from the middle of both sides says which of the two neighbouring corners comes next
+    let [along_u, along_v] = (place.uv - 0.5).abs().to_array();
+    let is_u_first = along_u < along_v;
+    let (beside_u, beside_v) = (first ^ 1, 3 - first);
+    let order = if is_u_first { [first, beside_u, beside_v] } else { [first, beside_v, beside_u] };
+    [order[0], order[1], order[2], (first + 2) % 4].map(|side| Side { quad: place.quad, side })
+}
+
 fn meets(layout: &Layout, side: Side, quad: u32) -> bool {
     layout.opposite(side).is_some_and(|opposite| opposite.quad == quad)
 }
@@ -115,15 +137,12 @@ fn inside(place: Place) -> Option<Place> {
     (place.uv.cmpge(DVec2::ZERO).all() && place.uv.cmple(DVec2::ONE).all()).then_some(place)
 }
 
-/// Beyond one side of a quad: in the neighbour, or on the border.
+/// Beyond one side of a quad, in the neighbour; nothing is beyond a border.
 fn across(layout: &Layout, quad: u32, point: DVec2) -> Option<Place> {
     let out = [point.y < 0.0, point.x > 1.0, point.y > 1.0, point.x < 0.0];
     let side = Side { quad, side: out.iter().position(|&out| out)? as u8 };
     let [t, q] = side.coordinates(point);
-    match layout.opposite(side) {
-        Some(opposite) => inside(opposite.place(1.0 - t, -q)),
-        None => inside(side.place(t, 0.0)),
-    }
+    inside(layout.opposite(side)?.place(1.0 - t, -q))
 }
 
 #[cfg(test)]

@@ -25,14 +25,15 @@ pub(super) fn remove(patches: &mut Patches) -> Option<usize> {
     Some(removed)
 }
 
-/// The first vertex with exactly two quads.
+/// The first vertex inside with exactly two quads.
 fn doublet(patches: &Patches) -> Option<(u32, [usize; 2])> {
     let vertex_count = patches.corners.iter().flatten().max().map_or(0, |&vertex| vertex as usize + 1);
     let mut around: Vec<Vec<usize>> = vec![Vec::new(); vertex_count];
     for (quad, corners) in patches.corners.iter().enumerate() {
         corners.iter().for_each(|&vertex| around[vertex as usize].push(quad));
     }
-    (0..).zip(around).find_map(|(w, quads)| Some((w, quads.try_into().ok()?)))
+    let inside = (0..).zip(around).filter(|&(w, _)| patches.border[w as usize].is_none());
+    inside.into_iter().find_map(|(w, quads)| Some((w, quads.try_into().ok()?)))
 }
 
 fn merge(patches: &mut Patches, w: u32, [first, second]: [usize; 2]) -> Option<()> {

@@ -1,26 +1,31 @@
-//! The base complex of a closed mesh of any genus, as a layout: `theory/closed.md` 3.
+//! The base complex of a mesh of any genus, closed or with a border, as a layout: `theory/closed.md` 3 and, for borders,
+//! `theory/creases.md` 11.2.
 //!
-//! 1. Edge collapses leave a few triangles, and track where each node lies on them (`base`, `flatten`).
-//! 2. A perfect matching makes quads of pairs of triangles (`pairing`).
+//! 1. Edge collapses leave a few triangles, and track where each node lies on them (`base`, `flatten`, `border`).
+//! 2. A matching makes quads of pairs of triangles (`pairing`). On an open surface triangles may be left over: edges there
+//!    are split until none is (`search`).
 //! 3. Vertices of two quads are removed with one of them (`doublets`).
-//! 4. The nodes are relaxed over the layout, which moves its edges and vertices to better places (`relax`, `chart`).
+//! 4. The nodes are relaxed over the layout, which moves its edges and vertices to better places (`relax`, `chart`): first
+//!    those of a middle level, then all, as they come back. Nodes of the border stay where their length along it says.
 
 mod base;
+mod border;
 mod chart;
 mod doublets;
 mod flatten;
 mod pairing;
 mod relax;
+mod search;
 #[cfg(test)]
 mod tests;
 
 use super::of_mesh::{LayoutKind, MeshLayout, MeshLayoutError, MeshLayoutOptions, MeshLayoutReport};
-use super::{Layout, NodeMap, Place};
+use super::{Layout, NodeMap, Place, Side};
 use crate::Control;
-use crate::control::Stage;
 use crate::mesh::Mesh;
 use base::{Base, TrianglePlace};
-use glam::{DVec2, DVec3};
+use border::{Along, Border};
+use glam::DVec2;
 use pairing::Pairing;
 use std::collections::BTreeMap;
 
@@ -29,29 +34,35 @@ struct Patches {
     corners: Vec<[u32; 4]>,
     /// The number of each side's edge.
     edges: Vec<[u32; 4]>,
-    /// By node; none for a node without triangles.
+    /// By vertex: where it lies on the border.
+    border: Vec<Option<Along>>,
+    /// By node; none for those that come later, and for those without triangles.
     places: Vec<Option<Place>>,
 }
 
-/// The base complex of a closed mesh of one component, without pinched nodes.
+/// The base complex of a mesh of one component, without pinched nodes.
 pub(super) fn make(
     mesh: &Mesh,
     options: &MeshLayoutOptions,
     control: &mut Control,
 ) -> Result<MeshLayout, MeshLayoutError> {
-    // patches = triangles / 2 = vertices - 2 + 2 genus
-    let target = (options.patches + 2).saturating_sub(2 * mesh.genus()).max(LEAST_VERTICES);
-    control.enter(Stage::Layout);
+    let border = Border::new(mesh)?;
+    // quads = vertices - Euler characteristic - border edges / 2
+    let vertices = options.patches as i64 + mesh.euler_characteristic() + border.least_nodes() as i64 / 2;
+    let target = vertices.max(LEAST_VERTICES) as usize + border.lengths.len();
     control.set_stage(0.0, 0.3);
-    let base = base::decimate(mesh, target, control)?;
-    let mut patches = paired(mesh, &base)?;
-    let no_pairing = MeshLayoutError::NoPairing { triangles: base.triangles.len() };
-    let doublets = doublets::remove(&mut patches).ok_or(no_pairing)?;
-    let (corners, places) = (numbered(&patches.corners), &mut patches.places);
-    let layout = Layout::with_edges(&corners, &patches.edges)?;
+    let base = base::decimate(&border, target, TRACKED * options.patches, control)?;
+    let triangles = base.triangles.len();
+    let (base, pairing, splits) =
+        search::quads(base, &border.lengths, control)?.ok_or(MeshLayoutError::NoPairing { triangles })?;
+    let mut patches = patches(&base, pairing);
+    let doublets = doublets::remove(&mut patches).ok_or(MeshLayoutError::NoPairing { triangles })?;
+    place_border(&border, &mut patches);
+    let layout = Layout::with_edges(&numbered(&patches.corners), &patches.edges)?;
     control.set_stage(0.3, 1.0);
-    let first = relax::measure(mesh, &layout, places, control);
-    let quality = relax::relax(mesh, &layout, places, options.sweeps, control)?;
+    let mut places = patches.places;
+    let (first, quality) = relax::relax(&border, &layout, &mut places, base.fine, options.sweeps, control)?;
+    places.truncate(mesh.points().len());
     let report = MeshLayoutReport {
         kind: LayoutKind::Complex,
         energy: quality.energy,
@@ -59,39 +70,69 @@ pub(super) fn make(
         folded_nodes: quality.folded,
         spread_nodes: quality.spread,
         doublets,
+        splits,
         seconds: 0.0,
     };
-    Ok(MeshLayout { layout, map: NodeMap::new(patches.places), report })
+    Ok(MeshLayout { layout, map: NodeMap::new(places), report })
 }
 
-/// Fewest vertices of a base complex: those of an octahedron.
-const LEAST_VERTICES: usize = 6;
+/// Nodes of the middle level for each patch: enough for stars that fit into few patches, few enough for hundreds of
+/// sweeps.
+const TRACKED: usize = 60;
 
-/// Pairs the triangles, and gives the nodes their places in the quads.
-fn paired(mesh: &Mesh, base: &Base) -> Result<Patches, MeshLayoutError> {
-    let points: Vec<DVec3> = base.vertices.iter().map(|&node| mesh.points()[node as usize]).collect();
-    let no_pairing = MeshLayoutError::NoPairing { triangles: base.triangles.len() };
-    let pairing = pairing::paired(&points, &base.triangles).ok_or(no_pairing)?;
-    let places =
-        base.places.iter().map(|place| place.map(|place| quad_place(base, &pairing, place))).collect();
-    Ok(Patches { edges: edge_numbers(&pairing.quads), corners: pairing.quads, places })
+/// Fewest vertices of a base complex: those of an octahedron.
+const LEAST_VERTICES: i64 = 6;
+
+/// The quads with the places of the nodes in them.
+fn patches(base: &Base, pairing: Pairing) -> Patches {
+    let place = |place: &TrianglePlace| quad_place(base, &pairing, *place);
+    let places = base.places.iter().map(|found| found.as_ref().and_then(place)).collect();
+    let border = base.border.iter().map(|border| border.map(|(along, _)| along)).collect();
+    Patches { edges: edge_numbers(&pairing.quads), corners: pairing.quads, border, places }
 }
 
 /// The place in a quad of a place in one of its triangles: linear, with the corners where the quad has them.
-fn quad_place(base: &Base, pairing: &Pairing, place: TrianglePlace) -> Place {
+fn quad_place(base: &Base, pairing: &Pairing, place: TrianglePlace) -> Option<Place> {
     const CORNERS: [DVec2; 4] = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
-    let quad = pairing.quad_of[place.triangle as usize];
+    let quad = pairing.quad_of[place.triangle as usize]?;
     let corners = pairing.quads[quad as usize];
-    let corner = |vertex: u32| {
-        let k = corners
-            .iter()
-            .position(|&other| other == vertex)
-            .expect("a quad has the corners of its triangles");
-        CORNERS[k]
-    };
     let triangle = base.triangles[place.triangle as usize];
-    let uv: DVec2 = triangle.iter().zip(place.weights).map(|(&vertex, weight)| weight * corner(vertex)).sum();
-    Place { quad, uv: uv.clamp(DVec2::ZERO, DVec2::ONE) }
+    let mut uv = DVec2::ZERO;
+    for (vertex, weight) in triangle.into_iter().zip(place.weights) {
+        let k = corners.iter().position(|&corner| corner == vertex)?;
+        uv += weight * CORNERS[k];
+    }
+    Some(Place { quad, uv: uv.clamp(DVec2::ZERO, DVec2::ONE) })
+}
+
+/// Gives the nodes of the border their places: along the sides of the border as far as along its loops.
+fn place_border(border: &Border, patches: &mut Patches) {
+    let mut uses: BTreeMap<u32, usize> = BTreeMap::new();
+    patches.edges.iter().flatten().for_each(|&edge| *uses.entry(edge).or_default() += 1);
+    let mut of_loops: Vec<Vec<(f64, usize)>> = vec![Vec::new(); border.lengths.len()];
+    for (node, found) in border.nodes.iter().enumerate() {
+        if let Some(node_of_border) = found {
+            of_loops[node_of_border.along.index].push((node_of_border.along.length, node));
+        }
+    }
+    for quad in 0..patches.corners.len() {
+        for k in 0..4 {
+            let [from, to] = [k, k + 1].map(|k| patches.corners[quad][k % 4] as usize);
+            let (Some(begin), Some(end)) = (patches.border[from], patches.border[to]) else { continue };
+            if uses[&patches.edges[quad][k]] != 1 {
+                continue;
+            }
+            let side = Side { quad: quad as u32, side: k as u8 };
+            let all = border.lengths[begin.index];
+            let length = (end.length - begin.length).rem_euclid(all);
+            for &(at, node) in &of_loops[begin.index] {
+                let t = (at - begin.length).rem_euclid(all) / length;
+                if t <= 1.0 {
+                    patches.places[node] = Some(side.place(t, 0.0));
+                }
+            }
+        }
+    }
 }
 
 /// A number for each side, the same for the same two ends: in a triangulation no two edges have both in common.

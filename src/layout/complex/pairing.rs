@@ -9,6 +9,7 @@
 //!     / .   /          The diagonal ac leaves the valences of a and c one smaller. Where a vertex would keep fewer
 //!    a --- b           than three quads, the diagonals at it get a price, and the matching is done again.
 //! ```
+//! Of an open surface some triangles may be left over, and vertices of the border need one to three quads.
 
 use crate::samples::Random;
 use glam::DVec3;
@@ -16,8 +17,15 @@ use mwmatching::{Matching, SENTINEL};
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_2;
 
-/// Matchings tried until no vertex has too few quads.
-const ROUNDS: usize = 120;
+/// How long better pairings are looked for.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Effort {
+    /// Sequences of prices.
+    pub starts: u64,
+    /// Matchings of each, until no vertex has too few quads.
+    pub rounds: usize,
+}
+
 /// Raises of a price are this much times a half to one and a half, and grow with the rounds. Qualities differ by 1 to 10.
 const RAISE: f64 = 1.5;
 /// Rounds after which raises have doubled.
@@ -26,18 +34,29 @@ const RAISE_GROWTH: f64 = 10.0;
 const UNITS: f64 = 1e5;
 /// No price beyond this: it outweighs all qualities, and the weight stays within the crate's limits.
 const MOST_PRICE: f64 = 500.0;
-/// Least number of quads around a vertex.
-const LEAST_QUADS: u32 = 3;
 
 /// Quads over triangles.
 #[derive(Debug, Clone)]
 pub(super) struct Pairing {
     /// The corners of each quad, counter-clockwise: a, b, c, d, its triangles are a, b, c and c, d, a.
     pub quads: Vec<[u32; 4]>,
-    /// By triangle: its quad.
-    pub quad_of: Vec<u32>,
-    /// Vertices that are left with fewer than three quads.
+    /// By triangle: its quad; none for one without a partner, which only an open surface may have.
+    pub quad_of: Vec<Option<u32>>,
+    /// Vertices that are left with fewer quads than they need.
     pub starved: Vec<u32>,
+    /// What is to be small: bad corners, folds along diagonals, valences other than 4.
+    ugliness: f64,
+}
+
+impl Pairing {
+    /// Triangles without a partner.
+    pub fn single_count(&self) -> usize {
+        self.quad_of.iter().filter(|quad| quad.is_none()).count()
+    }
+
+    fn rank(&self) -> (usize, f64) {
+        (self.single_count() + self.starved.len(), self.ugliness)
+    }
 }
 
 /// The edge between two triangles, which a quad of both would have as its diagonal.
@@ -58,22 +77,53 @@ impl Diagonal {
     }
 }
 
-/// Pairs the triangles of a closed surface whose vertices have these places.
-pub(super) fn paired(points: &[DVec3], triangles: &[[u32; 3]]) -> Option<Pairing> {
+/// Weight of the squared distance of a valence from 4, in radians: a vertex of 3 or 5 costs as much as corners that are
+/// off by 30 degrees in all.
+const VALENCE_WEIGHT: f64 = 0.5;
+
+/// Pairs the triangles of a surface whose vertices have these places and need so many quads. None if not
+/// one pair is to be had.
+pub(super) fn paired(
+    points: &[DVec3],
+    triangles: &[[u32; 3]],
+    needs: &[u32],
+    effort: Effort,
+) -> Option<Pairing> {
+    let mut best: Option<Pairing> = None;
+    for seed in 0..effort.starts {
+        let pairing = priced(points, triangles, needs, effort.rounds, seed)?;
+        if best.as_ref().is_none_or(|best| pairing.rank() < best.rank()) {
+            best = Some(pairing);
+        }
+    }
+    best
+}
+
+/// Raises prices until no vertex is starved.
+fn priced(
+    points: &[DVec3],
+    triangles: &[[u32; 3]],
+    needs: &[u32],
+    rounds: usize,
+    seed: u64,
+) -> Option<Pairing> {
     let mut diagonals = diagonals(points, triangles);
     let mut valences = vec![0_u32; points.len()];
     triangles.iter().flatten().for_each(|&vertex| valences[vertex as usize] += 1);
-    let mut random = Random::new(0);
+    let mut random = Random::new(seed);
     let mut best: Option<Pairing> = None;
-    for round in 0..ROUNDS {
+    for round in 0..rounds {
         let chosen = matched(&diagonals, triangles.len())?;
         let mut left = valences.clone();
         chosen.iter().flat_map(|&k| diagonals[k].ends()).for_each(|vertex| left[vertex as usize] -= 1);
-        let is_starved = |vertex: u32| left[vertex as usize] > 0 && left[vertex as usize] < LEAST_QUADS;
+        let is_starved = |vertex: u32| left[vertex as usize] < needs[vertex as usize];
         let starved: Vec<u32> = (0..points.len() as u32).filter(|&vertex| is_starved(vertex)).collect();
         let is_done = starved.is_empty();
         if best.as_ref().is_none_or(|best| starved.len() < best.starved.len()) {
-            best = Some(pairing(&diagonals, &chosen, triangles.len(), starved));
+            let off = left.iter().map(|&quads| (f64::from(quads) - 4.0).powi(2)).sum::<f64>();
+            let quality: f64 = chosen.iter().map(|&k| diagonals[k].quality).sum();
+            let ugliness = VALENCE_WEIGHT * off - quality;
+            best = Some(pairing(&diagonals, &chosen, triangles.len(), starved, ugliness));
         }
         if is_done {
             break;
@@ -118,25 +168,32 @@ fn ugliness(quad: [DVec3; 4]) -> f64 {
     corners.sum::<f64>() + 2.0 * angle_between(lower, upper)
 }
 
-/// The diagonals of the matching of greatest weight; none if it is not perfect.
+/// The diagonals of the matching of greatest weight among those with most pairs; none if there is no diagonal.
 fn matched(diagonals: &[Diagonal], triangle_count: usize) -> Option<Vec<usize>> {
     let edges = diagonals.iter().map(|diagonal| {
         let [i, j] = diagonal.triangles;
         (i, j, diagonal.weight())
     });
-    let mates = Matching::new(edges.collect()).max_cardinality().solve();
-    let is_perfect = mates.len() == triangle_count && !mates.contains(&SENTINEL);
+    let mut mates = Matching::new(edges.collect()).max_cardinality().solve();
+    // the crate does not know of triangles behind the last that has a neighbour
+    mates.resize(triangle_count, SENTINEL);
     let is_chosen = |diagonal: &Diagonal| mates[diagonal.triangles[0]] == diagonal.triangles[1];
     let chosen = || diagonals.iter().enumerate().filter(|(_, diagonal)| is_chosen(diagonal)).map(|(k, _)| k);
-    is_perfect.then(|| chosen().collect())
+    (!diagonals.is_empty()).then(|| chosen().collect())
 }
 
-fn pairing(diagonals: &[Diagonal], chosen: &[usize], triangle_count: usize, starved: Vec<u32>) -> Pairing {
-    let mut quad_of = vec![0; triangle_count];
+fn pairing(
+    diagonals: &[Diagonal],
+    chosen: &[usize],
+    triangle_count: usize,
+    starved: Vec<u32>,
+    ugliness: f64,
+) -> Pairing {
+    let mut quad_of = vec![None; triangle_count];
     for (quad, &k) in (0..).zip(chosen) {
-        diagonals[k].triangles.iter().for_each(|&triangle| quad_of[triangle] = quad);
+        diagonals[k].triangles.iter().for_each(|&triangle| quad_of[triangle] = Some(quad));
     }
-    Pairing { quads: chosen.iter().map(|&k| diagonals[k].quad).collect(), quad_of, starved }
+    Pairing { quads: chosen.iter().map(|&k| diagonals[k].quad).collect(), quad_of, starved, ugliness }
 }
 
 #[cfg(test)]
@@ -149,11 +206,11 @@ mod tests {
         let points = [DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z];
         let triangles =
             [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [1, 0, 5], [2, 1, 5], [3, 2, 5], [0, 3, 5]];
-        let pairing = paired(&points, &triangles).unwrap();
+        let pairing = paired(&points, &triangles, &[3; 6], Effort { starts: 8, rounds: 120 }).unwrap();
         assert_eq!(pairing.quads.len(), 4);
         assert!(!pairing.starved.is_empty());
         for (triangle, &quad) in triangles.iter().zip(&pairing.quad_of) {
-            let corners = pairing.quads[quad as usize];
+            let corners = pairing.quads[quad.unwrap() as usize];
             assert!(triangle.iter().all(|vertex| corners.contains(vertex)));
         }
     }
@@ -180,7 +237,7 @@ mod tests {
                     .collect();
                 let sum =
                     |chosen: &[usize]| chosen.iter().map(|&k| i64::from(diagonals[k].weight())).sum::<i64>();
-                let found = matched(&diagonals, 2 * n).expect("a prism has a perfect matching");
+                let found = matched(&diagonals, 2 * n).expect("a prism has edges");
                 assert_eq!(
                     sum(&found),
                     greatest(&diagonals, &mut vec![false; 2 * n], &sum, &mut Vec::new()).unwrap()

@@ -1,0 +1,102 @@
+//! Quads for all triangles: edges are split where a pairing leaves something over.
+//!
+//! A closed surface has a perfect matching. An open one with an odd number of triangles has none: splitting an edge of the
+//! border makes it even. With an even number it may still have none, or corners of the border may get fewer quads than
+//! they need: of the longest edges there the one is split after which the least is left over.
+
+use super::base::Base;
+use super::pairing::{Effort, Pairing, paired};
+use crate::Control;
+use crate::control::Cancelled;
+
+/// Most edges that are split.
+const MOST_SPLITS: usize = 25;
+/// Edges tried at each step.
+const CANDIDATES: usize = 5;
+/// For the first pairing, which closed surfaces keep.
+const FIRST: Effort = Effort { starts: 8, rounds: 120 };
+/// For each edge that is tried.
+const TRIAL: Effort = Effort { starts: 1, rounds: 20 };
+/// Quads around a vertex inside.
+const INNER_NEED: u32 = 3;
+
+/// Quads over all triangles, and how many edges were split for them; none if there are no such quads.
+pub(super) fn quads(
+    mut base: Base,
+    lengths: &[f64],
+    control: &mut Control,
+) -> Result<Option<(Base, Pairing, usize)>, Cancelled> {
+    make_even(&mut base, lengths);
+    let Some(mut pairing) = pairing(&base, FIRST) else { return Ok(None) };
+    let vertex_count = base.points.len();
+    for _ in 0..MOST_SPLITS {
+        if left_over(&base, &pairing) == 0 {
+            break;
+        }
+        let mut best: Option<(usize, Base, Pairing)> = None;
+        for edge in candidates(&base, &pairing) {
+            control.report(1.0, f64::NAN)?;
+            let mut trial = base.clone();
+            trial.split(edge, lengths);
+            make_even(&mut trial, lengths);
+            let Some(found) = self::pairing(&trial, TRIAL) else { continue };
+            let left = left_over(&trial, &found);
+            if best.as_ref().is_none_or(|(least, ..)| left < *least) {
+                best = Some((left, trial, found));
+            }
+        }
+        let Some((_, next, found)) = best else { break };
+        (base, pairing) = (next, found);
+    }
+    let splits = base.points.len() - vertex_count;
+    Ok((left_over(&base, &pairing) == 0).then_some((base, pairing, splits)))
+}
+
+fn pairing(base: &Base, effort: Effort) -> Option<Pairing> {
+    let needs: Vec<u32> =
+        base.border.iter().map(|border| border.map_or(INNER_NEED, |(_, need)| need)).collect();
+    paired(&base.points, &base.triangles, &needs, effort)
+}
+
+/// Triangles without a quad, and nodes of the border without enough; vertices inside with two quads go as doublets.
+fn left_over(base: &Base, pairing: &Pairing) -> usize {
+    let is_on_border = |vertex: &&u32| base.border[**vertex as usize].is_some();
+    pairing.single_count() + pairing.starved.iter().filter(is_on_border).count()
+}
+
+/// Splits the longest edge of the border if the number of triangles is odd.
+fn make_even(base: &mut Base, lengths: &[f64]) {
+    if base.triangles.len().is_multiple_of(2) {
+        return;
+    }
+    let edges = base.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+    let is_border = |&[a, b]: &[u32; 2]| {
+        let at_edge = base.triangles.iter().filter(|triangle| triangle.contains(&a) && triangle.contains(&b));
+        at_edge.count() == 1
+    };
+    let longest = edges.filter(is_border).max_by(|p, q| length(base, p).total_cmp(&length(base, q)));
+    if let Some(edge) = longest {
+        base.split(edge, lengths);
+    }
+}
+
+fn length(base: &Base, &[a, b]: &[u32; 2]) -> f64 {
+    base.points[a as usize].distance(base.points[b as usize])
+}
+
+/// The longest edges of triangles without a quad, and of those at starved nodes of the border.
+fn candidates(base: &Base, pairing: &Pairing) -> Vec<[u32; 2]> {
+    let is_bad = |(t, triangle): &(usize, &[u32; 3])| {
+        let is_starved =
+            |vertex: &u32| base.border[*vertex as usize].is_some() && pairing.starved.contains(vertex);
+        pairing.quad_of[*t].is_none() || triangle.iter().any(is_starved)
+    };
+    let bad = base.triangles.iter().enumerate().filter(is_bad);
+    let sides = bad.flat_map(|(_, &[a, b, c])| [[a, b], [b, c], [c, a]]);
+    let mut edges: Vec<[u32; 2]> = sides.map(|[a, b]| [a.min(b), a.max(b)]).collect();
+    edges.sort_unstable();
+    edges.dedup();
+    edges.sort_by(|p, q| length(base, q).total_cmp(&length(base, p)));
+    edges.truncate(CANDIDATES);
+    edges
+}
