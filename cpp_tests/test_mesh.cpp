@@ -758,10 +758,10 @@ TEST(MeshParameterize, RefusesByName) {
   refuse(closed.get(), options, PLANISH_STATUS_TOPOLOGY, -1, "closed");
   const Mesh apart = make({0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 0, 0, 6, 0, 0, 5, 1, 0}, {0, 1, 2, 3, 4, 5});
   refuse(apart.get(), options, PLANISH_STATUS_TOPOLOGY, -1, "2 components");
-  const Mesh unused = make({nan_, 9, 9, 0, 0, 0, 1, 0, 0, 0, 1, 0}, {1, 2, 3});
+  const Mesh unused = make({nan_, 9, 9, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, {1, 2, 3, 1, 3, 4});
   CHECK(planish_mesh_parameterize(unused.get(), nullptr, nullptr) >= 0); // node 0 is passed over
-  double uv[8];
-  CHECK(planish_mesh_copy_parameters(unused.get(), uv, 4) == PLANISH_STATUS_OK);
+  double uv[10];
+  CHECK(planish_mesh_copy_parameters(unused.get(), uv, 5) == PLANISH_STATUS_OK);
   CHECK(uv[0] == uv[2] && uv[1] == uv[3]); // and gets the parameters of a node that has a place
   const Mesh flat = make({0, 0, 0, 1, 0, 0, 2, 0, 0}, {0, 1, 2});
   refuse(flat.get(), options, PLANISH_STATUS_DEGENERATE, -1, "zero area");

@@ -118,6 +118,9 @@ impl Format {
 
     /// The format that a file's content begins like.
     pub fn of_bytes(bytes: &[u8]) -> Option<Self> {
+        if stl::is_binary(bytes) {
+            return Some(Self::Stl); // its name may hold anything
+        }
         let start = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
         let mut lines = start.split(|byte| matches!(byte, b'\n' | b'\r')).map(<[u8]>::trim_ascii).take(1000);
         let is_said = |line: &&[u8]| !line.is_empty() && !line.starts_with(b"#");
@@ -126,7 +129,7 @@ impl Format {
             Some(Self::Ply)
         } else if off::header(word).is_some() {
             Some(Self::Off)
-        } else if stl::is_binary(bytes) || word.eq_ignore_ascii_case(b"solid") {
+        } else if word.eq_ignore_ascii_case(b"solid") {
             Some(Self::Stl)
         } else {
             let is_obj = lines.any(|line| line.starts_with(b"v ") || line.starts_with(b"f "));
