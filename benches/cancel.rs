@@ -60,10 +60,8 @@ fn main() {
     row("field_fitter", &|control| drop(FieldFitter::on_mesh(&sheet, &FieldOptions::default(), control)));
     row("decimate", &|control| drop(sheet.decimate(&DecimateOptions::default(), control)));
     row("project", &|control| {
-        let (mut uv, mut distances) =
-            (vec![DVec2::ZERO; sheet.points().len()], vec![0.0; sheet.points().len()]);
         let projector = Projector::new(&surface).expect("it has patches");
-        drop(projector.project(&points, &ProjectOptions::default(), &mut uv, &mut distances, control.pool()));
+        drop(projector.project(&points, &ProjectOptions::default(), control.pool()));
     });
     row("deviation", &|control| {
         let options = DeviationOptions { measure_back: true, ..DeviationOptions::default() };

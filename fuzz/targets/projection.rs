@@ -17,14 +17,11 @@ fuzz_target!(|input: ([[i8; 3]; 16], Vec<[i8; 3]>)| {
     let surface = TensorSurface::new(3, knots(), knots(), control, None).expect("sixteen control points");
     let points: Vec<f64> = points.iter().take(8).flatten().map(|&x| number(x)).collect();
     let Ok(projector) = Projector::new(&surface) else { return };
-    let count = points.len() / 3;
-    let (mut uv, mut distances) = (vec![DVec2::ZERO; count], vec![0.0; count]);
-    let done = projector.project(&points, &ProjectOptions::default(), &mut uv, &mut distances, &Pool::new(1));
-    done.expect("finite points");
+    let nearest = projector.project(&points, &ProjectOptions::default(), &Pool::new(1)).expect("finite points");
     let grid: Vec<DVec2> = (0..81).map(|k| DVec2::new(f64::from(k % 9), f64::from(k / 9)) / 8.0).collect();
     let mut rows = vec![0.0; 3 * grid.len()];
     surface.eval_rows(&grid, 0, &mut rows);
-    for (point, (uv, distance)) in points.chunks_exact(3).zip(uv.iter().zip(distances)) {
+    for (point, (uv, distance)) in points.chunks_exact(3).zip(nearest.uv.iter().zip(nearest.distances)) {
         assert!(uv.cmpge(DVec2::ZERO).all() && uv.cmple(DVec2::ONE).all(), "{uv}");
         let away = |row: &[f64]| row.iter().zip(point).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
         let best = rows.chunks_exact(3).map(away).fold(f64::INFINITY, f64::min);

@@ -345,9 +345,9 @@ mod tests {
         let points = random_points(200, DVec3::new(0.5, 0.5, 0.0), 1.0);
         let feet = project(&model, &points, 1);
         let rows: Vec<f64> = points.iter().flat_map(|p| p.to_array()).collect();
-        let (mut uv, mut distances) = (vec![DVec2::ZERO; 200], vec![0.0; 200]);
         let projector = Projector::new(&surface).unwrap();
-        projector.project(&rows, &ProjectOptions::default(), &mut uv, &mut distances, &Pool::new(1)).unwrap();
+        let nearest = projector.project(&rows, &ProjectOptions::default(), &Pool::new(1)).unwrap();
+        let distances = nearest.distances;
         for (a, b) in feet.distances.iter().zip(&distances) {
             assert!((a - b).abs() < 1e-12, "{a} {b}");
         }
