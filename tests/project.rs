@@ -270,8 +270,7 @@ fn nodes_are_no_farther_than_from_their_own_places() {
     for name in
         ["neon_side_holes_16k.off", "airplane_holes_8k.off", "igea_disk_43k.ply", "mask_control_1290.off"]
     {
-        let Some(path) = common::shared_data(name) else { return };
-        let (mesh, _) = planish::mesh::read(&path, &planish::mesh::MeshOptions::default()).unwrap();
+        let Some(mesh) = common::mesh(name) else { continue };
         check_nodes(name, &mesh, &fit(&mesh, 1e-2));
     }
 }
@@ -285,8 +284,7 @@ fn inside_the_trims_of_a_holed_sphere_no_sample_is_nearer() {
 #[test]
 fn inside_the_trims_of_real_fits_no_sample_is_nearer() {
     for name in ["neon_side_holes_16k.off", "airplane_holes_8k.off"] {
-        let Some(path) = common::shared_data(name) else { return };
-        let (mesh, _) = planish::mesh::read(&path, &planish::mesh::MeshOptions::default()).unwrap();
+        let Some(mesh) = common::mesh(name) else { continue };
         check_within(name, &fit(&mesh, 1e-2).surface, true);
     }
 }
