@@ -16,6 +16,7 @@ from ._d1rc import D1rcSurface, smooth_creased
 from ._fit import fit, fit_field, fit_points, skin, skin_curves
 from ._library import Cancelled, Error, FileError, InvalidError, OutOfMemoryError, RangeError
 from ._mesh import Mesh, read_mesh, read_mesh_bytes
+from ._model import Edge, Face, Model, Shell, load_model, model
 from ._records import Report
 from ._pht import Extraction, PhtSurface, pht, pht_from_surface
 from ._surface import BezierPatch, Curvatures, Surface, load, loads
@@ -28,16 +29,20 @@ __all__ = [
     "Curvatures",
     "Curve",
     "D1rcSurface",
+    "Edge",
     "Error",
     "Extraction",
+    "Face",
     "FieldFitter",
     "FileError",
     "InvalidError",
     "Mesh",
+    "Model",
     "OutOfMemoryError",
     "PhtSurface",
     "RangeError",
     "Report",
+    "Shell",
     "Surface",
     "TSplineSurface",
     "TensorSurface",
@@ -50,7 +55,9 @@ __all__ = [
     "interpolate_curve",
     "load",
     "load_curve",
+    "load_model",
     "loads",
+    "model",
     "pht",
     "pht_from_surface",
     "read_mesh",

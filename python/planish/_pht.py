@@ -9,12 +9,14 @@ import numpy as np
 
 from . import _abi
 from ._calls import LongCall, ProgressCallback
-from ._library import OUT, array, call, indices, lib, made, pointer, read_only
+from ._library import OUT, InvalidError, array, call, indices, lib, made, pointer, read_only
 from ._records import by_reference, options
 from ._surface import Surface, expect
 from ._tensor import TensorSurface
 
 _BASES = _abi.ENUMERATIONS["planish_pht_basis"]
+#: What numbers of cells and vertices are made of.
+_NUMBER = _abi.ELEMENTS["planish_pht_set_data", "vertices"]
 _SIDES = _abi.ENUMERATIONS["planish_border_side"]
 
 
@@ -65,9 +67,8 @@ class PhtSurface(Surface, kind="pht"):
     def neighbours(self, cell: int) -> np.ndarray:
         """The numbers of the leaves that share part of an edge with a leaf."""
         count = ctypes.c_size_t()
-        width = _element("planish_pht_copy_neighbours")
         lib.planish_pht_copy_neighbours(self, cell, None, 0, ctypes.byref(count))
-        cells = np.empty(count.value, width)
+        cells = np.empty(count.value, _NUMBER)
         call("planish_pht_copy_neighbours", self, cell, pointer(cells), len(cells), ctypes.byref(count))
         return cells
 
@@ -80,7 +81,7 @@ class PhtSurface(Surface, kind="pht"):
 
     def set_vertex_data(self, vertices: Any, data: Any) -> None:
         """Changes the data (n, 4, width) at basis vertices, by number."""
-        vertices, data = _numbers(vertices, "planish_pht_set_data"), array(data)
+        vertices, data = _numbers(vertices), array(data)
         expect(data, (len(vertices), 4, self.width), "data")
         call("planish_pht_set_data", self, pointer(vertices), len(vertices), pointer(data))
 
@@ -97,7 +98,7 @@ class PhtSurface(Surface, kind="pht"):
 
     def set_control_points(self, vertices: Any, points: Any, basis: str = "canonical") -> None:
         """Changes all four control points (n, 4, width) of basis vertices, by number."""
-        vertices, points = _numbers(vertices, "planish_pht_set_control_points"), array(points)
+        vertices, points = _numbers(vertices), array(points)
         expect(points, (len(vertices), 4, self.width), "points")
         number = _word(_BASES, basis, "basis")
         call("planish_pht_set_control_points", self, pointer(vertices), len(vertices), number, pointer(points))
@@ -181,16 +182,9 @@ def pht_from_surface(
 
 def _word(words: dict[str, int], word: str, what: str) -> int:
     if word not in words:
-        from ._library import InvalidError
-
         raise InvalidError(f"{what} is {word!r}; the choices are {', '.join(map(repr, words))}")
     return words[word]
 
 
-def _element(function: str) -> type:
-    """uint32, the width of all indices."""
-    return np.uint32
-
-
-def _numbers(values: Any, function: str) -> np.ndarray:
-    return np.atleast_1d(indices(values, what="vertices"))
+def _numbers(values: Any) -> np.ndarray:
+    return np.atleast_1d(array(indices(values, what="vertices"), _NUMBER))

@@ -395,10 +395,9 @@ def expect(values: np.ndarray, shape: tuple[int, ...], what: str) -> None:
 
 
 def _write_step(function: str, shape: Handle, path: Any, progress: Any, given: dict[str, Any]) -> Report:
-    long = LongCall(progress)
-    report = report_record("step_report")
-    record = options("step_options", given, **long.fields("step_options"))
-    return Report(report, long(function, shape, path_of(path), by_reference(record), by_reference(report)))
+    long, report = LongCall(progress), report_record("step_report")
+    record = options("step_options", given, out_report=report, **long.fields("step_options"))
+    return Report(report, long(function, shape, path_of(path), by_reference(record)))
 
 
 def _restore(saved: bytes, report: Report | None) -> Surface:

@@ -69,7 +69,7 @@ record! {
         pub min_samples: usize = core.min_samples,
         /// About how many patches a base complex has. Default 40.
         pub patches: usize = layout_core.patches,
-        /// What tolerance is measured in: 0 (default) the diagonal of the mesh's box, 1 model units.
+        /// A planish_tolerance_scale; PLANISH_TOLERANCE_SCALE_RELATIVE (default): to the diagonal of the mesh's box.
         pub tolerance_scale: u32,
         /// A planish_model_family. Default PLANISH_MODEL_FAMILY_AUTO.
         pub family: u32,

@@ -1,6 +1,6 @@
 //! `python/planish/_abi.py`: the interface for ctypes.
 
-use crate::api::{Api, Base, Field, Function, Pointer, Record, Type};
+use crate::api::{Api, Base, Field, Function, Pointer, Record, Role, Type};
 
 const HEAD: &str = r#"# SPDX-License-Identifier: MIT OR Apache-2.0
 # Generated from src/ffi: do not edit. `cargo run -p planish-header` renews it.
@@ -64,6 +64,15 @@ pub fn text(api: &Api) -> String {
         let arguments = function.arguments.iter().filter_map(|a| Some((a.name.as_str(), a.choice.as_ref()?)));
         for (name, choice) in arguments.chain(result) {
             text.push_str(&format!("    (\"{}\", \"{name}\"): \"{}\",\n", function.name, choice.enumeration));
+        }
+    }
+    text.push_str("}\n\n#: Arrays that are not of doubles: function, argument, what they are made of.\nELEMENTS = {\n");
+    for function in &api.functions {
+        for argument in function.arguments.iter().filter(|argument| matches!(argument.role, Role::Array { .. })) {
+            if let Base::Number(number @ ("size_t" | "uint32_t" | "uint8_t" | "int32_t")) = &argument.of.base {
+                let (function, argument) = (&function.name, &argument.name);
+                text.push_str(&format!("    (\"{function}\", \"{argument}\"): {},\n", self::number(number)));
+            }
         }
     }
     text.push_str("}\n");

@@ -1,0 +1,336 @@
+"""Models: faces that share edges and vertices, as open shells, solids and voids."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from . import _abi
+from ._calls import LongCall, ProgressCallback
+from ._curve import Curve
+from ._library import OUT, Handle, array, call, indices, lib, made, path_of, pointer, read_only
+from ._mesh import Mesh, read_mesh
+from ._records import Report, by_reference, options, report_record
+from ._surface import Curvatures, Surface, _write_step
+
+_NONE = _abi.NONE
+
+
+class Face(NamedTuple):
+    """A bounded part of a surface.
+
+    carrier: "spline", "plane" or "cylinder"; `origin`, `axis`, `x_axis` and `radius` say which.
+    label: what the maker of the model calls it. is_forward: whether its front is where the surface's normal points.
+    loops: the outer one first; each a list of (edge, is_forward) in order, the face on the left.
+    """
+
+    carrier: str
+    origin: tuple[float, float, float]
+    axis: tuple[float, float, float]
+    x_axis: tuple[float, float, float]
+    radius: float
+    label: int
+    shell: int
+    is_forward: bool
+    loops: list[list[tuple[int, bool]]]
+
+
+class Edge(NamedTuple):
+    """A curve in space between two vertices, which one or two faces share.
+
+    faces: the face whose loop runs along it and the one whose loop runs against it; None where there is none.
+    """
+
+    curve: Curve
+    vertices: tuple[int, int]
+    faces: tuple[int | None, int | None]
+    is_sharp: bool
+    angle: float
+    gap: float
+
+
+class Shell(NamedTuple):
+    """Faces that hang together. role: "open", "solid" or "void"; a void is inside the shell `void_in`."""
+
+    faces: list[int]
+    role: str
+    void_in: int | None
+
+
+def _word(enumeration: str, number: int) -> str:
+    return next(word for word, value in _abi.ENUMERATIONS[enumeration].items() if value == number)
+
+
+def _or_none(number: int) -> int | None:
+    return None if number == _NONE else number
+
+
+class Model(Handle):
+    """Faces that share edges and vertices, watertight by construction. Made by `model`, `Model.from_surface`, `load_model`.
+
+    ``report`` tells how a fit went; None for models that no fit made.
+    """
+
+    _free = "planish_model_free"
+    report: Report | None = None
+
+    @classmethod
+    def from_surface(cls, surface: Surface) -> Model:
+        """The part of a surface inside its trims as an open shell: one face, or several that share edges."""
+        model = cls._own(made("planish_model_from_surface", surface, OUT)[1])
+        model.report = surface.report
+        return model
+
+    @property
+    def n_faces(self) -> int:
+        """Number of faces."""
+        return lib.planish_model_face_count(self)
+
+    @property
+    def n_edges(self) -> int:
+        """Number of edges; one between two faces counts once."""
+        return lib.planish_model_edge_count(self)
+
+    @property
+    def n_vertices(self) -> int:
+        """Number of vertices."""
+        return lib.planish_model_vertex_count(self)
+
+    @property
+    def n_shells(self) -> int:
+        """Number of shells."""
+        return lib.planish_model_shell_count(self)
+
+    @property
+    def vertices(self) -> np.ndarray:
+        """The places (n, 3) of the vertices."""
+        points = np.empty((self.n_vertices, 3))
+        call("planish_model_copy_vertices", self, pointer(points), len(points))
+        return read_only(points)
+
+    def face(self, index: int) -> Face:
+        """What a face is, with its loops."""
+        info = report_record("face_info")
+        call("planish_model_face_info", self, index, by_reference(info))
+        sizes = np.empty(lib.planish_model_loop_count(self, index), np.uintp)
+        count = lib.planish_model_coedge_count(self, index)
+        edges, forward = np.empty(count, np.uint32), np.empty(count, np.uint8)
+        arguments = (pointer(sizes), len(sizes), pointer(edges), pointer(forward), count)
+        call("planish_model_copy_loops", self, index, *arguments)
+        coedges = [(int(edge), bool(is_forward)) for edge, is_forward in zip(edges, forward)]
+        ends = np.cumsum(sizes).astype(int)
+        loops = [coedges[end - int(size) : end] for size, end in zip(sizes, ends)]
+        return Face(
+            _word("planish_carrier", info.carrier),
+            *(tuple(info.origin), tuple(info.axis), tuple(info.x_axis), info.radius),
+            *(info.label, info.shell, bool(info.is_forward), loops),
+        )
+
+    def face_surface(self, index: int) -> Surface:
+        """The surface under a face, its loops as trims; planes and cylinders become tensor surfaces."""
+        return Surface._own(made("planish_model_copy_face", self, index, OUT)[1])
+
+    def pcurve(self, face: int, coedge: int) -> Curve:
+        """Where the `coedge`-th edge of all loops of a face lies in the parameter plane of its surface."""
+        return Curve._own(made("planish_model_copy_pcurve", self, face, coedge, OUT)[1])
+
+    def edge(self, index: int) -> Edge:
+        """What an edge is, with its curve."""
+        info = report_record("edge_info")
+        _, handle = made("planish_model_copy_edge", self, index, OUT, by_reference(info))
+        return Edge(
+            Curve._own(handle),
+            (info.vertex_start, info.vertex_end),
+            (_or_none(info.face_along), _or_none(info.face_against)),
+            *(bool(info.is_sharp), info.angle, info.gap),
+        )
+
+    def shell(self, index: int) -> Shell:
+        """What a shell is, with its faces."""
+        info = report_record("shell_info")
+        call("planish_model_copy_shell", self, index, by_reference(info), None, 0)
+        faces = np.empty(info.face_count, np.uint32)
+        call("planish_model_copy_shell", self, index, None, pointer(faces), len(faces))
+        return Shell(faces.tolist(), _word("planish_shell_role", info.role), _or_none(info.void_in))
+
+    def measure(self) -> Report:
+        """Box, area, volume, the largest gap and normal jump, and counts."""
+        report = report_record("measure_report")
+        return Report(report, call("planish_model_measure", self, by_reference(report)))
+
+    # evaluation and queries
+
+    def eval(self, faces: Any, uv: Any, **eval_options: Any) -> np.ndarray:
+        """Places (..., 3) at parameters (..., 2) of faces (...), by number."""
+        return self.derivatives(faces, uv, 0, **eval_options)[..., 0, :]
+
+    def derivatives(self, faces: Any, uv: Any, order: int = 1, **eval_options: Any) -> np.ndarray:
+        """S, Su, Sv, Suu, Suv, Svv up to `order` at parameters (..., 2) of faces (...): an array (..., rows, 3)."""
+        rows = (order + 1) * (order + 2) // 2
+        arguments, shape, record = self._places(faces, uv, eval_options)
+        out = np.empty(shape + (rows, 3))
+        call("planish_model_eval", *arguments, order, record, pointer(out))
+        return out
+
+    def normals(self, faces: Any, uv: Any, **eval_options: Any) -> np.ndarray:
+        """Unit normals (..., 3), out of the front of each face, at parameters (..., 2) of faces (...)."""
+        arguments, shape, record = self._places(faces, uv, eval_options)
+        out = np.empty(shape + (3,))
+        call("planish_model_normals", *arguments, record, pointer(out))
+        return out
+
+    def curvatures(self, faces: Any, uv: Any, **eval_options: Any) -> Curvatures:
+        """Principal curvatures and their directions at parameters (..., 2) of faces (...)."""
+        arguments, shape, record = self._places(faces, uv, eval_options)
+        out = np.empty(shape + (8,))
+        call("planish_model_curvatures", *arguments, record, pointer(out))
+        return Curvatures(out[..., 0], out[..., 1], out[..., 2:5], out[..., 5:])
+
+    def _places(self, faces: Any, uv: Any, given: dict[str, Any]) -> tuple[tuple[Any, ...], tuple[int, ...], Any]:
+        uv = array(uv, width=2, what="uv")
+        faces = indices(np.broadcast_to(faces, uv.shape[:-1]), what="faces")
+        record = options("eval_options", given)
+        record._kept += [faces, uv]  # as long as the reference to the record lives
+        return (self, pointer(faces), pointer(uv), faces.size), faces.shape, by_reference(record)
+
+    def project(
+        self, points: Any, *, progress: ProgressCallback | None = None, **project_options: Any
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The nearest places to points (..., 3) over all faces: faces (...), parameters (..., 2), distances (...)."""
+        points = array(points, width=3, what="points")
+        shape = points.shape[:-1]
+        faces, uv, distances = np.empty(shape, np.uint32), np.empty(shape + (2,)), np.empty(shape)
+        long = LongCall(progress)
+        record = options("project_options", project_options, **long.fields("project_options"))
+        outputs = (pointer(faces), pointer(uv), pointer(distances))
+        long("planish_model_project", self, pointer(points), distances.size, by_reference(record), *outputs)
+        return faces, uv, distances
+
+    def deviation(
+        self, mesh: Mesh, *, progress: ProgressCallback | None = None, **deviation_options: Any
+    ) -> tuple[np.ndarray, Report]:
+        """The distance of each node of a mesh to the model, and a report of both directions."""
+        distances, report = np.empty(mesh.n_points), report_record("deviation_report")
+        long = LongCall(progress)
+        record = options("deviation_options", deviation_options, **long.fields("deviation_options"))
+        outputs = (pointer(distances), len(distances), by_reference(report))
+        status = long("planish_model_deviation", self, mesh, by_reference(record), *outputs)
+        return distances, Report(report, status)
+
+    def tessellate(self, *, progress: ProgressCallback | None = None, **tessellate_options: Any) -> Mesh:
+        """Triangles of all faces; faces share the nodes of their edges, so that a solid gives a closed mesh."""
+        long = LongCall(progress)
+        record = options("tessellate_options", tessellate_options, **long.fields("tessellate_options"))
+        return Mesh._own(made("planish_model_tessellate", self, by_reference(record), OUT, run=long)[1])
+
+    # files and copies
+
+    def write_vtk(
+        self, path: str | os.PathLike, *, progress: ProgressCallback | None = None, **vtk_options: Any
+    ) -> None:
+        """Writes a VTK file (.vtu)."""
+        long = LongCall(progress)
+        record = options("vtk_options", vtk_options, **long.fields("vtk_options"))
+        long("planish_model_write_vtk", self, path_of(path), by_reference(record))
+
+    def to_brep(self) -> str:
+        """The model as BREP text of OpenCASCADE: FreeCAD, CadQuery and build123d take it from memory."""
+        from ._brep import text
+
+        return text(self)
+
+    def write_step(
+        self, path: str | os.PathLike, *, progress: ProgressCallback | None = None, **step_options: Any
+    ) -> Report:
+        """Writes a STEP file: solids with their voids, open shells; the report tells its faces and poles."""
+        return _write_step("planish_model_write_step", self, path, progress, step_options)
+
+    def step_text(self, **step_options: Any) -> str:
+        """What `write_step` would write."""
+        record, size = options("step_options", step_options), ctypes.c_size_t()
+        call("planish_model_write_step_memory", self, by_reference(record), None, 0, ctypes.byref(size))
+        buffer = ctypes.create_string_buffer(size.value)
+        arguments = (by_reference(record), ctypes.addressof(buffer), len(buffer), ctypes.byref(size))
+        call("planish_model_write_step_memory", self, *arguments)
+        return buffer.raw.decode("ascii")
+
+    def save(self, path: str | os.PathLike) -> None:
+        """Saves to a file in the library's own format; `load_model` reads it."""
+        call("planish_model_save_file", self, path_of(path))
+
+    def tobytes(self) -> bytes:
+        """What `save` would write."""
+        buffer = ctypes.create_string_buffer(lib.planish_model_save_size(self))
+        call("planish_model_save", self, ctypes.addressof(buffer), len(buffer))
+        return buffer.raw
+
+    def __reduce__(self):
+        return _restore, (self.tobytes(), self.report)
+
+    def __copy__(self) -> Model:
+        clone = Model._own(made("planish_model_clone", self, OUT)[1])
+        clone.report = self.report
+        return clone
+
+    def __deepcopy__(self, _: Any) -> Model:
+        return self.__copy__()
+
+    def __repr__(self) -> str:
+        if not self._handle:
+            return "<planish.Model: closed>"
+        return f"<planish.Model: {self.n_faces} faces, {self.n_edges} edges, {self.n_shells} shells>"
+
+
+def _restore(saved: bytes, report: Report | None) -> Model:
+    model = Model._own(made("planish_model_load", saved, len(saved), OUT)[1])
+    model.report = report
+    return model
+
+
+def load_model(path: str | os.PathLike) -> Model:
+    """Loads a model that `Model.save` or any other binding has saved."""
+    return Model._own(made("planish_model_load_file", path_of(path), OUT)[1])
+
+
+def model(
+    mesh: Mesh | str | os.PathLike,
+    tolerance: float = 1e-3,
+    family: str = "auto",
+    *,
+    absolute: bool = False,
+    progress: ProgressCallback | None = None,
+    **model_options: Any,
+) -> Model:
+    """A watertight model within a tolerance of any mesh (or of the mesh in a file): closed meshes become solids.
+
+    tolerance: the largest distance allowed between a node and the model, as a fraction of the diagonal of the mesh's box,
+        or in its units if `absolute`.
+    family: "auto" takes one chart where one serves, else patches with one tangent plane along their edges.
+    model_options: those of `planish_model_options`, such as ``patches``.
+
+    ``model.report`` tells how it went, also the volume beside the mesh's, the largest normal jump and gap; its ``errors``,
+    ``faces`` and ``uv`` say for each node of the mesh how far it is and where it went.
+    """
+    if not isinstance(mesh, Mesh):
+        mesh = read_mesh(mesh)
+    long, report = LongCall(progress), report_record("model_report")
+    faces, uv, errors = np.empty(mesh.n_points, np.uint32), np.empty((mesh.n_points, 2)), np.empty(mesh.n_points)
+    filled = dict(
+        long.fields("model_options"),
+        tolerance=tolerance,
+        tolerance_scale="absolute" if absolute else "relative",
+        family=family,
+        out_faces=faces,
+        out_uv=uv,
+        out_errors=errors,
+    )
+    record = options("model_options", model_options, **filled)
+    arguments = ("planish_model_fit", mesh, by_reference(record), OUT, by_reference(report))
+    status, handle = made(*arguments, run=long)
+    fitted = Model._own(handle)
+    fitted.report = Report(report, status)
+    fitted.report.faces, fitted.report.uv, fitted.report.errors = map(read_only, (faces, uv, errors))
+    return fitted
