@@ -1,0 +1,193 @@
+"""The objects without a window: freecadcmd headless.py. Exits with 1 on the first failure.
+
+FreeCAD ends with 0 after an uncaught exception and sits in its console otherwise, hence the end of this file.
+"""
+
+import math
+import os
+import sys
+import tempfile
+import time
+import traceback
+
+import FreeCAD
+import numpy as np
+import Part
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import shapes  # noqa: E402
+from freecad.Planish import features  # noqa: E402
+
+
+def mesh_object(document, mesh, name="Scan"):
+    obj = document.addObject("Mesh::Feature", name)
+    obj.Mesh = mesh
+    return obj
+
+
+def made(document, kind, **values):
+    obj = features.make(kind, **values)
+    document.recompute()
+    return obj
+
+
+def fit_surface(document):
+    source = mesh_object(document, shapes.sheet())
+    face = made(document, "FitSurface", Source=source, Tolerance=0.1)
+    assert face.Shape.ShapeType == "Face" and face.Shape.isValid() and face.State == ["Up-to-date"], face.State
+    assert 0 < face.MaxError.Value <= 0.1 and face.ControlPoints > 0 and face.Status
+    area = face.Proxy.result.area()
+    assert abs(face.Shape.Area - area) <= 1e-3 * area, (face.Shape.Area, area)
+    nodes = [point.Vector for point in source.Mesh.Points[::50]]
+    distance = max(face.Shape.distToShape(Part.Vertex(node))[0] for node in nodes)
+    assert distance <= face.MaxError.Value * 1.001 + 1e-6, distance
+
+    # parametric: another tolerance, another family, a moved node
+    face.Tolerance = 1.0
+    document.recompute()
+    assert 0.1 < face.MaxError.Value <= 1.0
+    face.Family = "pht"
+    document.recompute()
+    assert face.Shape.isValid() and face.MaxError.Value <= 1.0
+    before = face.MaxError.Value
+    mesh = source.Mesh.copy()
+    mesh.setPoint(100, mesh.Points[100].Vector + FreeCAD.Vector(0, 0, 0.5))
+    source.Mesh = mesh
+    source.touch()
+    document.recompute()
+    assert face.MaxError.Value != before
+
+    # a missed tolerance warns and keeps the best shape
+    face.Family, face.Tolerance = "tensor", 1e-7
+    document.recompute()
+    assert face.Shape.isValid() and face.MaxError.Value > 1e-7 and "Up-to-date" in face.State
+    face.Tolerance = 0.5
+    document.recompute()
+    return source, face
+
+
+def afterwards(face):
+    """What Part does with the face: offset, extrusion, thickness, cut. Returns what failed."""
+    failed = []
+    shape = face.Shape
+    tries = {
+        "offset": lambda: shape.makeOffsetShape(1.0, 0.01),
+        "extrude": lambda: shape.extrude(FreeCAD.Vector(0, 0, 20)),
+        "cut with a cylinder": lambda: shape.cut(
+            Part.makeCylinder(8, 60, FreeCAD.Vector(50, 30, -30), FreeCAD.Vector(0, 0, 1))
+        ),
+        "thicken": lambda: shape.makeOffsetShape(1.0, 0.01, fill=True),
+    }
+    for name, attempt in tries.items():
+        try:
+            if attempt().isNull():
+                failed.append(name)
+        except Exception as error:
+            failed.append(f"{name}: {error}")
+    return failed
+
+
+def solid_from_mesh(document):
+    if "SolidFromMesh" not in features.KINDS:
+        return None
+    source = mesh_object(document, shapes.ball(), "Ball")
+    solid = made(document, "SolidFromMesh", Source=source, Tolerance=0.2)
+    assert solid.Shape.isValid() and solid.Shape.ShapeType == "Solid", (solid.Shape.ShapeType, solid.State)
+    volume = 4 / 3 * math.pi * 20**3
+    # the mesh's facets lie inside the ball: its sagitta of 20 (1 - cos(pi / 40)) = 0.06 costs 1 %
+    assert abs(solid.Shape.Volume - volume) <= 0.02 * volume, solid.Shape.Volume
+    return solid
+
+
+def skin(document):
+    sections = []
+    for number in range(6):
+        if number % 2:
+            curve = Part.Wire(Part.makeCircle(10 + 3 * math.sin(number), FreeCAD.Vector(0, 0, 8 * number)))
+        else:
+            turns = np.linspace(0, 2 * math.pi, 17 + 5 * number)
+            radius = 10 + number
+            curve = Part.makePolygon(
+                [FreeCAD.Vector(radius * math.cos(a), radius * math.sin(a), 8 * number) for a in turns]
+            )
+        section = document.addObject("Part::Feature", "Section")
+        section.Shape = curve
+        sections.append(section)
+    obj = made(document, "Skin", Sections=sections, Tolerance=0.05)
+    assert obj.Shape.isValid() and obj.MaxError.Value <= 0.05, (obj.MaxError, obj.State)
+    return obj
+
+
+def creased(document):
+    source = mesh_object(document, shapes.open_box(), "Control")
+    obj = made(document, "SmoothCreased", Source=source, SharpAngle=100)
+    assert obj.Mesh.CountPoints > 8 and obj.State == ["Up-to-date"]
+    mesh = source.Mesh.copy()
+    mesh.setPoint(0, mesh.Points[0].Vector + FreeCAD.Vector(-5, -5, -5))
+    surface = obj.Proxy.surface
+    source.Mesh = mesh
+    source.touch()
+    started = time.perf_counter()
+    document.recompute()
+    print(f"a moved node is followed in {time.perf_counter() - started:.3f} s")
+    assert obj.Proxy.surface is surface, "only control points move"
+    return obj
+
+
+def deviation(document, source, face):
+    obj = made(document, "Deviation", Fitted=face)
+    assert len(obj.Distances) == source.Mesh.CountPoints and len(obj.LargestPlaces) == 3
+    assert obj.LargestInside.Value <= 0 <= obj.LargestOutside.Value
+    assert max(obj.LargestOutside.Value, -obj.LargestInside.Value) <= face.MaxError.Value + 1e-9
+    assert obj.ShareWithin == 1.0
+    return obj
+
+
+def errors_are_sentences(document):
+    """An open fit of a closed mesh marks the object and says why; nothing else breaks."""
+    source = mesh_object(document, shapes.ball(), "Closed")
+    obj = made(document, "FitSurface", Source=source, Tolerance=0.1)
+    assert "Invalid" in obj.State, obj.State
+    document.removeObject(obj.Name)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        document = FreeCAD.newDocument("objects")
+        source, face = fit_surface(document)
+        print("afterwards, failed:", afterwards(face) or "nothing")
+        solid = solid_from_mesh(document)
+        skin(document)
+        decimated = made(document, "Decimate", Source=source, Nodes=150)
+        assert decimated.Mesh.CountPoints == 150
+        creased(document)
+        deviation(document, source, face)
+        errors_are_sentences(document)
+        step = os.path.join(folder, "face.step")
+        export = made(document, "ExportSTEP", Fitted=face, Path=step)
+        assert export.Faces == 1 and Part.read(step).isValid()
+
+        # everything comes back from a file
+        path = os.path.join(folder, "objects.FCStd")
+        document.saveAs(path)
+        name, error = face.Name, face.MaxError.Value
+        FreeCAD.closeDocument(document.Name)
+        document = FreeCAD.openDocument(path)
+        face = document.getObject(name)
+        assert isinstance(face.Proxy, features.FitSurface)
+        assert abs(face.MaxError.Value - error) <= 1e-6 * error, "FreeCAD saves numbers as text"
+        face.Tolerance = 0.2
+        document.recompute()
+        assert face.MaxError.Value <= 0.2 and face.Shape.isValid()
+        print("solid:", "not tried" if solid is None else "valid")
+    print("headless: all objects pass")
+
+
+try:
+    main()
+except BaseException:
+    traceback.print_exc()
+    sys.stdout.flush()
+    os._exit(1)
+sys.stdout.flush()
+os._exit(0)
