@@ -1114,8 +1114,8 @@ module planish_records
     integer(c_size_t) :: max_cells = 200000 !! Most cells of all patches of a component
     integer(c_size_t) :: min_samples = 6 !! A cell with fewer samples is not split
     integer(c_size_t) :: patches = 40 !! About how many patches a base complex has
-    !> What tolerance is measured in: 0 (default) the diagonal of the mesh's box, 1 model units
-    integer(c_int32_t) :: tolerance_scale = 0
+    !> A planish_tolerance_scale; PLANISH_TOLERANCE_SCALE_RELATIVE (default): to the diagonal of the mesh's box
+    integer(c_int32_t) :: tolerance_scale = PLANISH_TOLERANCE_SCALE_RELATIVE
     integer(c_int32_t) :: family = PLANISH_MODEL_FAMILY_AUTO !! A planish_model_family
     integer(c_int32_t) :: layout = PLANISH_MODEL_LAYOUT_AUTO !! A planish_model_layout, for patches
     !> Level of the cells to start from, 1 to 8; 0 (default) takes 3 over a cube and 2 over a base complex

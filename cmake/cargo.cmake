@@ -104,6 +104,20 @@ add_custom_target(
   USES_TERMINAL VERBATIM
   COMMENT "cargo build (${_profile})")
 
+# The command line tool needs crates that the library does not, so it is built on its own, after the library
+if(PLANISH_TOOL)
+  set(PLANISH_TOOL_FILE "${_cargo_out}/planish${CMAKE_EXECUTABLE_SUFFIX}")
+  add_custom_target(
+    planish_tool ALL
+    COMMAND ${CMAKE_COMMAND} -E env --unset=MAKEFLAGS "CARGO_TARGET_DIR=${_target_dir}" ${PLANISH_CARGO} build
+            --locked --package planish --bin planish --features cli --profile ${_profile} ${_target_flag} ${_more_flags}
+    BYPRODUCTS "${PLANISH_TOOL_FILE}"
+    WORKING_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}"
+    USES_TERMINAL VERBATIM
+    COMMENT "cargo build of the command line tool (${_profile})")
+  add_dependencies(planish_tool planish_cargo)
+endif()
+
 # What a program needs beside the static library: rustc says so for any platform
 file(WRITE "${CMAKE_CURRENT_BINARY_DIR}/nothing.rs" "")
 execute_process(

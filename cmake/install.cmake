@@ -21,6 +21,10 @@ else()
 endif()
 install(FILES "${PLANISH_LIB_DIR}/${PLANISH_STATIC_FILE}" DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT Development)
 
+if(PLANISH_TOOL)
+  install(PROGRAMS "${PLANISH_TOOL_FILE}" DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT Runtime)
+endif()
+
 # pkg-config: paths start from the file itself, so `cmake --install --prefix` and a moved tree stay right
 file(RELATIVE_PATH PLANISH_PC_PREFIX "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" "${CMAKE_INSTALL_PREFIX}")
 foreach(_kind LIBDIR INCLUDEDIR)

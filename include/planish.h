@@ -3049,7 +3049,7 @@ typedef struct planish_model_options {
      */
     size_t patches;
     /**
-     * What tolerance is measured in: 0 (default) the diagonal of the mesh's box, 1 model units.
+     * A planish_tolerance_scale; PLANISH_TOLERANCE_SCALE_RELATIVE (default): to the diagonal of the mesh's box.
      */
     uint32_t tolerance_scale;
     /**

@@ -66,10 +66,15 @@ pub fn text(api: &Api) -> String {
             text.push_str(&format!("    (\"{}\", \"{name}\"): \"{}\",\n", function.name, choice.enumeration));
         }
     }
-    text.push_str("}\n\n#: Arrays that are not of doubles: function, argument, what they are made of.\nELEMENTS = {\n");
+    text.push_str(
+        "}\n\n#: Arrays that are not of doubles: function, argument, what they are made of.\nELEMENTS = {\n",
+    );
     for function in &api.functions {
-        for argument in function.arguments.iter().filter(|argument| matches!(argument.role, Role::Array { .. })) {
-            if let Base::Number(number @ ("size_t" | "uint32_t" | "uint8_t" | "int32_t")) = &argument.of.base {
+        for argument in
+            function.arguments.iter().filter(|argument| matches!(argument.role, Role::Array { .. }))
+        {
+            if let Base::Number(number @ ("size_t" | "uint32_t" | "uint8_t" | "int32_t")) = &argument.of.base
+            {
                 let (function, argument) = (&function.name, &argument.name);
                 text.push_str(&format!("    (\"{function}\", \"{argument}\"): {},\n", self::number(number)));
             }
