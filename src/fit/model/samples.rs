@@ -32,10 +32,10 @@ impl NodePlaces<'_> {
                 (direction != DVec3::ZERO).then(|| cube_place(direction))
             }
             Self::Patches(places) => {
-                let quad = places[nodes[0] as usize]?.quad;
+                let Place { quad, uv: near } = places[nodes[0] as usize]?;
                 let mut uv = DVec2::ZERO;
                 for (&node, &share) in nodes.iter().zip(shares) {
-                    uv += share * layout.unfold(quad, places[node as usize]?)?;
+                    uv += share * layout.unfold(quad, places[node as usize]?, near)?;
                 }
                 Some(layout.cross(quad, uv))
             }
