@@ -186,7 +186,7 @@ impl Sagittas {
     }
 
     /// By how much a facet may be missed.
-    fn of(&self, triangle: usize) -> f64 {
+    pub fn of(&self, triangle: usize) -> f64 {
         if self.is_sharp[triangle] { 0.0 } else { self.heights[triangle] }
     }
 }

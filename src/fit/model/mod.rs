@@ -78,7 +78,8 @@ pub fn fit_over_layout(
         (level, _) => level,
     };
     let (tolerance, is_raised) = options.tolerance.absolute(&mesh.bounds());
-    let sagittas = triangle_sagittas(mesh).heights;
+    let facets = triangle_sagittas(mesh);
+    let sagittas: Vec<f64> = (0..mesh.triangles().len()).map(|triangle| facets.of(triangle)).collect();
     let samples = Samples::new(mesh, places, layout, &sagittas);
     super::common::checks::check_count(samples.nodes.len())?;
     let mut refinement = Refinement {
