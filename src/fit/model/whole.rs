@@ -15,7 +15,7 @@ use crate::failure::Classify;
 use crate::fit::common::report::{FitReport, Remarks, Tolerance, ToleranceScale};
 use crate::fit::pht::{self, PhtOptions};
 use crate::layout::Layout;
-use crate::layout::of_mesh::{LayoutKind, MeshLayoutOptions, layout_of_mesh};
+use crate::layout::of_mesh::{LayoutKind, MeshLayout, MeshLayoutError, MeshLayoutOptions, layout_of_mesh};
 use crate::mesh::Mesh;
 use crate::model::{FaceId, Form, FormOptions, Model, PatchModel, Patchwork, of_patches, of_surface};
 use crate::parameterize::sphere::{SphereOptions, map_to_sphere};
@@ -236,8 +236,7 @@ fn over_complex(
     options: &MeshModelOptions,
     control: &mut Control,
 ) -> Result<Component, ModelFitError> {
-    let layout = options.layout.with_kind(LayoutKind::Complex);
-    let made = control.within(0.0, MAP_SHARE, |control| layout_of_mesh(&body.mesh, &layout, control))?;
+    let made = control.within(0.0, MAP_SHARE, |control| complex(&body.mesh, &options.layout, control))?;
     let places = NodePlaces::Patches(made.map.places());
     let fit = control.within(MAP_SHARE, 1.0, |control| {
         fit_over_layout(&body.mesh, &made.layout, places, &options.fit, control)
@@ -253,6 +252,39 @@ fn over_complex(
         fit: fit.report.clone(),
     };
     Ok((Piece { layout: made.layout, surfaces: fit.surfaces.clone() }, fit, report))
+}
+
+/// Times that the number of patches is doubled where a layout folds nodes.
+const DOUBLINGS: u32 = 2;
+/// Nodes a patch: fewer say too little of where it lies.
+const NODES_PER_PATCH: usize = 8;
+
+/// A base complex; where it folds nodes, the one of twice or four times the patches that folds fewest.
+fn complex(
+    mesh: &Mesh,
+    options: &MeshLayoutOptions,
+    control: &mut Control,
+) -> Result<MeshLayout, MeshLayoutError> {
+    let options = options.with_kind(LayoutKind::Complex);
+    let share = |attempt: u32| f64::from(attempt) / f64::from(DOUBLINGS + 1);
+    let mut best = control.within(0.0, share(1), |control| layout_of_mesh(mesh, &options, control))?;
+    for attempt in 1..=DOUBLINGS {
+        let patches = options.patches.saturating_mul(1 << attempt);
+        if best.report.folded_nodes == 0 || patches.saturating_mul(NODES_PER_PATCH) > mesh.points().len() {
+            break;
+        }
+        let more = options.with_patches(patches);
+        let made = control.within(share(attempt), share(attempt + 1), |control| {
+            layout_of_mesh(mesh, &more, control)
+        });
+        match made {
+            Ok(made) if made.report.folded_nodes < best.report.folded_nodes => best = made,
+            Err(MeshLayoutError::Cancelled(cancelled)) => return Err(cancelled.into()),
+            // the first will do
+            _ => {}
+        }
+    }
+    Ok(best)
 }
 
 /// The reports of all components in one.
