@@ -1112,8 +1112,9 @@ module planish_records
     !> Weight of the plate energy of each cell of a patch, mapped to the unit cell
     real(c_double) :: smoothing = 1e-4_c_double
     integer(c_size_t) :: max_cells = 200000 !! Most cells of all patches of a component
-    integer(c_size_t) :: min_samples = 6 !! A cell with fewer samples is not split
-    integer(c_size_t) :: patches = 40 !! About how many patches a base complex has
+    integer(c_size_t) :: min_samples = 6 !! A cell with fewer samples is not split, as long as others help
+    !> About how many patches a base complex has; up to four times as many where it would fold nodes
+    integer(c_size_t) :: patches = 40
     !> A planish_tolerance_scale; PLANISH_TOLERANCE_SCALE_RELATIVE (default): to the diagonal of the mesh's box
     integer(c_int32_t) :: tolerance_scale = PLANISH_TOLERANCE_SCALE_RELATIVE
     integer(c_int32_t) :: family = PLANISH_MODEL_FAMILY_AUTO !! A planish_model_family
@@ -1125,7 +1126,7 @@ module planish_records
     integer(c_int32_t) :: foot_steps = 1 !! Steps of the samples towards their foot points in each round
     !> Whether cells with few samples are held to the mesh between them: 0 or 1 (default)
     integer(c_int32_t) :: guard = 1
-    integer(c_int32_t) :: max_rounds = 14 !! Most rounds of fitting and refining
+    integer(c_int32_t) :: max_rounds = 20 !! Most rounds of fitting and refining
     integer(c_int32_t) :: sweeps = 300 !! Most sweeps over all nodes while a base complex is laid
     integer(c_int32_t) :: level_spread = 1 !! By how much the levels of the cells in one face may differ
     integer(c_int32_t) :: thread_count = 0 !! Threads that share the work; 0 (default) for all cores

@@ -3041,11 +3041,11 @@ typedef struct planish_model_options {
      */
     size_t max_cells;
     /**
-     * A cell with fewer samples is not split. Default 6.
+     * A cell with fewer samples is not split, as long as others help. Default 6.
      */
     size_t min_samples;
     /**
-     * About how many patches a base complex has. Default 40.
+     * About how many patches a base complex has; up to four times as many where it would fold nodes. Default 40.
      */
     size_t patches;
     /**
@@ -3081,7 +3081,7 @@ typedef struct planish_model_options {
      */
     uint32_t guard;
     /**
-     * Most rounds of fitting and refining. Default 14.
+     * Most rounds of fitting and refining. Default 20.
      */
     uint32_t max_rounds;
     /**

@@ -65,7 +65,7 @@ record! {
         pub smoothing: f64 = core.smoothing,
         /// Most cells of all patches of a component. Default 200000.
         pub max_cells: usize = core.max_cells,
-        /// A cell with fewer samples is not split. Default 6.
+        /// A cell with fewer samples is not split, as long as others help. Default 6.
         pub min_samples: usize = core.min_samples,
         /// About how many patches a base complex has; up to four times as many where it would fold nodes. Default 40.
         pub patches: usize = layout_core.patches,
@@ -85,7 +85,7 @@ record! {
         pub foot_steps: u32 = core.foot_steps,
         /// Whether cells with few samples are held to the mesh between them: 0 or 1 (default).
         pub guard: u32 = 1,
-        /// Most rounds of fitting and refining. Default 14.
+        /// Most rounds of fitting and refining. Default 20.
         pub max_rounds: u32 = core.max_rounds as u32,
         /// Most sweeps over all nodes while a base complex is laid. Default 300.
         pub sweeps: u32 = layout_core.sweeps as u32,

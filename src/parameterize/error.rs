@@ -8,7 +8,9 @@ use crate::linalg::LuError;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ParameterizeError {
     /// The mesh has no boundary.
-    #[error("the mesh is closed; make a model of it (planish_model_fit), or cut it open along a path of edges first")]
+    #[error(
+        "the mesh is closed; make a model of it (planish_model_fit), or cut it open along a path of edges first"
+    )]
     Closed,
     /// The mesh falls apart.
     #[error("the mesh has {count} components; split it and parameterize each of them")]

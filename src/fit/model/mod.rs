@@ -93,6 +93,8 @@ pub fn fit_over_layout(
         before: Vec::new(),
         rounds: 0,
         stuck: 0,
+        least_samples: options.min_samples,
+        idle_limit: refine::MOST_IDLE,
     };
     let outcome = run(&mut refinement, control)?;
     let mut report = report::measure(&refinement, &outcome, control)?;

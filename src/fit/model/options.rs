@@ -20,7 +20,7 @@ pub struct ModelOptions {
     pub max_level: u32,
     /// Most cells of all patches.
     pub max_cells: usize,
-    /// A cell with fewer samples is not split: nodes, centroids of facets, middles of edges.
+    /// A cell with fewer samples is not split, as long as others help: nodes, centroids of facets, middles of edges.
     pub min_samples: usize,
     /// Levels by which cells of a patch that share an edge may differ; 0 for any number.
     pub grade: u32,
@@ -44,7 +44,7 @@ impl Default for ModelOptions {
             grade: 1,
             foot_steps: 1,
             guard: true,
-            max_rounds: 14,
+            max_rounds: 20,
         }
     }
 }

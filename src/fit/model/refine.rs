@@ -42,6 +42,10 @@ pub struct Refinement<'a> {
     pub rounds: usize,
     /// Rounds in a row without a cell that can be split.
     pub stuck: usize,
+    /// Cells with fewer samples are not split.
+    pub least_samples: usize,
+    /// Rounds without gain before the fit is given up.
+    pub idle_limit: usize,
 }
 
 /// One round: the surfaces and where the samples lie on them.
@@ -69,10 +73,10 @@ impl Samples {
     }
 }
 
-/// Rounds that only move samples before a fit is given up.
+/// Rounds that only move samples before cells with fewer of them are split, or a fit is given up.
 const MOST_STUCK: usize = 3;
-/// Rounds without gain before a fit is given up.
-const MOST_IDLE: usize = 3;
+/// Rounds without gain before a fit is given up, while cells of no fewer samples are split.
+pub const MOST_IDLE: usize = 3;
 
 impl Rounds for Refinement<'_> {
     type Round = Round;
@@ -102,17 +106,19 @@ impl Rounds for Refinement<'_> {
         if self.rounds >= self.options.max_rounds {
             return Next::Stop(StopReason::Limit);
         }
-        if standing.idle >= MOST_IDLE {
+        if standing.idle >= self.idle_limit && self.stuck == 0 {
             return Next::Stop(StopReason::Stagnated);
         }
         match self.split(round) {
             Ok(()) => self.stuck = 0,
-            Err(stop) => {
-                self.stuck += 1;
-                if self.stuck >= MOST_STUCK {
-                    return Next::Stop(stop);
-                }
+            Err(_) if self.stuck + 1 < MOST_STUCK => self.stuck += 1,
+            // moving samples does not help any more: cells with few of them are held by guards
+            Err(StopReason::DataExhausted) if self.least_samples > 1 => {
+                self.stuck = 0;
+                self.least_samples /= 2;
+                self.idle_limit = standing.idle + MOST_IDLE;
             }
+            Err(stop) => return Next::Stop(stop),
         }
         Next::Round
     }
@@ -184,6 +190,7 @@ impl Refinement<'_> {
         let mut count = before;
         let mut first = 0;
         let mut numbers = cells.into_iter().peekable();
+        let least_samples = self.least_samples;
         for mesh in &mut self.meshes {
             let leaves: Vec<NodeId> = mesh.leaves().collect();
             let of_mesh: Vec<Rough> =
@@ -195,7 +202,7 @@ impl Refinement<'_> {
                 if fits { Ok(()) } else { Err(StopReason::Limit) }
             };
             let grade = if options.grade == 0 { MAX_LEVEL } else { options.grade };
-            for rough in of_mesh.into_iter().filter(|rough| rough.samples >= options.min_samples) {
+            for rough in of_mesh.into_iter().filter(|rough| rough.samples >= least_samples) {
                 let leaf = leaves[rough.cell - first];
                 // a neighbour may have split it
                 if mesh.is_leaf(leaf)

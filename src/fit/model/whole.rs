@@ -274,9 +274,8 @@ fn complex(
             break;
         }
         let more = options.with_patches(patches);
-        let made = control.within(share(attempt), share(attempt + 1), |control| {
-            layout_of_mesh(mesh, &more, control)
-        });
+        let made = control
+            .within(share(attempt), share(attempt + 1), |control| layout_of_mesh(mesh, &more, control));
         match made {
             Ok(made) if made.report.folded_nodes < best.report.folded_nodes => best = made,
             Err(MeshLayoutError::Cancelled(cancelled)) => return Err(cancelled.into()),
