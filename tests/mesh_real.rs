@@ -2,8 +2,8 @@
 
 mod common;
 
-use planish::export::obj;
-use planish::mesh::{Mesh, MeshOptions, MeshRepairs, read};
+use planish::export::mesh::{Encoding, write};
+use planish::mesh::{Format, Mesh, MeshOptions, MeshRepairs, read};
 use std::path::Path;
 
 fn mesh(path: &Path) -> (Mesh, MeshRepairs) {
@@ -15,7 +15,7 @@ fn samples_come_back_as_they_were_written() {
     for name in ["bust", "bracket", "rocker", "limb"] {
         let Some(sample) = common::mesh(name) else { continue };
         let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.obj"));
-        obj::write(&sample, &path).unwrap();
+        write(&sample, &path, Format::Obj, Encoding::Text).unwrap();
         let (back, repairs) = mesh(&path);
         assert!(repairs.is_empty(), "{name}: {repairs:?}");
         assert_eq!((back.points(), back.triangles()), (sample.points(), sample.triangles()), "{name}");

@@ -1,6 +1,6 @@
 //! What a surface is called, and how large its units are.
 
-use super::arguments::{choice, deref, deref_mut, text, write_text};
+use super::arguments::{choice, deref_mut, text, write_text};
 use super::guard::guard;
 use super::planish_status;
 use super::surface::{planish_surface, query_surface};

@@ -1,7 +1,7 @@
 //! Quad layouts.
 
 use super::arguments::{
-    ArgumentError, Record, ReportOut, array_len, choice, copy, deref, options, out, rows_mut,
+    ArgumentError, ReportOut, array_len, choice, copy, deref, options, out, rows_mut,
 };
 use super::guard::guard;
 use super::mesh::planish_mesh;

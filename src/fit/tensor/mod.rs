@@ -28,7 +28,7 @@ use crate::control::Control;
 use crate::geometry::Bounds;
 use crate::mesh::Mesh;
 use crate::surface::tensor::TensorSurface;
-use crate::surface::{Domain, Region, Trims};
+use crate::surface::{Domain, Region};
 use glam::DVec2;
 use std::time::Instant;
 
