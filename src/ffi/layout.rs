@@ -1,8 +1,6 @@
 //! Quad layouts.
 
-use super::arguments::{
-    ArgumentError, ReportOut, array_len, choice, copy, deref, options, out, rows_mut,
-};
+use super::arguments::{ArgumentError, ReportOut, array_len, choice, copy, deref, options, out, rows_mut};
 use super::guard::guard;
 use super::mesh::planish_mesh;
 use super::model::PLANISH_NONE;

@@ -11,7 +11,10 @@
     clippy::missing_safety_doc,
     reason = "each function's documentation of its arguments is that section"
 )]
-#![allow(rustdoc::broken_intra_doc_links, reason = "the shapes of arrays are told in brackets, for the header")]
+#![allow(
+    rustdoc::broken_intra_doc_links,
+    reason = "the shapes of arrays are told in brackets, for the header"
+)]
 #![allow(clippy::too_many_arguments, reason = "C passes an array as two arguments")]
 
 #[macro_use]

@@ -18,9 +18,8 @@ pub use options::{FieldGrid, FieldOptions};
 use super::common::checks::{check_parameters, check_values};
 use super::common::errors::{DataErrors, data_errors};
 use super::common::report::{FitReport, Goal, Remarks, StopReason, Tolerance};
-use super::common::samples::interior_places;
+use super::common::samples::{InteriorPlace, interior_places};
 use super::common::uniform::Energy;
-use super::common::uniform::energy::FreeFunctions;
 use super::common::uniform::grid::{UniformBasis, UniformGrid};
 use super::common::uniform::normal_equations::{NormalEquations, Samples, TensorBasis};
 use super::common::{FitError, NodeParameters, Regularize, node_parameters, trims};
@@ -140,11 +139,7 @@ impl FieldFitter {
         };
         check_parameters(&known_uv)?;
         let data_box = Domain::around(uv.iter().copied());
-        let energy = match FreeFunctions::of(&known_uv, &data_box) {
-            FreeFunctions::None => options.energy,
-            FreeFunctions::Bilinear => Energy::Plate,
-            FreeFunctions::Linear => return Err(FitError::Singular.into()),
-        };
+        let energy = options.energy.determining(&known_uv, &data_box)?;
         control.enter(Stage::Fit);
         let counts = match options.grid {
             FieldGrid::Fixed(counts) => counts,
@@ -157,28 +152,18 @@ impl FieldFitter {
         ];
         let [u, v] = grid.map(|grid| UniformBasis { grid, ends: options.ends });
         let basis = TensorBasis { u, v };
-        let places = match mesh {
-            None => Vec::new(),
-            Some(mesh) => {
-                let is_known = |node: usize| options.is_known.is_none_or(|is_known| is_known[node]);
-                let places = interior_places(mesh, &uv, &grid, options.weights);
-                places.filter(|place| place.nodes.into_iter().all(is_known)).collect()
-            }
-        };
+        let places = mesh.map_or(Vec::new(), |mesh| known_places(mesh, &uv, &grid, options));
         let data = right_side::Data::new(&uv, known.as_deref(), options.weights, places, options.smoothing);
         let (factor, right_side) = control.watch(|pool, watch| -> Result<_, FitError> {
             let factor = factor(&basis, &data, options.smoothing, energy, pool, watch)?;
             Ok((factor, RightSide::new(&basis, data, pool)))
         })??;
         control.report(1.0, f64::NAN)?;
-        let knots = |grid: &UniformGrid, axis| {
-            grid.knot_vector().map_err(|_| FitError::DegenerateRange { axis, at: grid.start })
-        };
-        let knots = [knots(&grid[0], 'u')?, knots(&grid[1], 'v')?];
+        let knots = knots_of(&grid)?;
         let ((u0, u1), (v0, v1)) = (knots[0].domain(), knots[1].domain());
         let domain = Domain { min: DVec2::new(u0, v0), max: DVec2::new(u1, v1) };
-        let region =
-            Region { data_box: Some(data_box), trims: trims(mesh, &uv, &domain), ..Region::default() };
+        let trims = trims(mesh, &uv, &domain);
+        let region = Region { data_box: Some(data_box), trims, ..Region::default() };
         Ok(Self {
             uv,
             known,
@@ -340,6 +325,26 @@ fn known_nodes(uv: &[DVec2], options: &FieldOptions) -> Result<Option<Vec<u32>>,
         return Err(FitError::TooFew { count: known.len() });
     }
     Ok(Some(known))
+}
+
+/// Places inside triangles whose nodes all have values.
+fn known_places(
+    mesh: &Mesh,
+    uv: &[DVec2],
+    grid: &[UniformGrid; 2],
+    options: &FieldOptions,
+) -> Vec<InteriorPlace> {
+    let is_known = |node: usize| options.is_known.is_none_or(|is_known| is_known[node]);
+    let places = interior_places(mesh, uv, grid, options.weights);
+    places.filter(|place| place.nodes.into_iter().all(is_known)).collect()
+}
+
+/// The knots of a grid; a range of a few roundings has no room for them.
+fn knots_of([u, v]: &[UniformGrid; 2]) -> Result<[KnotVector; 2], FitError> {
+    let knots = |grid: &UniformGrid, axis| {
+        grid.knot_vector().map_err(|_| FitError::DegenerateRange { axis, at: grid.start })
+    };
+    Ok([knots(u, 'u')?, knots(v, 'v')?])
 }
 
 /// Knots along one direction that so many nodes with values bear.

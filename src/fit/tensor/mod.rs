@@ -22,7 +22,6 @@ pub use options::{Knots, TensorOptions};
 
 use super::common::checks::{check_parameters, check_values};
 use super::common::report::{FitReport, Goal};
-use super::common::uniform::energy::FreeFunctions;
 use super::common::{FitError, Frame, Used, node_parameters};
 use crate::control::Control;
 use crate::geometry::Bounds;
@@ -154,11 +153,7 @@ impl<'a> Problem<'a> {
     ) -> Result<Self, FitError> {
         let bounds = Bounds::of_rows(values, dim);
         let data_box = Domain::around(uv.iter().copied());
-        let energy = match FreeFunctions::of(&uv, &data_box) {
-            FreeFunctions::None => options.energy,
-            FreeFunctions::Bilinear => Energy::Plate,
-            FreeFunctions::Linear => return Err(FitError::Singular),
-        };
+        let energy = options.energy.determining(&uv, &data_box)?;
         Ok(Self {
             goal: Goal::new(&options.tolerance, &bounds),
             least: f64::INFINITY,

@@ -1,6 +1,7 @@
 //! The energies that smooth a fit, as sums of products of one-dimensional matrices.
 
 use super::grid::{Banded4, UniformBasis};
+use crate::fit::common::FitError;
 use crate::surface::Domain;
 use glam::DVec2;
 
@@ -23,6 +24,15 @@ pub struct EnergyTerm {
 }
 
 impl Energy {
+    /// This energy, or the plate's where this one leaves a surface over such data undetermined.
+    pub(in crate::fit) fn determining(self, uv: &[DVec2], data: &Domain) -> Result<Self, FitError> {
+        match FreeFunctions::of(uv, data) {
+            FreeFunctions::None => Ok(self),
+            FreeFunctions::Bilinear => Ok(Self::Plate),
+            FreeFunctions::Linear => Err(FitError::Singular),
+        }
+    }
+
     /// The energy over the product of two bases.
     pub fn terms(self, u: &UniformBasis, v: &UniformBasis) -> Vec<EnergyTerm> {
         let term = |weight, u, v| EnergyTerm { weight, u, v };
