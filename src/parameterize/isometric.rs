@@ -180,21 +180,9 @@ pub(super) fn in_unit_square(mesh: &Mesh, uv: &[DVec2]) -> Vec<DVec2> {
     let border = &mesh.loops()[outer_loop(mesh).unwrap_or(0)];
     let mark = uv[border[landmark(mesh, border)] as usize];
     let hull = convex_hull(border.iter().map(|&n| uv[n as usize]).collect());
-    let box_along = |direction: DVec2| {
-        let turn =
-            DMat2::from_cols(DVec2::new(direction.x, -direction.y), DVec2::new(direction.y, direction.x));
-        let (min, max) = hull
-            .iter()
-            .map(|&p| turn * p)
-            .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(min, max), p| (min.min(p), max.max(p)));
-        (turn, min, max - min)
-    };
-    let sides = hull.iter().zip(hull.iter().cycle().skip(1)).map(|(a, b)| (*b - *a).normalize_or_zero());
-    let boxes =
-        sides.filter(|side| *side != DVec2::ZERO).flat_map(|side| [box_along(side), box_along(side.perp())]);
     // a square may lie on either pair of sides
     let boxes: Vec<(DMat2, DVec2, DVec2)> =
-        boxes.filter(|(_, _, size)| size.x >= (1.0 - SAME) * size.y).collect();
+        rectangles(&hull).into_iter().filter(|(_, _, size)| size.x >= (1.0 - SAME) * size.y).collect();
     let least = boxes.iter().map(|(_, _, size)| size.element_product()).fold(f64::INFINITY, f64::min);
     let place = |(turn, min, size): &(DMat2, DVec2, DVec2)| (*turn * mark - *min) / size.x;
     let smallest = boxes.iter().filter(|(_, _, size)| size.element_product() <= (1.0 + SAME) * least);
@@ -204,6 +192,52 @@ pub(super) fn in_unit_square(mesh: &Mesh, uv: &[DVec2]) -> Vec<DVec2> {
     });
     let Some(&(turn, min, size)) = best else { return uv.to_vec() };
     uv.iter().map(|&p| (turn * p - min) / size.x).collect()
+}
+
+/// The rectangles around a convex polygon with a side along one of its own, each as it lies on either pair of sides: the
+/// turn that makes it upright, its corner and its size then. The points that touch the other sides move on around the
+/// polygon as the first side does (G. Toussaint, "Solving geometric problems with the rotating calipers", 1983).
+fn rectangles(hull: &[DVec2]) -> Vec<(DMat2, DVec2, DVec2)> {
+    let box_along = |direction: DVec2, touched: &[DVec2; 4]| {
+        let turn =
+            DMat2::from_cols(DVec2::new(direction.x, -direction.y), DVec2::new(direction.y, direction.x));
+        let (min, max) = touched
+            .iter()
+            .map(|&p| turn * p)
+            .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(min, max), p| (min.min(p), max.max(p)));
+        (turn, min, max - min)
+    };
+    let sides = hull.iter().zip(hull.iter().cycle().skip(1)).map(|(a, b)| (*b - *a).normalize_or_zero());
+    let mut farthest: Option<[usize; 4]> = None;
+    let boxes = sides.filter(|side| *side != DVec2::ZERO).flat_map(|side| {
+        let directions = [side, side.perp(), -side, -side.perp()];
+        let touched = match farthest {
+            None => directions.map(|direction| farthest_along(direction, hull)),
+            Some(before) => std::array::from_fn(|k| moved_on(before[k], directions[k], hull)),
+        };
+        farthest = Some(touched);
+        let points = touched.map(|k| hull[k]);
+        [box_along(side, &points), box_along(side.perp(), &points)]
+    });
+    boxes.collect()
+}
+
+/// The corner that lies farthest in a direction.
+fn farthest_along(direction: DVec2, hull: &[DVec2]) -> usize {
+    let along = |&k: &usize| direction.dot(hull[k]);
+    (0..hull.len()).max_by(|a, b| along(a).total_cmp(&along(b))).unwrap_or(0)
+}
+
+/// The same, from the one that did so before the direction turned counter-clockwise.
+fn moved_on(mut corner: usize, direction: DVec2, hull: &[DVec2]) -> usize {
+    for _ in 0..hull.len() {
+        let next = (corner + 1) % hull.len();
+        if !(direction.dot(hull[next]) >= direction.dot(hull[corner])) {
+            break;
+        }
+        corner = next;
+    }
+    corner
 }
 
 /// The corners of the convex hull, counter-clockwise (A. Andrew's monotone chain).
@@ -231,6 +265,33 @@ fn convex_hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
 mod tests {
     use super::*;
     use crate::parameterize::stretch;
+
+    #[test]
+    fn the_smallest_rectangle_has_no_smaller_one_along_any_side() {
+        let mut random = crate::samples::Random::new(11);
+        for count in [3, 4, 5, 17, 200] {
+            let points = (0..count).map(|_| DVec2::new(3.0 * random.signed(), random.signed())).collect();
+            let hull = convex_hull(points);
+            let area = |(_, _, size): &(DMat2, DVec2, DVec2)| size.element_product();
+            let least = rectangles(&hull).into_iter().min_by(|a, b| area(a).total_cmp(&area(b)));
+            let (turn, min, size) = least.unwrap();
+            let tol = 32.0 * f64::EPSILON * 4.0; // a few operations on numbers below four
+            for &p in &hull {
+                let inside = turn * p - min;
+                assert!(inside.cmpge(DVec2::splat(-tol)).all() && inside.cmple(size + tol).all(), "{inside}");
+            }
+            for (k, &a) in hull.iter().enumerate() {
+                let side = (hull[(k + 1) % hull.len()] - a).normalize();
+                let range = |direction: DVec2| {
+                    let along = hull.iter().map(|&p| direction.dot(p));
+                    let (low, high) =
+                        along.fold((f64::MAX, f64::MIN), |(low, high), x| (x.min(low), x.max(high)));
+                    high - low
+                };
+                assert!(range(side) * range(side.perp()) >= size.element_product() - 8.0 * tol, "side {k}");
+            }
+        }
+    }
 
     fn start(mesh: &Mesh) -> Vec<DVec2> {
         mesh.parameters().unwrap().to_vec()
