@@ -303,3 +303,65 @@ fn triangle_spreads(triangles: &[[u32; 3]], values: &[f64], dim: usize) -> Vec<f
     let largest = |nodes: &[u32; 3]| nodes.iter().map(|&n| spreads[n as usize]).fold(0.0, f64::max);
     triangles.iter().map(largest).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::control::Control;
+    use crate::fit::report::{Remarks, Tolerance};
+    use crate::fit::tensor::{Knots, TensorOptions, fit_mesh};
+    use crate::samples::grid;
+
+    /// A square folded along the line x = 1/2 so that its halves enclose an angle, over the unfolded square.
+    fn folded(degrees: f64, count: usize) -> Mesh {
+        let (places, triangles) = grid([count, count], 0.0, 1, |_| true);
+        let slope = degrees.to_radians();
+        let point = |p: &DVec2| {
+            let over = (p.x - 0.5).max(0.0);
+            DVec3::new(p.x.min(0.5) + over * slope.cos(), p.y, over * slope.sin())
+        };
+        let mut mesh = Mesh::new(places.iter().map(point).collect(), triangles).unwrap();
+        mesh.set_parameters(places).unwrap();
+        mesh
+    }
+
+    #[test]
+    fn facets_beside_a_sharp_edge_explain_nothing() {
+        for (degrees, is_sharp) in [(25.0, false), (35.0, true), (90.0, true), (170.0, true)] {
+            let sagittas = triangle_sagittas(&folded(degrees, 9));
+            // four columns of cells on both sides of the fold
+            assert_eq!(sagittas.is_sharp.contains(&true), is_sharp, "{degrees}");
+            let highest = sagittas.heights.iter().copied().fold(0.0, f64::max);
+            // the halves are flat: what does not look across a sharp edge sees no height at all
+            assert_eq!(highest <= 1e-12, is_sharp, "{degrees}: {highest}");
+        }
+    }
+
+    #[test]
+    fn a_smooth_surface_over_a_sharp_edge_is_remarked() {
+        for degrees in [40.0, 90.0] {
+            let mesh = folded(degrees, 5);
+            let tolerance = Tolerance { value: 1e-2, ..Tolerance::default() };
+            let options = TensorOptions { tolerance, knots: Knots::Uniform, ..TensorOptions::default() };
+            let report = fit_mesh(&mesh, &options, &mut Control::new(1)).unwrap().report;
+            let is_far = report.max_interior_error > report.tolerance;
+            assert_eq!(report.remarks.has(Remarks::ROUGH_BETWEEN_NODES), is_far, "{degrees}: {report:?}");
+            assert!(report.facet_sagitta <= report.max_interior_error);
+            assert!(report.facet_sagitta <= 1e-12, "{degrees}: {report:?}");
+        }
+        // an open cube of ten triangles: the surface bulges far between its corners
+        let corners =
+            (0..8).map(|k| DVec3::new((k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2) as f64)).collect();
+        let sides = [[0, 2, 3, 1], [0, 1, 5, 4], [1, 3, 7, 5], [3, 2, 6, 7], [2, 0, 4, 6]];
+        let halves = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+        let cube = Mesh::new(corners, halves).unwrap();
+        let tolerance = Tolerance { value: 1e-2, ..Tolerance::default() };
+        let options = TensorOptions { tolerance, knots: Knots::Uniform, ..TensorOptions::default() };
+        let report = fit_mesh(&cube, &options, &mut Control::new(1)).unwrap().report;
+        assert!(report.max_interior_error > 10.0 * report.tolerance, "{report:?}");
+        assert!(
+            report.remarks.has(Remarks::ROUGH_BETWEEN_NODES) && report.facet_sagitta == 0.0,
+            "{report:?}"
+        );
+    }
+}
