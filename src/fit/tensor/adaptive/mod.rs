@@ -119,7 +119,8 @@ impl Problem<'_> {
     /// The least of the nets that grow from several starts and meet the tolerance, or the first.
     fn grow_best(&self, fitter: &NetFitter, control: &mut Control) -> Result<Growth, FitError> {
         let limit = self.options.max_coefficients.min(self.uv.len());
-        let fits = |start: usize, limit: usize| (start + 3) * (start + 3) <= limit;
+        let fits =
+            |start: usize, limit: usize| (start + 3) * (start + 3) <= limit && start < self.options.max_grid;
         // a plain shape needs no more than one cell
         let mut best = fitter.try_one_cell(self.start(1)?, control)?;
         if best.stop == StopReason::ToleranceMet || !fits(STARTS[0], limit) {
