@@ -41,7 +41,7 @@ fn main() {
     let points: Vec<f64> = sheet.points().iter().flat_map(|p| (*p * 1.01).to_array()).collect();
 
     println!("{:14} {:>9} {:>9} {:>9}", "call", "ms", "asked", "ended");
-    let mut row = |call: &str, run: &(dyn Fn(&mut Control) + Sync)| {
+    let row = |call: &str, run: &(dyn Fn(&mut Control) + Sync)| {
         if name.as_ref().is_none_or(|name| name == call) {
             measure(call, run);
         }
@@ -106,15 +106,15 @@ fn measure(name: &str, run: &(dyn Fn(&mut Control) + Sync)) {
 
 /// From the flag, set after some time, to the end of the call; zero if it had ended before.
 fn until_ended(after: Duration, run: &(dyn Fn(&mut Control) + Sync)) -> Duration {
-    let flag = AtomicI32::new(0);
+    let flag = &AtomicI32::new(0);
     let (tell_end, end) = mpsc::channel();
     std::thread::scope(|scope| {
-        let set = scope.spawn(|| {
+        let set = scope.spawn(move || {
             let has_ended = end.recv_timeout(after).is_ok();
             flag.store(1, Ordering::Relaxed);
             (!has_ended).then(Instant::now)
         });
-        let _ = Control::new(2).with_cancel(&flag).host(run);
+        let _ = Control::new(2).with_cancel(flag).host(run);
         let ended = Instant::now();
         let _ = tell_end.send(());
         let set = set.join().expect("it only waits");
