@@ -89,7 +89,8 @@ TEST(Model, AnswersAsItsSurfaceDoes) {
   const std::vector<std::uint32_t> faces(2, 0);
   CHECK(model.eval(faces, uv, 2) == face.eval_derivatives(uv, 2));
   CHECK(model.normals(faces, uv) == face.normals(uv));
-  CHECK(model.curvatures(faces, uv) == face.curvatures(uv));
+  const auto bent = model.curvatures(faces, uv), own_bent = face.curvatures(uv);
+  for (std::size_t k = 0; k < uv.size(); ++k) CHECK(bent[k].k1 == own_bent[k].k1 && bent[k].k2 == own_bent[k].k2);
   const std::vector<planish::point3> points = {{0.5, 0.5, 1}, {0.3, 0.2, 0}};
   const planish::model::feet feet = model.project(points);
   const auto own = face.project(points);

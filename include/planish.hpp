@@ -1258,8 +1258,7 @@ class model {
   /// The places of the vertices.
   std::vector<point3> vertices() const {
     std::vector<point3> points(vertex_count());
-    detail::checked(
-        planish_model_copy_vertices(get(), points.empty() ? nullptr : points.front().data(), points.size()));
+    detail::checked(planish_model_copy_vertices(get(), detail::flat(points), points.size()));
     return points;
   }
 
@@ -1337,7 +1336,7 @@ class model {
     const std::size_t count = points.count();
     feet found{std::vector<std::uint32_t>(count), std::vector<point2>(count), std::vector<double>(count)};
     detail::checked(planish_model_project(get(), points.data(), count, &options, found.faces.data(),
-                                          count ? found.uv.front().data() : nullptr, found.distances.data()));
+                                          detail::flat(found.uv), found.distances.data()));
     return found;
   }
 

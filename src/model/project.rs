@@ -168,11 +168,15 @@ fn face_feet(model: &Model, face: FaceId) -> Result<FaceFeet, ProjectError> {
     Ok(FaceFeet { min, max, feet })
 }
 
-/// Whether one loop runs along the sides of a rectangle.
+/// Whether one loop runs along the sides of a rectangle, but for roundings of its p-curves.
 fn encloses_all(loops: &[Vec<DVec2>], min: DVec2, max: DVec2) -> bool {
-    let on_side = |uv: &DVec2| uv.x == min.x || uv.x == max.x || uv.y == min.y || uv.y == max.y;
-    matches!(loops, [polyline] if polyline.iter().all(on_side)
-        && [min, max, DVec2::new(min.x, max.y), DVec2::new(max.x, min.y)].iter().all(|corner| polyline.contains(corner)))
+    let near = 8.0 * f64::EPSILON * min.abs().max(max.abs());
+    let is_at = |a: DVec2, b: DVec2| (a - b).abs().cmple(near);
+    let on_side = |uv: &DVec2| is_at(*uv, min).any() || is_at(*uv, max).any();
+    let corners = [min, max, DVec2::new(min.x, max.y), DVec2::new(max.x, min.y)];
+    let [polyline] = loops else { return false };
+    polyline.iter().all(on_side)
+        && corners.iter().all(|&corner| polyline.iter().any(|&uv| is_at(uv, corner).all()))
 }
 
 impl Bound {
