@@ -280,7 +280,7 @@ const PIECES: usize = 8;
 #[cfg(test)]
 mod tests {
     use super::super::shapes::{
-        PIPE_HEIGHT, PIPE_RADIUS, circle, hollow_cube, pipe, rectangle, trimmed, wave,
+        PIPE_HEIGHT, PIPE_OFF, PIPE_RADIUS, circle, hollow_cube, pipe, rectangle, trimmed, wave,
     };
     use super::super::{Frame, of_parts};
     use super::*;
@@ -337,8 +337,7 @@ mod tests {
                 DVec2::new((radius - PIPE_RADIUS).max(0.0), (height - PIPE_HEIGHT).max(-height).max(0.0));
             let inside = (PIPE_RADIUS - radius).min(height).min(PIPE_HEIGHT - height);
             let exact = if inside > 0.0 { inside } else { out.length() };
-            // the edges are cubics 1e-9 off the circles
-            assert!((feet.distances[k] - exact).abs() < 1e-7, "{point} {exact} {}", feet.distances[k]);
+            assert!((feet.distances[k] - exact).abs() < PIPE_OFF, "{point} {exact} {}", feet.distances[k]);
         }
     }
 
