@@ -58,7 +58,9 @@ pub struct Round {
     pub free_count: usize,
     /// Samples by cell at their new places.
     by_cell: ByCell,
-    /// The larger of the nodes' error and half that of the other samples.
+    /// Of the nodes alone.
+    node_error: f64,
+    /// The larger of that and half the error of the other samples.
     error: f64,
 }
 
@@ -112,8 +114,8 @@ impl Rounds for Refinement<'_> {
         match self.split(round) {
             Ok(()) => self.stuck = 0,
             Err(_) if self.stuck + 1 < MOST_STUCK => self.stuck += 1,
-            // moving samples does not help any more: cells with few of them are held by guards
-            Err(StopReason::DataExhausted) if self.least_samples > 1 => {
+            // moving samples does not help the nodes any more: cells with few of them are held by guards
+            Err(StopReason::DataExhausted) if self.least_samples > 1 && round.node_error > self.tolerance => {
                 self.stuck = 0;
                 self.least_samples /= 2;
                 self.idle_limit = standing.idle + MOST_IDLE;
@@ -143,7 +145,8 @@ impl Refinement<'_> {
         let by_cell = ByCell::sort(&space, &places, pool);
         let errors = (0..distances.len()).map(|sample| self.samples.error(sample, distances[sample]));
         let error = errors.fold(0.0, f64::max);
-        Ok(Round { surfaces, places, distances, free_count: space.free_count(), by_cell, error })
+        let node_error = distances[..self.samples.nodes.len()].iter().copied().fold(0.0, f64::max);
+        Ok(Round { surfaces, places, distances, free_count: space.free_count(), by_cell, node_error, error })
     }
 
     /// The samples with their weights, and after them the guards, whose places come along.
