@@ -623,7 +623,7 @@ module planish_records
     !> Nodes whose triangles are spread over patches without a common corner
     integer(c_size_t) :: spread_node_count = 0
     integer(c_size_t) :: doublet_count = 0 !! Vertices of only two patches that were removed, each with one patch
-    !> Edges of the coarse mesh that were split because its triangles could not be paired; 0 for closed meshes
+    !> Edges of the coarse mesh that were split because its triangles could not be paired
     integer(c_size_t) :: split_count = 0
     real(c_double) :: seconds = 0 !! Wall time in seconds
     integer(c_int32_t) :: kind = 0 !! The kind that was made: a planish_layout_kind

@@ -5,6 +5,7 @@
 mod common;
 
 use planish::Control;
+use planish::layout::Side;
 use planish::layout::of_mesh::{LayoutKind, MeshLayoutOptions, layout_of_mesh};
 
 #[test]
@@ -22,6 +23,29 @@ fn base_complexes_of_real_meshes_are_as_good_as_measured() {
         assert_eq!(made.layout.genus(), Some(mesh.genus()), "{name}");
         assert_eq!((report.folded_nodes, report.spread_nodes), (0, 0), "{name}");
         assert!(report.energy <= energy, "{name}: energy {}, allowed {energy}", report.energy);
+    }
+}
+
+#[test]
+fn open_meshes_get_layouts_with_borders() {
+    for (name, energy) in
+        [("maxface_disk_4k.off", 4.6), ("mannequin_disk_13k.off", 5.0), ("camelhead_disk_11k.off", 5.1)]
+    {
+        let Some(mesh) = common::mesh(name) else { continue };
+        let made = layout_of_mesh(&mesh, &MeshLayoutOptions::default(), &mut Control::new(2)).expect(name);
+        let report = made.report;
+        eprintln!("{name:28} {} patches, {report:?}", made.layout.quads().len());
+        assert_eq!(made.layout.euler_characteristic(), mesh.euler_characteristic(), "{name}");
+        assert_eq!((report.folded_nodes, report.spread_nodes), (0, 0), "{name}");
+        assert!(report.energy <= energy, "{name}: energy {}, allowed {energy}", report.energy);
+        for &node in mesh.loops().iter().flatten() {
+            let place = made.map.place(node).expect("a node of a loop has triangles");
+            let is_on = |side: u8| {
+                let side = Side { quad: place.quad, side };
+                made.layout.opposite(side).is_none() && side.coordinates(place.uv)[1] == 0.0
+            };
+            assert!((0..4).any(is_on), "{name}: node {node} at {place:?}");
+        }
     }
 }
 

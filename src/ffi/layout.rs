@@ -102,7 +102,7 @@ record! {
         pub spread_node_count: usize,
         /// Vertices of only two patches that were removed, each with one patch.
         pub doublet_count: usize,
-        /// Edges of the coarse mesh that were split because its triangles could not be paired; 0 for closed meshes.
+        /// Edges of the coarse mesh that were split because its triangles could not be paired.
         pub split_count: usize,
         /// Wall time in seconds.
         pub seconds: f64,
@@ -182,7 +182,7 @@ pub unsafe extern "C" fn planish_layout_cube(out_layout: *mut *mut planish_layou
     })
 }
 
-/// Makes a layout for a closed mesh of one component and any genus, with the places of its nodes.
+/// Makes a layout for a mesh of one component and any genus, closed or with a border, with the places of its nodes.
 ///
 /// A cube keeps to the sphere; a base complex follows the shape: its patches are nearly square and of nearly equal
 /// size. The same mesh gives the same bits on any number of threads.
@@ -193,8 +193,8 @@ pub unsafe extern "C" fn planish_layout_cube(out_layout: *mut *mut planish_layou
 /// out_report: receives how good it is; NULL for no report.
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_FOLDED_PARAMETERS (some nodes have triangles that are turned over, or spread
 /// over too many patches; out_layout is there) or an error: PLANISH_STATUS_NULL_POINTER,
-/// PLANISH_STATUS_INVALID_ARGUMENT (an option), PLANISH_STATUS_TOPOLOGY (several components; a boundary, with one of its
-/// nodes as the index; handles, for a cube; a node where the surface touches itself, which is the index),
+/// PLANISH_STATUS_INVALID_ARGUMENT (an option), PLANISH_STATUS_TOPOLOGY (several components; for a cube a boundary, with one
+/// of its nodes as the index, or handles; a node where the surface touches itself, which is the index),
 /// PLANISH_STATUS_DEGENERATE (no triangle has an area, or coarse triangles make no layout), PLANISH_STATUS_VERSION or
 /// PLANISH_STATUS_CANCELLED.
 #[must_use]

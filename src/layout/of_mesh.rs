@@ -1,7 +1,7 @@
 //! Layouts made for meshes, with the places of their nodes: `theory/closed.md` 3.
 //!
 //! A closed mesh of genus 0 may become a cube: its nodes go on to the sphere and from there on to the cube's faces. Any
-//! closed mesh has a base complex (`complex`), whose patches follow the shape.
+//! mesh, closed or with a border, has a base complex (`complex`), whose patches follow the shape.
 
 use super::{Layout, LayoutError, NodeMap, complex, cube_place};
 use crate::Control;
@@ -98,14 +98,6 @@ pub enum MeshLayoutError {
         /// How many.
         count: usize,
     },
-    /// The mesh has a boundary.
-    #[error("the mesh has {loops} boundary loops, one through node {node}; only closed meshes get a layout")]
-    Open {
-        /// How many loops.
-        loops: usize,
-        /// The first node of the longest.
-        node: usize,
-    },
     /// The surface touches itself in a node.
     #[error("the surface touches itself in node {node}; use two nodes there")]
     Pinched {
@@ -149,7 +141,7 @@ pub enum MeshLayoutError {
 impl Classify for MeshLayoutError {
     fn kind(&self) -> ErrorKind {
         match self {
-            Self::Components { .. } | Self::Open { .. } | Self::Pinched { .. } => ErrorKind::Topology,
+            Self::Components { .. } | Self::Pinched { .. } => ErrorKind::Topology,
             Self::ZeroArea { .. } | Self::NoPairing { .. } => ErrorKind::Degenerate,
             Self::Patches { .. } => ErrorKind::InvalidArgument,
             Self::Sphere(error) => error.kind(),
@@ -162,14 +154,14 @@ impl Classify for MeshLayoutError {
     /// The offending node, if one is to blame.
     fn index(&self) -> Option<usize> {
         match *self {
-            Self::Open { node, .. } | Self::Pinched { node } => Some(node),
+            Self::Pinched { node } => Some(node),
             Self::Sphere(error) => error.index(),
             _ => None,
         }
     }
 }
 
-/// Makes a layout for a closed mesh of one component.
+/// Makes a layout for a mesh of one component, closed or with a border.
 pub fn layout_of_mesh(
     mesh: &Mesh,
     options: &MeshLayoutOptions,
@@ -194,9 +186,6 @@ const LEAST_PATCHES: usize = 6;
 fn check(mesh: &Mesh, options: &MeshLayoutOptions) -> Result<(), MeshLayoutError> {
     if mesh.component_count() != 1 {
         return Err(MeshLayoutError::Components { count: mesh.component_count() });
-    }
-    if let Some(first) = mesh.loops().first() {
-        return Err(MeshLayoutError::Open { loops: mesh.loops().len(), node: first[0] as usize });
     }
     if let Some(&node) = mesh.pinched_nodes().first() {
         return Err(MeshLayoutError::Pinched { node: node as usize });

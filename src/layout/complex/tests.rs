@@ -2,6 +2,7 @@ use super::*;
 use crate::failure::Classify;
 use crate::layout::of_mesh::layout_of_mesh;
 use crate::mesh::Mesh;
+use crate::parameterize::sphere::SphereError;
 use crate::samples;
 
 fn complex(mesh: &Mesh, patches: usize) -> MeshLayout {
@@ -85,8 +86,8 @@ fn refusals_name_the_offender() {
         layout_of_mesh(mesh, &options, &mut Control::new(1)).unwrap_err()
     };
     let options = MeshLayoutOptions::default();
-    let open = refuse(&samples::planar(1).unwrap(), options);
-    assert!(matches!(open, MeshLayoutError::Open { loops: 3, .. }), "{open}");
+    let open = refuse(&samples::planar(1).unwrap(), options.with_kind(LayoutKind::Cube));
+    assert!(matches!(open, MeshLayoutError::Sphere(SphereError::Open { loops: 3, .. })), "{open}");
     let torus = samples::handles(1, 500, 1).unwrap();
     let cube = refuse(&torus, options.with_kind(LayoutKind::Cube));
     assert_eq!(cube.to_string(), "the mesh has genus 1, a sphere has 0; use a layout of patches instead");
