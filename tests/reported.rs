@@ -454,7 +454,7 @@ fn texts_of_stl_are_taken_as_they_come() {
         assert_eq!(repairs.missing_end, !has_end);
         // half a facet is a fault
         let cut = text.to_lowercase().rfind("vertex").unwrap();
-        let error = read_bytes(text[..cut].as_bytes(), Format::Stl, &MeshOptions::default()).unwrap_err();
+        let error = read_bytes(&text.as_bytes()[..cut], Format::Stl, &MeshOptions::default()).unwrap_err();
         assert!(error.to_string().contains("the file ends within a facet"), "{error}");
     });
 }

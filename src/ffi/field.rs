@@ -131,7 +131,7 @@ pub(super) unsafe fn with_field_options<R: Send>(
             is_known: is_known.as_deref(),
             parameterize: parameterize.to_core()?,
         };
-        Ok(with_control(given.thread_count, listener!(given), |control| work(&core, sample, control))?)
+        with_control(given.thread_count, listener!(given), |control| work(&core, sample, control))
     }
 }
 

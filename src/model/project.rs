@@ -41,6 +41,7 @@ struct FaceFeet {
 }
 
 #[derive(Debug)]
+#[allow(clippy::large_enum_variant, reason = "one for each face: some hundred bytes do not matter")]
 enum Feet {
     Spline(Projector),
     Exact { carrier: Carrier, bound: Bound },

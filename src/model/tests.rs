@@ -186,7 +186,7 @@ fn loops_across_knot_lines_enclose_what_they_do_in_the_plane() {
         0.5 * polyline.iter().zip(next).map(|(a, b)| a.perp_dot(*b)).sum::<f64>().abs()
     };
     let slanted = [(0.02, 0.1), (0.98, 0.03), (0.9, 0.97), (0.1, 0.9)].map(DVec2::from).to_vec();
-    let holes = vec![circle([0.5, 0.5], 0.2, 31), circle([0.2, 0.5], 0.03, 5)];
+    let holes = [circle([0.5, 0.5], 0.2, 31), circle([0.2, 0.5], 0.03, 5)];
     for outer in [rectangle(0.0, 1.0), rectangle(0.2, 0.6), slanted] {
         for holes in [&holes[..0], &holes[..]] {
             if enclosed(&outer) < 0.2 && !holes.is_empty() {

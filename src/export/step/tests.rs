@@ -74,7 +74,6 @@ fn options_are_in_the_file() {
         author: "A. N. Other",
         organization: "O'Hara",
         timestamp: "2026-01-31T12:00:00",
-        ..StepOptions::default()
     };
     let text = to_text(&model(&wave()), &options).unwrap().0;
     check_syntax(&text);

@@ -93,7 +93,8 @@ fn wrong_options_leave_everything_as_it_was() {
     report.struct_size = size_of::<planish_model_report>();
     let before = format!("{report:?}");
     let mut model = null_mut();
-    let cases: [(fn(&mut planish_model_options), &str); 9] = [
+    type Change = fn(&mut planish_model_options);
+    let cases: [(Change, &str); 9] = [
         (|o| o.tolerance = 0.0, "tolerance"),
         (|o| o.smoothing = f64::NAN, "smoothing"),
         (|o| o.family = 3, "family"),

@@ -304,7 +304,8 @@ impl<'a> Decimation<'a> {
         }
         let chain = self.chains[node as usize];
         self.remove(node, to);
-        self.relocate(node, &self.rings.of(node).to_vec(), chain);
+        let ring = self.rings.of(node).to_vec();
+        self.relocate(node, &ring, chain);
     }
 
     /// Moves a node on to another.

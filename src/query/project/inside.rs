@@ -171,7 +171,7 @@ mod tests {
         let points = (0..count * count).flat_map(|k| [(k / count) as f64, (k % count) as f64, 0.0]);
         let surface = TensorSurface::new(3, knots.clone(), knots, points.collect(), None).unwrap();
         let star = |radius: f64, count: usize| -> Vec<DVec2> {
-            let spoke = |k: usize| radius * if k % 2 == 0 { 1.0 } else { 0.6 };
+            let spoke = |k: usize| radius * if k.is_multiple_of(2) { 1.0 } else { 0.6 };
             let corner = |k: usize| 10.0 + spoke(k) * DVec2::from_angle(TAU * k as f64 / count as f64);
             (0..count).map(corner).collect()
         };
