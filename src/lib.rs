@@ -19,7 +19,7 @@
 //! The tree is the architecture; arrows run downwards only, a module knows what stands above it:
 //!
 //! * [`failure`], [`control`]: what a failure is; threads, progress and cancelling.
-//! * [`file`], [`memory`]: files read and written as a whole, and how much of them there is room for.
+//! * [`file`](mod@file), [`memory`]: files read and written as a whole, and how much of them there is room for.
 //! * [`geometry`]: boxes, exact predicates.
 //! * [`knots`], [`basis`], [`refinement`], [`bezier`], [`hermite`]: one-dimensional building blocks, and patches
 //!   made of them.

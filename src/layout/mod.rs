@@ -74,7 +74,7 @@ impl Side {
 pub struct Place {
     /// The quad.
     pub quad: u32,
-    /// Its parameters, in [0,1]^2.
+    /// Its parameters, in `[0,1]^2`.
     pub uv: DVec2,
 }
 

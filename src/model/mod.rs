@@ -9,7 +9,7 @@
 //!   v0 ---- e0 ---> v1    parameters as the curve in space. One or two coedges use an edge.
 //! ```
 //! Shells are open, or bound a solid from outside, or a void inside a solid. A surface with trims is a model of one
-//! face, see [`of_surface`]; a [`Builder`] makes any other and checks it once.
+//! face, see [`of_surface`](fn@of_surface); a [`Builder`] makes any other and checks it once.
 
 mod as_tensor;
 mod builder;

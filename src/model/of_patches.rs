@@ -1,6 +1,6 @@
 //! Models of patches over a quad layout: a shell of faces that share their edges exactly, closed where the layout is.
 //!
-//! Each patch is a PHT-spline over [0,1]^2 and gives one face for each rectangle of cells of nearly equal size.
+//! Each patch is a PHT-spline over `[0,1]^2` and gives one face for each rectangle of cells of nearly equal size.
 //! ```text
 //! +-------+---+---+    The side of a rectangle is cut wherever a rectangle on either side of it has a corner (o),
 //! |       |   |   |    across edges of the layout too. Each piece is one edge of the model: a cubic with the knots of

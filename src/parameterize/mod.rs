@@ -8,8 +8,8 @@
 //! [`parameterize`] maps a disk, possibly with holes, onto a circle or a square with bulged sides:
 //! fans close the holes, every interior node becomes the weighted mean of its neighbours, and the
 //! weights are divided by the stretch found until the stretch no longer falls. With mean value
-//! weights and a convex border no triangle flips, at any step. [`regularize`] evens out parameters
-//! that came with the mesh. [`stretch`] measures any map.
+//! weights and a convex border no triangle flips, at any step. [`regularize`](fn@regularize) evens out parameters
+//! that came with the mesh. [`stretch`](fn@stretch) measures any map.
 //!
 //! Closed meshes, handles and several components are refused: they need cuts first. A node without
 //! triangles keeps the parameters given with the mesh and is refused if there are none.

@@ -10,9 +10,9 @@ use glam::DVec2;
 
 /// Children of a node: their boxes are tested together.
 pub const BRANCHES: usize = 4;
-/// Entries of [`Node::children`] with this bit are leaves.
+/// Entries of the children of a node with this bit are leaves.
 pub const LEAF: u32 = 1 << 31;
-/// Entry of [`Node::children`] for a place that is not used.
+/// Entry of the children of a node for a place that is not used.
 const NONE: u32 = u32::MAX;
 
 /// Where a leaf lies in the parameter plane.

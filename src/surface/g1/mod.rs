@@ -116,7 +116,7 @@ pub struct Space<'a> {
 }
 
 impl<'a> Space<'a> {
-    /// The space over one mesh a quad, each from a single cell, with equal vertices along edges ([`conform`]).
+    /// The space over one mesh a quad, each from a single cell, with equal vertices along edges.
     pub fn new(layout: &'a Layout, meshes: Vec<TMesh>) -> Result<Self, SpaceError> {
         if meshes.len() != layout.quads().len() {
             return Err(SpaceError::MeshCount { meshes: meshes.len(), quads: layout.quads().len() });
