@@ -54,9 +54,9 @@ class PhtSurface(Surface, kind="pht"):
 
     @property
     def hanging_vertices(self) -> tuple[np.ndarray, np.ndarray]:
-        """The parameters (n, 2) of the T-vertices, and the cell (level, i, j) that hosts each."""
+        """The parameters (n, 2) of the T-vertices, and the number of the leaf that hosts each."""
         count = lib.planish_pht_hanging_count(self)
-        uv, hosts = np.empty((count, 2)), np.empty((count, 3), np.uint32)
+        uv, hosts = np.empty((count, 2)), np.empty(count, np.uint32)
         call("planish_pht_copy_hanging", self, pointer(uv), pointer(hosts), count)
         return read_only(uv), read_only(hosts)
 
@@ -93,7 +93,7 @@ class PhtSurface(Surface, kind="pht"):
     def control_points_in(self, basis: str) -> np.ndarray:
         """The same in the basis "canonical" (of the paper) or "support_sized" (better conditioned)."""
         points = np.empty((lib.planish_pht_vertex_count(self), 4, self.width))
-        call("planish_pht_copy_control_points", self, _word(_BASES, basis, "basis"), pointer(points), 4 * len(points))
+        call("planish_pht_copy_control_points", self, _word(_BASES, basis, "basis"), pointer(points), len(points))
         return read_only(points)
 
     def set_control_points(self, vertices: Any, points: Any, basis: str = "canonical") -> None:

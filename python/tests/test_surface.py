@@ -179,6 +179,24 @@ def test_name_and_unit_are_kept(spline, tmp_path):
         spline.unit = "furlong"
 
 
+def test_pht_splines_are_edited_where_they_are_split():
+    lines = [0.0, 0.5, 1.0]
+    flat = planish.pht(lines, lines, [], np.zeros((9, 4, 1)))
+    flat.split_cells([0, 0, 0])
+    assert len(flat.cells) == 7 and flat.control_points.shape == (len(flat.vertices), 4, 1)
+    uv, hosts = flat.hanging_vertices
+    assert len(uv) == len(hosts) == 2 and hosts.max() < len(flat.cells)
+    middle = int(np.argmin(((flat.vertices - 0.25) ** 2).sum(axis=1)))
+    flat.set_vertex_data([middle], [[[1.0], [0.0], [0.0], [0.0]]])
+    assert flat.ev(0.25, 0.25) == 1.0 and flat.ev(0.75, 0.75) == 0.0
+    extraction = flat.extraction(flat.cell_at(0.3, 0.3))
+    assert extraction.matrix.shape == (16, 4 * len(extraction.vertices))
+    # functions of the paper's basis sum to one everywhere: so do the rows
+    assert np.abs(extraction.matrix.sum(axis=1) - 1).max() <= 1e-14
+    flat.merge_cells([0, 0, 0])
+    assert len(flat.cells) == 4
+
+
 def test_a_closed_handle_is_told(spline):
     spline.close()
     with pytest.raises((ValueError, ctypes.ArgumentError), match="closed"):
