@@ -24,7 +24,7 @@ fn fit(mesh: &Mesh, tolerance: f64) -> PhtFit {
 fn heads_and_panels_need_no_more_coefficients_than_this() {
     for (name, coarse, fine) in [
         ("bust", 250, 800),
-        ("limb", 500, 1600),
+        ("limb", 500, 1750),
         ("maxface_disk_4k.off", 250, 2700),
         ("camelhead_disk_11k.off", 1050, 5000),
         ("neon_side_holes_16k.off", 220, 3200),

@@ -148,7 +148,8 @@ fn colour(share: f64) -> [f64; 3] {
     let share = if share.is_nan() { 0.0 } else { share.clamp(-1.0, 1.0) };
     let at = (share + 1.0) * 2.0;
     let low = (at as usize).min(STOPS.len() - 2);
-    [0, 1, 2].map(|k| STOPS[low][k] + (at - low as f64) * (STOPS[low + 1][k] - STOPS[low][k]))
+    let share = at - low as f64;
+    [0, 1, 2].map(|k| (1.0 - share) * STOPS[low][k] + share * STOPS[low + 1][k])
 }
 
 #[cfg(test)]

@@ -60,7 +60,11 @@ fn all_parts_come_out_and_fit() {
             ok(planish_curve_domain(curve, domain.as_mut_ptr()));
             let mut points = [[0.0; 3]; 2];
             ok(planish_curve_eval(curve, domain.as_ptr(), 2, 0, null(), points[0].as_mut_ptr()));
-            assert_eq!(points, [info.vertex_start, info.vertex_end].map(|vertex| vertices[vertex as usize]));
+            for (point, vertex) in points.iter().zip([info.vertex_start, info.vertex_end]) {
+                // a curve of a few control points, all below 1
+                let near = |k: usize| (point[k] - vertices[vertex as usize][k]).abs() <= 4.0 * f64::EPSILON;
+                assert!((0..3).all(near), "{point:?}");
+            }
             let mut pcurve = null_mut();
             ok(planish_model_copy_pcurve(model.0, 0, place, &mut pcurve));
             let mut uv = [[0.0; 2]; 2];
@@ -100,10 +104,10 @@ fn models_are_measured_copied_saved_and_written() {
         ok(planish_model_clone(model.0, &mut copy));
         let copy = ModelHandle(copy);
         ok(planish_model_measure(copy.0, &mut report));
-        assert_eq!(
-            (report.box_min[..2].to_vec(), report.box_max[..2].to_vec()),
-            (vec![0.1; 2], vec![0.9; 2])
-        );
+        for k in 0..2 {
+            assert!((report.box_min[k] - 0.1).abs() <= 4.0 * f64::EPSILON, "{report:?}");
+            assert!((report.box_max[k] - 0.9).abs() <= 4.0 * f64::EPSILON, "{report:?}");
+        }
         assert_eq!((report.free_edge_count, report.euler_characteristic, report.volume), (8, 0, 0.0));
         assert!(report.area > 0.6 && report.area < 0.9, "{report:?}");
 

@@ -55,7 +55,7 @@ fn name_and_unit_are_refused_by_name() {
         null_refused(planish_surface_set_name(null_mut(), c"part".as_ptr()), "surface");
         null_refused(planish_surface_set_name(surface.0, null()), "name");
         let status = planish_surface_set_name(surface.0, c"\xff".as_ptr());
-        refused(status, planish_status::InvalidArgument, -1, &["name is not UTF-8"]);
+        refused(status, planish_status::InvalidArgument, 0, &["name is not UTF-8"]);
         null_refused(planish_surface_set_unit(null_mut(), 0), "surface");
         let status = planish_surface_set_unit(surface.0, 3);
         refused(status, planish_status::InvalidArgument, -1, &["unit is 3"]);

@@ -124,17 +124,58 @@ impl<'a> Net<'a> {
         if ends.len() == 2 { ends.iter().copied().find(|&end| end != before) } else { None }
     }
 
-    /// Nodes with another number of feature edges than two, or with a turn.
-    pub fn corners(&self, most_turn: f64) -> Vec<u32> {
-        let is_corner = |node: u32| {
-            let ends: Vec<u32> = self.ends[node as usize].iter().copied().collect();
-            match ends[..] {
-                [] => false,
-                [before, after] => self.straightness([before, node, after]) < most_turn.cos(),
-                _ => true,
+    /// Drops triangles of edges that touch no other edge: slivers, whose normals say nothing; returns how many edges went.
+    pub fn drop_slivers(&mut self) -> usize {
+        let mut dropped = 0;
+        for a in 0..self.ends.len() as u32 {
+            let ends: Vec<u32> = self.ends[a as usize].iter().copied().collect();
+            let [b, c] = ends[..] else { continue };
+            let is_alone = self.after(a, b) == Some(c) && self.after(a, c) == Some(b);
+            let sides = [(a, b), (b, c), (c, a)];
+            if is_alone && !sides.iter().any(|&(from, to)| self.is_kept(from, to)) {
+                sides.iter().for_each(|&(from, to)| self.remove(from, to));
+                dropped += sides.len();
+            }
+        }
+        dropped
+    }
+
+    /// Nodes with another number of feature edges than two, or with a turn, seen over so many edges on both sides.
+    pub fn corners(&self, most_turn: f64, reach: usize) -> Vec<u32> {
+        let turns: Vec<Option<f64>> =
+            (0..self.ends.len() as u32).map(|node| self.turn(node, reach)).collect();
+        let is_corner = |node: u32| match turns[node as usize] {
+            None => !self.ends[node as usize].is_empty(),
+            // seen from afar, all nodes about a corner turn: it is the one that turns most
+            Some(turn) => {
+                turn > most_turn
+                    && self.about(node, reach - 1).all(|other| {
+                        turns[other as usize].is_none_or(|other_turn| (turn, node) >= (other_turn, other))
+                    })
             }
         };
         (0..self.ends.len() as u32).filter(|&node| is_corner(node)).collect()
+    }
+
+    /// The angle by which a chain turns at a node, over so many edges on both sides; None where it is no chain.
+    fn turn(&self, node: u32, reach: usize) -> Option<f64> {
+        let ends: Vec<u32> = self.ends[node as usize].iter().copied().collect();
+        let [before, after] = ends[..] else { return None };
+        let [before, after] = [before, after].map(|end| self.along(node, end).take(reach).last());
+        Some(self.straightness([before?, node, after?]).clamp(-1.0, 1.0).acos())
+    }
+
+    /// The nodes of a chain that follow a node on one side, as far as it is a chain.
+    fn along(&self, node: u32, next: u32) -> impl Iterator<Item = u32> + '_ {
+        let step = move |&[before, at]: &[u32; 2]| {
+            self.after(before, at).filter(|&next| next != node).map(|next| [at, next])
+        };
+        std::iter::successors(Some([node, next]), step).map(|[_, at]| at)
+    }
+
+    /// The nodes of a chain up to so many edges from a node.
+    fn about(&self, node: u32, reach: usize) -> impl Iterator<Item = u32> + '_ {
+        self.ends[node as usize].iter().flat_map(move |&end| self.along(node, end).take(reach))
     }
 
     /// All edges, the smaller node first.
