@@ -60,6 +60,9 @@ pub struct FitArguments {
     /// Write a picture of the surface coloured by deviation.
     #[arg(long, value_name = "PNG")]
     pub picture: Option<PathBuf>,
+    /// Write a report: a page with the mesh in the colours of its distances, numbers and worst places.
+    #[arg(long, value_name = "HTML")]
+    pub report: Option<PathBuf>,
     /// Border of the map for meshes without parameters.
     #[arg(long, value_enum, default_value_t = BorderName::Auto)]
     border: BorderName,
@@ -161,6 +164,7 @@ enum UnitName {
 pub fn run(arguments: &FitArguments, given: &Given) -> Result<Outcome, Failure> {
     output::check_names(&arguments.out)?;
     arguments.picture.iter().try_for_each(|path| output::check_name(path, output::PICTURES))?;
+    arguments.report.iter().try_for_each(|path| output::check_name(path, output::REPORTS))?;
     let (mut mesh, repairs) = arguments.input.read(&arguments.mesh)?;
     if arguments.ignore_parameters {
         mesh.clear_parameters();
@@ -177,6 +181,7 @@ pub fn run(arguments: &FitArguments, given: &Given) -> Result<Outcome, Failure> 
         family => family,
     };
     check_used(arguments, family, given)?;
+    given.refuse("report", !is_model, "is written of surfaces: a model has none yet; --picture draws it")?;
     if is_model {
         return model::run(&mesh, &repairs, arguments);
     }
@@ -201,6 +206,9 @@ pub fn run(arguments: &FitArguments, given: &Given) -> Result<Outcome, Failure> 
     }
     if let Some(path) = &arguments.picture {
         output::write_picture(&mesh, &fit, path)?;
+    }
+    if let Some(path) = &arguments.report {
+        with_bar(arguments.threads, |control| output::write_report(&mesh, &fit, &stem, path, control))?;
     }
     if arguments.json {
         output::print(format_args!("{}\n", json_report(arguments, &mesh, &repairs, &fit.report)))?;
@@ -392,7 +400,7 @@ fn table(arguments: &FitArguments, mesh: &Mesh, repairs: &MeshRepairs, report: &
 }
 
 pub fn written(arguments: &FitArguments) -> Vec<String> {
-    output::names(arguments.out.iter().chain(&arguments.picture))
+    output::names(arguments.out.iter().chain(&arguments.picture).chain(&arguments.report))
 }
 
 pub fn verdict(remarks: Remarks, stop: StopReason) -> String {

@@ -6,10 +6,11 @@ use glam::DVec2;
 use planish::Control;
 use planish::export::mesh::Encoding;
 use planish::export::step::{self, StepOptions};
+use planish::export::html::{self, ReportOptions};
 use planish::export::{mesh as mesh_files, native, vtk};
 use planish::file;
 use planish::fit::conversion::{ConversionOptions, to_model};
-use planish::fit::report::FitReport;
+use planish::fit::report::{FitReport, ToleranceScale};
 use planish::memory;
 use planish::mesh::{Format, Mesh, MeshRepairs};
 use planish::query::tessellate::{TessellateOptions, tessellate};
@@ -91,6 +92,8 @@ const SURFACES: &[&str] = &["step", "stp", "vtu", "obj", "off", "ply", "stl", "p
 pub const MESHES: &[&str] = &["obj", "off", "ply", "stl"];
 /// Those of pictures.
 pub const PICTURES: &[&str] = &["png"];
+/// Those of reports.
+pub const REPORTS: &[&str] = &["html", "htm"];
 
 /// Refuses names whose format is not known before any work is done.
 pub fn check_names(paths: &[impl AsRef<Path>]) -> Result<(), Failure> {
@@ -166,6 +169,24 @@ pub fn write_surface(surface: &AnySurface, path: &Path, step: &Step) -> Result<(
         _ => write_mesh(&tessellate(surface.as_surface(), &TessellateOptions::default())?.mesh, path)?,
     }
     Ok(())
+}
+
+/// Writes a report of the surface against the mesh that it was fitted to.
+pub fn write_report(
+    mesh: &Mesh,
+    fit: &Fit,
+    title: &str,
+    path: &Path,
+    control: &mut Control,
+) -> Result<(), Failure> {
+    let options = ReportOptions {
+        title,
+        unit: "",
+        tolerance: Some(fit.report.tolerance),
+        tolerance_scale: ToleranceScale::Absolute,
+        remarks: fit.report.remarks,
+    };
+    Ok(html::write_report(fit.surface.as_surface(), mesh, &options, path, control)?)
 }
 
 /// Writes a picture of the surface coloured by the error at the nodes.

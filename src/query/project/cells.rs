@@ -130,18 +130,49 @@ fn add_pieces(surface: &dyn Patches, from: DVec2, to: DVec2, pieces: &mut Vec<(B
     /// A step over a border, against the whole line; what it skips is shorter than rounding of the trims.
     const STEP: f64 = 1e-12;
     let at = |t: f64| if t < 1.0 { from + t * (to - from) } else { to };
+    let along = to - from;
+    // the share of the line on which a coordinate changes by no more than rounding: all of it along a knot line
+    let unseen = |axis: usize| 4.0 * f64::EPSILON * from[axis].abs().max(to[axis].abs()) / along[axis].abs();
+    let crosses = |axis: usize| along[axis] != 0.0 && unseen(axis) < 1.0;
     let mut start = 0.0;
     while start < 1.0 {
         let patch = surface.patch(surface.patch_at(at((start + STEP).min(1.0))));
         let leaves = |axis: usize| {
-            let (begin, along) = (from[axis], to[axis] - from[axis]);
-            let border = if along > 0.0 { patch.domain.max[axis] } else { patch.domain.min[axis] };
-            if along == 0.0 { 1.0 } else { (border - begin) / along }
+            let border = if along[axis] > 0.0 { patch.domain.max[axis] } else { patch.domain.min[axis] };
+            if crosses(axis) { (border - from[axis]) / along[axis] } else { 1.0 }
         };
         let end = leaves(0).min(leaves(1)).clamp(0.0, 1.0);
-        let end = if end <= start + STEP { (start + 2.0 * STEP).min(1.0) } else { end };
+        // on a border within rounding: on until the line has left it
+        let over = [0, 1].into_iter().filter(|&axis| crosses(axis)).map(unseen).fold(2.0 * STEP, f64::max);
+        let end = if end <= start + STEP { (start + over).min(1.0) } else { end };
         let end = if end > 1.0 - STEP { 1.0 } else { end };
         pieces.push((patch.line(at(start), at(end)), Place::Line(at(start), at(end))));
         start = end;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::knots::KnotVector;
+    use crate::surface::tensor::TensorSurface;
+
+    #[test]
+    fn a_trim_along_a_knot_line_has_few_pieces() {
+        let knots = || KnotVector::clamped(&[0.0, 0.25, 0.5, 0.75, 1.0], 1).unwrap();
+        let points = (0..25).flat_map(|k| [f64::from(k / 5), f64::from(k % 5), 0.0]).collect();
+        let surface = TensorSurface::new(3, knots(), knots(), points, None).unwrap();
+        let patches = crate::surface::Surface::patches(&surface).unwrap();
+        for drift in [0.0, 5e-17, 1e-16, 3e-16, 1e-14, 1e-10, 1e-6, 0.3] {
+            for side in [-1.0, 1.0] {
+                let mut pieces = Vec::new();
+                let (from, to) = (DVec2::new(0.5, 0.0), DVec2::new(0.5 + side * drift, 1.0));
+                add_pieces(patches, from, to, &mut pieces);
+                add_pieces(patches, to, from, &mut pieces);
+                // each way four spans along v, one more for each line in u, and a step over each of those
+                assert!(pieces.len() <= 2 * (4 + 2 + 6), "{drift:e}: {} pieces", pieces.len());
+                assert!(pieces.iter().all(|(piece, _)| piece.degree[0] >= 1));
+            }
+        }
     }
 }
