@@ -14,6 +14,7 @@ from ._curve import Curve, fit_curve, interpolate_curve, load_curve
 from ._fields import FieldFitter, Transfer
 from ._d1rc import D1rcSurface, smooth_creased
 from ._fit import fit, fit_field, fit_points, skin, skin_curves
+from ._layout import Layout
 from ._library import Cancelled, Error, FileError, InvalidError, OutOfMemoryError, RangeError
 from ._mesh import Mesh, read_mesh, read_mesh_bytes
 from ._model import Edge, Face, Model, Shell, load_model, model
@@ -36,6 +37,7 @@ __all__ = [
     "FieldFitter",
     "FileError",
     "InvalidError",
+    "Layout",
     "Mesh",
     "Model",
     "OutOfMemoryError",

@@ -226,6 +226,15 @@ class Mesh(Handle):
         call("planish_mesh_shortest_path", self, start, end, pointer(nodes), len(nodes), ctypes.byref(count))
         return nodes[: count.value].copy()
 
+    def find_features(self, **feature_options: Any) -> tuple[np.ndarray, Report]:
+        """The edges (n, 2) where the mesh is not smooth, and a report of chains, corners and noise."""
+        report, count = report_record("feature_report"), ctypes.c_size_t()
+        record = options("feature_options", feature_options, out_report=report)
+        arguments = ("planish_mesh_find_features", self, by_reference(record))
+        edges = np.empty((self.n_edges, 2), np.uint32)
+        status = call(*arguments, pointer(edges), len(edges), ctypes.byref(count))
+        return edges[: count.value].copy(), Report(report, status)
+
     def split_components(self) -> list[Mesh]:
         """Each piece as a mesh of its own."""
         handles = (ctypes.c_void_p * self.n_components)()

@@ -166,7 +166,7 @@ def pht(
         expect(data, (len(data), 4, data.shape[-1] if data.ndim else 1), "data")
     dim = data.shape[2] - int(is_rational)
     arguments = (dim, int(is_rational), pointer(lines_u), len(lines_u), pointer(lines_v), len(lines_v))
-    rest = (pointer(splits), len(splits), pointer(data), len(data), OUT)
+    rest = (pointer(splits), len(splits), pointer(data), data.size, OUT)
     return Surface._own(made("planish_pht_new", *arguments, *rest)[1])
 
 

@@ -148,3 +148,22 @@ def test_repairs_are_told_and_chosen():
     assert list(mesh.triangle_map) == [0] and list(mesh.node_map) == [0, 1, 2, 3]
     with pytest.raises(ValueError, match="'copies'"):
         planish.Mesh(points, triangles, repair="none")
+
+
+def test_features_of_a_box():
+    cube = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
+    faces = [(0, 2, 3), (0, 3, 1), (0, 1, 5), (0, 5, 4), (1, 3, 7), (1, 7, 5), (3, 2, 6), (3, 6, 7), (2, 0, 4), (2, 4, 6)]
+    edges, report = planish.Mesh(cube, faces + [(4, 5, 7), (4, 7, 6)]).find_features()
+    assert len(edges) == 12 and (report.chain_count, report.corner_count) == (12, 8)
+
+
+def test_layouts():
+    cube = planish.Layout.cube()
+    assert cube.corners.shape == (6, 4) and np.array_equal(cube.valences, np.full(8, 3)) and len(cube.edges) == 12
+    again = planish.Layout(cube.corners)
+    assert again.n_vertices == 8 and len(again.node_map[0]) == 0
+    layout = planish.Layout.of_mesh(planish.Mesh(*ball()))
+    quads, uv = layout.node_map
+    assert len(quads) == len(ball()[0]) and quads.max() < len(layout.corners) and uv.min() >= 0 and uv.max() <= 1
+    with pytest.raises(ValueError):
+        planish.Layout([[0, 1, 2, 2]])
