@@ -288,7 +288,7 @@ TEST(TensorFitPoints, ReproducesAPlane) {
   CHECK_EQUAL(planish_surface_dim(surface.get()), 2u);
   CHECK_EQUAL(planish_surface_trim_count(surface.get()), 0u);
   CHECK(report.max_error <= 1e-12);
-  CHECK(report.max_interior_error == 0);
+  CHECK(report.max_interior_error <= 1e-12);
 }
 
 TEST(TensorFitPoints, RefusesByName) {

@@ -607,8 +607,8 @@ TEST(OcctModel, ClosedMeshesBecomeSolids) {
       tolerance = std::fmax(tolerance, BRep_Tool::Tolerance(TopoDS::Edge(faces_of_edges.FindKey(k))));
     }
     GProp_GProps properties;
-    BRepGProp::VolumeProperties(shape, properties);
-    CHECK_NEAR(properties.Mass() / fit.report.volume, 1.0, 1e-5); // theirs is integrated by points, ours exactly
+    BRepGProp::VolumeProperties(shape, properties, 1e-7); // adaptively: a few points a face are off by 4e-5
+    CHECK_NEAR(properties.Mass() / fit.report.volume, 1.0, 1e-6);
     CHECK_NEAR(properties.Mass() / fit.report.mesh_volume, 1.0, 1e-2); // flat facets cut off some of the tube
     CHECK(tolerance <= 2e-7 * fit.report.diagonal);
     std::printf("solid: %zu faces, volume %.9g (own %.9g, mesh %.9g), largest edge tolerance %.2e\n",

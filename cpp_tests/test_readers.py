@@ -5,25 +5,20 @@ Usage: test_readers.py libplanish.so docs/format.md SCRATCH
 """
 
 import ctypes
+import importlib.util
 import re
 import sys
-from ctypes import POINTER, byref, c_char_p, c_double, c_size_t, c_uint32, c_void_p
+from ctypes import POINTER, byref, c_char_p, c_double, c_size_t, c_void_p
 from pathlib import Path
 
 import numpy as np
 
-RECORDS = {"vtk": 32}
 PATCHES, CONTROL_NET = 1, 2
 
-
-class VtkOptions(ctypes.Structure):
-    _fields_ = [
-        ("struct_size", c_size_t),
-        ("deviation_from", c_void_p),
-        ("tessellate", c_void_p),
-        ("thread_count", c_uint32),
-        ("content", c_uint32),
-    ]
+# the records as ctypes has them, generated with the header
+_spec = importlib.util.spec_from_file_location("_abi", Path(__file__).parent.parent / "python/planish/_abi.py")
+_abi = importlib.util.module_from_spec(_spec)
+_spec.loader.exec_module(_abi)
 
 
 def doubles(array):
@@ -62,9 +57,8 @@ class Surface:
         assert self.library.planish_surface_save_file(self.handle, c_char_p(str(path).encode())) == 0
 
     def write_vtk(self, path, content):
-        options = VtkOptions()
-        assert ctypes.sizeof(options) == RECORDS["vtk"]
-        assert self.library.planish_vtk_options_init(byref(options), c_size_t(RECORDS["vtk"])) == 0
+        options = _abi.planish_vtk_options()
+        assert self.library.planish_vtk_options_init(byref(options), c_size_t(ctypes.sizeof(options))) == 0
         options.content = content
         assert self.library.planish_surface_write_vtk(self.handle, c_char_p(str(path).encode()), byref(options)) == 0
 

@@ -34,6 +34,14 @@ def run(arguments, folder, **environment):
         raise RuntimeError(f"{' '.join(map(str, arguments))[:200]}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
 
 
+def python_with_numpy():
+    """This Python, or the system's, whichever has numpy."""
+    for python in (sys.executable, "/usr/bin/python3"):
+        if subprocess.run([python, "-c", "import numpy"], capture_output=True).returncode == 0:
+            return python
+    raise RuntimeError("no Python has numpy")
+
+
 class Runner:
     def __init__(self, root, library, tool, folder):
         self.root, self.library, self.tool, self.folder = root, library, tool, folder
@@ -70,7 +78,7 @@ class Runner:
         source = self.folder / "block.py"
         source.write_text(text)
         library = str(self.library / "libplanish.so")
-        run([sys.executable, source], self.folder, PYTHONPATH=str(self.root / "python"), PLANISH_LIBRARY=library)
+        run([python_with_numpy(), source], self.folder, PYTHONPATH=str(self.root / "python"), PLANISH_LIBRARY=library)
 
     def sh(self, text):
         path = f"{self.tool.parent}:{os.environ['PATH']}"
