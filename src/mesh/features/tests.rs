@@ -140,15 +140,23 @@ fn borders_labels_and_given_edges_are_features() {
     let features = find(&sheet, FeatureOptions::default().with_sharp_angle(None));
     assert_eq!(features.edges.len(), sheet.topology().boundary_edge_count());
     assert_eq!(features.border_count, features.edges.len());
-    // two labels on a ball: one closed chain between them, wherever it turns
+    // two labels on a ball: the edges between them, each in one chain
     let ball = samples::ball(1500, 4).unwrap();
     let is_high = |t: &[u32; 3]| t.iter().map(|&node| ball.points()[node as usize].z).sum::<f64>() > 0.0;
     let labels: Vec<u32> = ball.triangles().iter().map(|t| u32::from(is_high(t))).collect();
-    let options = FeatureOptions { corner_angle: PI, ..FeatureOptions::default().with_labels(&labels) };
-    let features = find(&ball, options);
-    assert_eq!(features.chains.len(), 1);
-    assert!(features.chains[0].is_closed);
-    assert_eq!(features.chains[0].nodes.len(), features.edges.len());
+    let mut beside = std::collections::BTreeMap::<[u32; 2], BTreeSet<u32>>::new();
+    for (triangle, &label) in ball.triangles().iter().zip(&labels) {
+        for (a, b) in [(0, 1), (1, 2), (2, 0)].map(|(i, j)| (triangle[i], triangle[j])) {
+            beside.entry([a.min(b), a.max(b)]).or_default().insert(label);
+        }
+    }
+    let between: Vec<[u32; 2]> =
+        beside.into_iter().filter(|(_, labels)| labels.len() == 2).map(|(edge, _)| edge).collect();
+    let options = FeatureOptions::default().with_sharp_angle(None).with_labels(&labels);
+    let features = find(&ball, FeatureOptions { corner_angle: PI, ..options });
+    assert_eq!(features.edges, between);
+    let in_chains = |chain: &Chain| chain.nodes.len() - usize::from(!chain.is_closed);
+    assert_eq!(features.chains.iter().map(in_chains).sum::<usize>(), between.len());
     // one edge of the caller's, short as it is
     let given = [ball.triangles()[0][0], ball.triangles()[0][1]];
     let features = find(&ball, FeatureOptions::default().with_sharp_angle(None).with_sharp_edges(&[given]));
