@@ -402,7 +402,8 @@ fn distance(surface: &impl Surface, uv: &[DVec2], values: &[f64]) -> f64 {
 
 #[test]
 fn free_knots_take_few_coefficients_and_hold_at_places_not_given() {
-    let functions: [(&str, fn(DVec2) -> f64, usize); 2] = [("peaks", peaks, 360), ("Franke", franke, 250)];
+    type Height = fn(DVec2) -> f64;
+    let functions: [(&str, Height, usize); 2] = [("peaks", peaks, 360), ("Franke", franke, 250)];
     for (name, function, most) in functions {
         let (places, _) = samples::grid([100, 100], 0.3, 7, |_| true);
         let tolerance = Tolerance { value: 1e-3, scale: ToleranceScale::Absolute };
