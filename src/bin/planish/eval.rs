@@ -7,7 +7,7 @@ use planish::export::native;
 use planish::surface::Domain;
 use planish::surface::evaluate::{Output, OutsideRule, Points, Quantity, evaluate};
 use std::io::Read;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub struct EvalArguments {
@@ -59,7 +59,7 @@ pub fn run(arguments: &EvalArguments) -> Result<Outcome, Failure> {
     Ok(Outcome::Done)
 }
 
-fn read_pairs(path: &PathBuf) -> Result<Vec<f64>, Failure> {
+fn read_pairs(path: &Path) -> Result<Vec<f64>, Failure> {
     let fail = |error: std::io::Error| Failure::new(format!("cannot read {}: {error}", path.display()));
     let mut text = String::new();
     if path.as_os_str() == "-" {
