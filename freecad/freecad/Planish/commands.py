@@ -104,7 +104,7 @@ COMMANDS = (
         _one_mesh, _with_panel("FitSurface"),
     ),
     Command(
-        "Planish_SolidFromMesh", "Solid from mesh", "A solid of smooth patches and exact faces from the selected mesh",
+        "Planish_SolidFromMesh", "Solid from mesh", "A solid of smooth patches from the selected mesh",
         "solid", _one_mesh, _with_panel("SolidFromMesh"),
     ),
     Command(
