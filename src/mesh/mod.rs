@@ -23,7 +23,7 @@ pub use cut::{CutError, Piece};
 pub(crate) use decimate::Quadric;
 pub use decimate::{DecimateError, DecimateOptions, DecimateReport, Decimation};
 pub use error::MeshError;
-pub use features::{Chain, FeatureError, FeatureOptions, Features};
+pub use features::{Chain, FeatureError, FeatureOptions, Features, Region, Regions, Side};
 pub use polygon::Faces;
 pub use read::{Format, ReadError, read, read_as, read_bytes};
 pub use repair::{Components, MeshRepairs, Repair};

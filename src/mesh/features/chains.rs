@@ -140,11 +140,15 @@ impl<'a> Net<'a> {
         dropped
     }
 
-    /// Nodes with another number of feature edges than two, or with a turn, seen over so many edges on both sides.
+    /// Nodes with another number of feature edges than two, or with a turn, seen over so many edges on both sides, and
+    /// pinched ones.
     pub fn corners(&self, most_turn: f64, reach: usize) -> Vec<u32> {
         let turns: Vec<Option<f64>> =
             (0..self.ends.len() as u32).map(|node| self.turn(node, reach)).collect();
+        // a chain through a pinched node would leave its fan of triangles, and its regions
+        let pinched = self.mesh.pinched_nodes();
         let is_corner = |node: u32| match turns[node as usize] {
+            _ if pinched.binary_search(&node).is_ok() => !self.ends[node as usize].is_empty(),
             None => !self.ends[node as usize].is_empty(),
             // seen from afar, all nodes about a corner turn: it is the one that turns most
             Some(turn) => {

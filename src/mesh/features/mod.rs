@@ -11,6 +11,7 @@
 
 mod chains;
 mod noise;
+mod regions;
 #[cfg(test)]
 mod tests;
 
@@ -19,6 +20,7 @@ use super::{HalfEdge, Mesh};
 use crate::failure::{Classify, ErrorKind};
 use chains::Net;
 use glam::DVec3;
+pub use regions::{Region, Regions, Side};
 use std::f64::consts::PI;
 
 /// How features are found. Angles are in radians.

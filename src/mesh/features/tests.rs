@@ -215,3 +215,128 @@ fn refusals_name_the_offender() {
     let none = refuse(base.with_sharp_edges(&[[0, 0]]));
     assert_eq!((none.kind(), none.index()), (ErrorKind::Topology, Some(0)));
 }
+
+/// The loops of a region as corner rows, and that each side knows what lies across.
+fn check_regions(mesh: &Mesh, features: &Features, regions: &Regions) {
+    let mut seen = BTreeSet::new();
+    for (number, region) in (0..).zip(&regions.regions) {
+        for row in &region.loops {
+            for (k, side) in row.iter().enumerate() {
+                assert_eq!(side.to, row[(k + 1) % row.len()].from, "{row:?}");
+                assert!(seen.insert((side.chain, side.is_forward)), "{side:?} bounds twice");
+                assert_eq!(regions.beside[side.chain as usize][usize::from(!side.is_forward)], Some(number));
+            }
+        }
+    }
+    // each chain inside has two sides, each on the border one
+    assert_eq!(seen.len(), regions.beside.iter().flatten().flatten().count());
+    let is_outside = |beside: &[Option<u32>; 2]| beside.iter().any(Option::is_none);
+    let border: usize = (features.chains.iter().zip(&regions.beside))
+        .filter(|(_, beside)| is_outside(beside))
+        .map(|(chain, _)| chain.nodes.len() - usize::from(!chain.is_closed))
+        .sum();
+    assert_eq!(border, mesh.topology().boundary_edge_count());
+    // regions meet only along features
+    let is_feature = |a: u32, b: u32| features.edges.binary_search(&[a.min(b), a.max(b)]).is_ok();
+    for edge in mesh.edges() {
+        let Some(twin) = mesh.topology().twin(edge) else { continue };
+        let [left, right] = [edge, twin].map(|side| regions.of_triangle[side.triangle()]);
+        assert!(left == right || is_feature(edge.origin(mesh.triangles()), edge.target(mesh.triangles())));
+    }
+    let listed: usize = regions.regions.iter().map(|region| region.triangles.len()).sum();
+    assert_eq!(listed, mesh.triangles().len());
+}
+
+fn regions_of(mesh: &Mesh, options: FeatureOptions) -> (Features, Regions) {
+    let features = find(mesh, options);
+    let regions = features.regions(mesh);
+    check_regions(mesh, &features, &regions);
+    (features, regions)
+}
+
+#[test]
+fn regions_of_a_block_are_its_six_sides() {
+    let (_, regions) = regions_of(&block([5, 4, 3]), FeatureOptions::default());
+    assert_eq!(regions.regions.len(), 6);
+    for (number, region) in (0..).zip(&regions.regions) {
+        assert_eq!((region.loops.len(), region.loops[0].len(), region.genus), (1, 4, 0));
+        assert_eq!(regions.neighbours(number).len(), 4);
+    }
+}
+
+#[test]
+fn a_wall_between_rims_has_two_loops_of_one_side() {
+    let mesh = cylinder(60, 12);
+    let (features, regions) = regions_of(&mesh, FeatureOptions::default());
+    let loops: Vec<Vec<usize>> =
+        regions.regions.iter().map(|region| region.loops.iter().map(Vec::len).collect()).collect();
+    assert_eq!(loops, [vec![1], vec![1, 1], vec![1]]);
+    let sides = regions.regions[1].loops.iter().flatten();
+    assert!(sides.clone().all(|side| side.from == side.to && regions.across(side) != Some(1)));
+    assert!(sides.clone().all(|side| features.chains[side.chain as usize].nodes[0] == side.from));
+    assert_eq!((regions.neighbours(1), regions.regions[1].genus), (vec![0, 2], 0));
+}
+
+#[test]
+fn handles_and_bodies_are_regions_without_bound() {
+    let smooth = FeatureOptions { corner_angle: PI, ..FeatureOptions::default().with_sharp_angle(None) };
+    let (_, regions) = regions_of(&samples::handles(2, 3000, 5).unwrap(), smooth);
+    assert_eq!((regions.regions.len(), regions.regions[0].genus), (1, 2));
+    assert!(regions.regions[0].loops.is_empty());
+    // a ring cut by a label is a tube: the handle is gone
+    let ring = samples::handles(1, 3000, 2).unwrap();
+    let is_right = |t: &[u32; 3]| t.iter().map(|&node| ring.points()[node as usize].x).sum::<f64>() > 0.0;
+    let labels: Vec<u32> = ring.triangles().iter().map(|t| u32::from(is_right(t))).collect();
+    let (_, regions) = regions_of(&ring, smooth.with_labels(&labels));
+    let shape = |region: &Region| (region.loops.len(), region.genus);
+    assert_eq!(regions.regions.iter().map(shape).collect::<Vec<_>>(), [(2, 0), (2, 0)]);
+    // two blocks apart
+    let block = block([2, 2, 2]);
+    let count = block.points().len() as u32;
+    let points = block.points().iter().chain(block.points());
+    let points = points.enumerate().map(|(k, &p)| if k < count as usize { p } else { p + 9.0 });
+    let triangles = block.triangles().iter().copied();
+    let triangles = triangles.clone().chain(triangles.map(|t| t.map(|node| node + count)));
+    let pair = Mesh::new(points.collect(), triangles.collect()).unwrap();
+    assert_eq!(regions_of(&pair, FeatureOptions::default()).1.regions.len(), 12);
+}
+
+#[test]
+fn a_chain_that_ends_inside_does_not_separate() {
+    // the border of a sheet, a dart from it, and a chain inside
+    let n = 8;
+    let node = |i: u32, j: u32| i * (n + 1) + j;
+    let points =
+        (0..=n).flat_map(|i| (0..=n).map(move |j| DVec3::new(f64::from(i), f64::from(j), 0.0))).collect();
+    let cells = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
+    let triangles = cells.flat_map(|(i, j)| {
+        let [p, q, r, s] = [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)];
+        [[p, q, r], [p, r, s]]
+    });
+    let mesh = Mesh::new(points, triangles.collect()).unwrap();
+    let dart = [[node(4, 0), node(4, 1)], [node(4, 1), node(4, 2)]];
+    let inside = [[node(2, 5), node(3, 5)], [node(3, 5), node(4, 5)]];
+    let given = [dart, inside].concat();
+    let options = FeatureOptions::default().with_sharp_angle(None).with_sharp_edges(&given);
+    let (features, regions) = regions_of(&mesh, FeatureOptions { least_length: 0.0, ..options });
+    assert_eq!(regions.regions.len(), 1);
+    // five chains between the corners on the border, and both sides of the dart; both sides of the chain inside
+    let region = &regions.regions[0];
+    assert_eq!(region.loops.iter().map(Vec::len).collect::<Vec<_>>(), [7, 2]);
+    assert_eq!(region.genus, 0);
+    let is_inside = |chain: u32| regions.is_inside(chain);
+    assert_eq!((0..features.chains.len() as u32).filter(|&chain| is_inside(chain)).count(), 2);
+    assert!(regions.neighbours(0).is_empty());
+}
+
+#[test]
+fn regions_part_at_pinched_nodes() {
+    // two triangles that touch in a node: two chains of border from it to itself
+    let points =
+        [[0, 0], [1, 0], [1, 1], [-1, 0], [-1, -1]].map(|[x, y]| DVec3::new(f64::from(x), f64::from(y), 0.0));
+    let mesh = Mesh::new(points.to_vec(), vec![[0, 1, 2], [0, 3, 4]]).unwrap();
+    let (features, regions) =
+        regions_of(&mesh, FeatureOptions { corner_angle: PI, ..FeatureOptions::default() });
+    assert_eq!((features.corners, regions.regions.len()), (vec![0], 2));
+    assert!(regions.regions.iter().all(|region| region.loops.len() == 1 && region.loops[0].len() == 1));
+}
