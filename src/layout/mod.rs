@@ -7,14 +7,15 @@
 //!     |                 |       Two sides that meet are one edge; they run opposite ways, so t on one is 1 - t
 //!   (0,0) -----0----- (1,0)     on the other. An edge of one side is a border.
 //! ```
-//! Around a vertex the corners lie in sectors, counterclockwise: one that closes inside, and one from border to
-//! border at a border vertex. Edges have numbers, because two quads may share more than one.
+//! Around a vertex the corners lie in sectors, counterclockwise: one that closes inside, and else from sharp edge to
+//! sharp edge; borders and [`Creases`] are sharp. Edges have numbers, because two quads may share more than one.
 
 mod complex;
 mod cube;
 mod error;
 mod node_map;
 pub mod of_mesh;
+mod sectors;
 #[cfg(test)]
 mod tests;
 mod walk;
@@ -22,10 +23,10 @@ mod walk;
 pub use cube::{CUBE_FACES, CubeFace, cube_place};
 pub use error::LayoutError;
 pub use node_map::NodeMap;
+pub use sectors::{Creases, Sector};
 
 use glam::DVec2;
 use std::collections::BTreeMap;
-use std::f64::consts::PI;
 
 /// A side of a quad, and by the same numbers the corner at which it begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -117,54 +118,13 @@ impl Edge {
     }
 }
 
-/// The corners around a vertex that follow one another, counterclockwise, without a border between them.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Sector {
-    /// The vertex.
-    pub vertex: u32,
-    /// The corners.
-    pub corners: Vec<Side>,
-    /// The edges away from the vertex, each before the corner of the same rank. An open sector has one more, at its
-    /// end.
-    pub edges: Vec<HalfEdge>,
-    /// The angle of all corners together, in the tangent plane: 2 pi, or that of the border.
-    pub angle: f64,
-}
-
-impl Sector {
-    /// Whether it ends at borders.
-    pub fn is_open(&self) -> bool {
-        self.edges.len() > self.corners.len()
-    }
-
-    /// Whether the border goes straight on along it.
-    pub fn is_straight(&self) -> bool {
-        self.is_open() && self.angle == PI
-    }
-
-    /// Number of corners.
-    pub fn valence(&self) -> usize {
-        self.corners.len()
-    }
-
-    /// The angle of one corner.
-    pub fn corner_angle(&self) -> f64 {
-        self.angle / self.valence() as f64
-    }
-
-    /// Twice the cosine of the angle of one corner: of three edges that follow one another the outer two add up to
-    /// that many times the one between. Exactly 0 for right angles.
-    pub fn balance(&self) -> f64 {
-        let is_right = 2.0 * self.angle == PI * self.valence() as f64;
-        if is_right { 0.0 } else { 2.0 * self.corner_angle().cos() }
-    }
-}
-
 /// Quadrilateral patches and how they meet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
     quads: Vec<[u32; 4]>,
     edges: Vec<Edge>,
+    /// By edge: whether the surface goes on across it with one tangent plane.
+    is_smooth: Vec<bool>,
     /// The edge of each side, in the direction of the side.
     edge_of_side: Vec<[HalfEdge; 4]>,
     /// By vertex, and around it counterclockwise.
@@ -190,6 +150,23 @@ impl Layout {
 
     /// The same where sides meet that have the same number in `edges`: two edges may join the same vertices.
     pub fn with_edges(quads: &[[u32; 4]], edges: &[[u32; 4]]) -> Result<Self, LayoutError> {
+        Self::assemble(quads, edges, None)
+    }
+
+    /// The same where the surface has creases: at a vertex there may be any number of open sectors.
+    pub fn with_creases(
+        quads: &[[u32; 4]],
+        edges: &[[u32; 4]],
+        creases: &Creases,
+    ) -> Result<Self, LayoutError> {
+        Self::assemble(quads, edges, Some(creases))
+    }
+
+    fn assemble(
+        quads: &[[u32; 4]],
+        edges: &[[u32; 4]],
+        creases: Option<&Creases>,
+    ) -> Result<Self, LayoutError> {
         if quads.is_empty() {
             return Err(LayoutError::Empty);
         }
@@ -206,16 +183,22 @@ impl Layout {
         if vertex_count > 4 * quads.len() {
             return Err(LayoutError::VertexNumbers { vertices: vertex_count, limit: 4 * quads.len() });
         }
-        let (edges, edge_of_side) = join_sides(quads, edges)?;
+        let numbers = edges;
+        let (edges, edge_of_side) = join_sides(quads, numbers)?;
+        let is_smooth = |edge: &Edge| {
+            let number = numbers[edge.first.quad as usize][edge.first.side as usize];
+            edge.second.is_some() && !creases.is_some_and(|creases| creases.sharp.contains(&number))
+        };
         let mut layout = Self {
             quads: quads.to_vec(),
+            is_smooth: edges.iter().map(is_smooth).collect(),
             edges,
             edge_of_side,
             sectors: Vec::new(),
             sector_starts: Vec::new(),
             sector_of_corner: vec![[u32::MAX; 4]; quads.len()],
         };
-        layout.collect_sectors(vertex_count)?;
+        layout.collect_sectors(vertex_count, creases)?;
         Ok(layout)
     }
 
@@ -269,7 +252,17 @@ impl Layout {
 
     /// Whether the surface has one tangent plane across an edge.
     pub fn is_smooth(&self, edge: u32) -> bool {
-        self.edges[edge as usize].second.is_some()
+        self.is_smooth[edge as usize]
+    }
+
+    /// The side that goes on smoothly across a side; none at a border or a crease.
+    pub fn across(&self, side: Side) -> Option<Side> {
+        self.opposite(side).filter(|_| self.is_smooth(self.edge_of(side).edge))
+    }
+
+    /// By quad, the number of the smooth piece it belongs to: pieces meet in creases or not at all.
+    pub fn smooth_pieces(&self) -> Vec<u32> {
+        self.pieces(|side| self.across(side)).0
     }
 
     /// The sectors at the begin and at the end of an edge, on its first side.
@@ -278,7 +271,7 @@ impl Layout {
         [self.sector_at(first), self.sector_at(first.next())]
     }
 
-    /// Whether a vertex lies on a border.
+    /// Whether a vertex lies on a border or a crease.
     pub fn is_border(&self, vertex: u32) -> bool {
         self.sectors_of(vertex).iter().any(Sector::is_open)
     }
@@ -302,76 +295,30 @@ impl Layout {
 
     /// Pieces that no edge joins.
     pub fn component_count(&self) -> usize {
-        let mut is_seen = vec![false; self.quads.len()];
+        self.pieces(|side| self.opposite(side)).1
+    }
+
+    /// The piece of each quad, and how many there are, where quads hang together by some of their sides.
+    fn pieces(&self, beside: impl Fn(Side) -> Option<Side>) -> (Vec<u32>, usize) {
+        let mut piece_of = vec![u32::MAX; self.quads.len()];
         let mut count = 0;
         for start in 0..self.quads.len() {
-            if std::mem::replace(&mut is_seen[start], true) {
+            if piece_of[start] != u32::MAX {
                 continue;
             }
-            count += 1;
+            piece_of[start] = count;
             let mut stack = vec![start as u32];
             while let Some(quad) = stack.pop() {
-                for side in 0..4 {
-                    if let Some(other) = self.opposite(Side { quad, side })
-                        && !std::mem::replace(&mut is_seen[other.quad as usize], true)
-                    {
+                for other in (0..4).filter_map(|side| beside(Side { quad, side })) {
+                    if piece_of[other.quad as usize] == u32::MAX {
+                        piece_of[other.quad as usize] = count;
                         stack.push(other.quad);
                     }
                 }
             }
+            count += 1;
         }
-        count
-    }
-
-    /// Walks around each vertex, from a border if it has one.
-    fn collect_sectors(&mut self, vertex_count: usize) -> Result<(), LayoutError> {
-        let mut corners: Vec<Vec<Side>> = vec![Vec::new(); vertex_count];
-        for (quad, vertices) in (0..).zip(&self.quads) {
-            for (side, &vertex) in (0..).zip(vertices) {
-                corners[vertex as usize].push(Side { quad, side });
-            }
-        }
-        self.sector_starts.push(0);
-        for (vertex, around) in (0..).zip(&corners) {
-            let borders = around.iter().filter(|&&corner| self.opposite(corner).is_none());
-            let Some(&start) = borders.clone().next().or(around.first()) else {
-                self.sector_starts.push(self.sectors.len() as u32);
-                continue;
-            };
-            let sector = self.sector_from(vertex, start);
-            if sector.corners.len() < around.len() {
-                return Err(LayoutError::NonManifoldVertex { vertex });
-            }
-            if !sector.is_open() && sector.valence() < 3 {
-                return Err(LayoutError::Valence { vertex, valence: sector.valence() });
-            }
-            for corner in &sector.corners {
-                let number = self.sectors.len() as u32;
-                self.sector_of_corner[corner.quad as usize][corner.side as usize] = number;
-            }
-            self.sectors.push(sector);
-            self.sector_starts.push(self.sectors.len() as u32);
-        }
-        Ok(())
-    }
-
-    fn sector_from(&self, vertex: u32, start: Side) -> Sector {
-        let (mut corners, mut edges) = (vec![start], vec![self.edge_of(start)]);
-        let mut corner = start;
-        let angle = loop {
-            // the last edge of a corner is the side before it, which runs towards the vertex
-            match self.opposite(corner.previous()) {
-                Some(next) if next == start => break 2.0 * PI,
-                Some(next) => corner = next,
-                None => {
-                    edges.push(self.edge_of(corner.previous()).reversed());
-                    break if corners.len() == 1 { PI / 2.0 } else { PI };
-                }
-            }
-            corners.push(corner);
-            edges.push(self.edge_of(corner));
-        };
-        Sector { vertex, corners, edges, angle }
+        (piece_of, count as usize)
     }
 }
 

@@ -1,6 +1,7 @@
 use super::*;
 use crate::failure::{Classify, ErrorKind};
 use glam::DVec3;
+use std::f64::consts::PI;
 
 /// A torus of `m` times `n` quads.
 fn torus(m: u32, n: u32) -> Vec<[u32; 4]> {
@@ -113,4 +114,70 @@ fn what_is_no_layout_is_named() {
     assert_eq!(refuse(&doublet), LayoutError::Valence { vertex: 0, valence: 2 });
     let moebius = [[0, 1, 4, 3], [1, 2, 5, 4], [2, 3, 0, 5]];
     assert_eq!(refuse(&moebius).kind(), ErrorKind::Topology);
+}
+
+/// The layout with some edges sharp, given by their ends, and all open sectors of one angle.
+fn creased(quads: &[[u32; 4]], sharp: &[[u32; 2]], angle: f64) -> Result<Layout, LayoutError> {
+    let (numbers, sharp) = crate::samples::layouts::numbered_edges(quads, sharp);
+    Layout::with_creases(quads, &numbers, &Creases { sharp: &sharp, angle: &|_| angle })
+}
+
+#[test]
+fn creases_part_the_quads_around_a_vertex() {
+    let cube = Layout::cube();
+    let quads = cube.quads();
+    let all: Vec<[u32; 2]> = cube.edges().iter().map(|edge| edge.ends).collect();
+    let sharp = creased(quads, &all, PI / 2.0).unwrap();
+    assert!((0..8).all(|vertex| sharp.sectors_of(vertex).len() == 3));
+    assert!(sharp.sectors().iter().all(|sector| sector.valence() == 1 && sector.is_open()));
+    assert!((0..12).all(|edge| !sharp.is_smooth(edge)));
+    assert_eq!(sharp.smooth_pieces(), [0, 1, 2, 3, 4, 5]);
+    // pieces that creases join are one
+    assert_eq!((sharp.component_count(), sharp.genus()), (1, Some(0)));
+
+    // around one face: an edge of the cube that leaves it lies between two quads of the wall
+    let around: Vec<[u32; 2]> = (0..4).map(|k| [quads[0][k], quads[0][(k + 1) % 4]]).collect();
+    let lid = creased(quads, &around, PI).unwrap();
+    let mut valences: Vec<usize> = lid.sectors_of(quads[0][0]).iter().map(Sector::valence).collect();
+    valences.sort_unstable();
+    assert_eq!(valences, [1, 2]);
+    assert!(lid.sectors().iter().filter(|sector| sector.is_open()).all(Sector::is_straight));
+    assert_eq!(lid.smooth_pieces(), [0, 1, 1, 1, 1, 1]);
+}
+
+#[test]
+fn a_crease_that_ends_inside_is_a_dart_of_three_quads() {
+    let quads = torus(4, 3);
+    let dart = creased(&quads, &[[0, 3]], 1.0).unwrap();
+    for vertex in [0, 3] {
+        let [sector] = dart.sectors_of(vertex) else { panic!("{:?}", dart.sectors_of(vertex)) };
+        assert!(sector.is_dart() && sector.valence() == 4 && sector.angle == 2.0 * PI);
+    }
+    assert_eq!(dart.smooth_pieces(), [0; 12]);
+    // two quads do not span a plane around the end of a crease
+    let pillow = [[0, 1, 2, 3], [0, 3, 2, 4]];
+    assert_eq!(creased(&pillow, &[[0, 3]], 1.0), Err(LayoutError::Valence { vertex: 3, valence: 2 }));
+    let cube = Layout::cube();
+    let ends = cube.edges()[0].ends;
+    let on_three = creased(cube.quads(), &[ends], 1.0).unwrap();
+    assert!(on_three.sectors_of(ends[0])[0].is_dart());
+}
+
+#[test]
+fn angles_of_sectors_do_not_contradict_each_other() {
+    let cube = Layout::cube();
+    let all: Vec<[u32; 2]> = cube.edges().iter().map(|edge| edge.ends).collect();
+    // three straight sectors would make each tangent the opposite of itself
+    let layout = creased(cube.quads(), &all, PI).unwrap();
+    for vertex in 0..8 {
+        let straight = layout.sectors_of(vertex).iter().filter(|sector| sector.is_straight()).count();
+        assert_eq!(straight, 1, "vertex {vertex}");
+    }
+    // nearly straight is straight, and a wedge keeps away from it
+    for (angle, expected) in [(2.9, PI), (2.6, 2.6), (4.0, 4.0), (0.01, 5.0_f64.to_radians())] {
+        let lid = creased(&torus(4, 3)[1..], &[], angle).unwrap();
+        for sector in lid.sectors().iter().filter(|sector| sector.is_open() && sector.valence() > 1) {
+            assert!((sector.angle - expected).abs() <= 4.0 * f64::EPSILON, "{angle}: {}", sector.angle);
+        }
+    }
 }

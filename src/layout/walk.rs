@@ -14,7 +14,7 @@ impl Layout {
             let side = Side { quad: place.quad, side };
             let [t, q] = side.coordinates(place.uv);
             if q < 0.0
-                && let Some(other) = self.opposite(side).filter(|_| self.is_smooth(self.edge_of(side).edge))
+                && let Some(other) = self.across(side)
             {
                 place = other.place(1.0 - t, -q);
             }
@@ -29,8 +29,7 @@ impl Layout {
     pub fn unfold(&self, quad: u32, place: Place, near: DVec2) -> Option<DVec2> {
         let over = |side: u8| {
             let side = Side { quad, side };
-            let other = self.opposite(side).filter(|other| other.quad == place.quad)?;
-            self.is_smooth(self.edge_of(side).edge).then_some(())?;
+            let other = self.across(side).filter(|other| other.quad == place.quad)?;
             let [t, q] = other.coordinates(place.uv);
             let [c_0, c_1] = [side, side.next()].map(|corner| self.sector_at(corner).balance());
             let s = 1.0 - t;

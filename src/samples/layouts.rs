@@ -1,7 +1,7 @@
 //! Quad layouts with places for their vertices on the unit sphere, or on a torus.
 
 use glam::DVec3;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
 
 /// Quads and the places of their vertices.
@@ -88,6 +88,19 @@ pub fn torus(m: u32, n: u32) -> PlacedQuads {
         DVec3::new(radius * around.cos(), radius * around.sin(), 0.4 * across.sin())
     };
     (quads, (0..m * n).map(place).collect())
+}
+
+/// Numbers of the sides of quads, equal where they join the same two vertices, and those of some edges given by their
+/// ends.
+pub fn numbered_edges(quads: &[[u32; 4]], some: &[[u32; 2]]) -> (Vec<[u32; 4]>, BTreeSet<u32>) {
+    let mut numbers = BTreeMap::new();
+    let mut number = |[a, b]: [u32; 2]| {
+        let next = numbers.len() as u32;
+        *numbers.entry([a.min(b), a.max(b)]).or_insert(next)
+    };
+    let of_quads =
+        quads.iter().map(|quad| std::array::from_fn(|k| number([quad[k], quad[(k + 1) % 4]]))).collect();
+    (of_quads, some.iter().map(|&ends| number(ends)).collect())
 }
 
 fn outwards([a, b, c]: [u32; 3], points: &[DVec3]) -> [u32; 3] {

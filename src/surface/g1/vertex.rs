@@ -16,8 +16,12 @@ impl Space<'_> {
         let mut tangents: Vec<Option<Combination>> = vec![None; 2 * self.layout.edges().len()];
         for vertex in 0..self.layout.vertex_count() as u32 {
             let sectors = self.layout.sectors_of(vertex);
-            for sector in sectors.iter().filter(|sector| sector.is_straight()) {
-                self.tie_ends(sector, &mut tangents);
+            let mut straight: Vec<&Sector> = sectors.iter().filter(|sector| sector.is_straight()).collect();
+            while !straight.is_empty() {
+                // what hangs on a known tangent comes first, so that a row of them has one
+                let is_known = |sector: &&Sector| ends(sector).iter().any(|&end| tangents[end].is_some());
+                let next = straight.iter().position(is_known).unwrap_or(0);
+                self.tie_ends(straight.remove(next), &mut tangents);
             }
             for sector in sectors.iter().filter(|sector| sector.is_open()) {
                 for end in ends(sector) {
@@ -31,7 +35,7 @@ impl Space<'_> {
         tangents.into_iter().map(|tangent| tangent.expect("an edge lies in a sector at both ends")).collect()
     }
 
-    /// The border goes straight on: T_k = -T_0.
+    /// The sharp edge goes straight on: T_k = -T_0.
     fn tie_ends(&mut self, sector: &Sector, tangents: &mut [Option<Combination>]) {
         let [first, last] = ends(sector);
         match (&tangents[first], &tangents[last]) {
