@@ -15,7 +15,7 @@ module planish_records
 
   !> The version of planish.h that this follows.
   integer(c_int32_t), parameter, public :: PLANISH_VERSION_MAJOR = 0
-  integer(c_int32_t), parameter, public :: PLANISH_VERSION_MINOR = 1
+  integer(c_int32_t), parameter, public :: PLANISH_VERSION_MINOR = 2
   integer(c_int32_t), parameter, public :: PLANISH_VERSION_PATCH = 0
 
   !> The value of stretch_steps that goes on until the stretch no longer falls

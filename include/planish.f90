@@ -406,7 +406,7 @@ contains
   ! Errors
   ! ---------------------------------------------------------------------------------------------------------
 
-  !> The version of the library that is loaded, such as "0.1.0".
+  !> The version of the library that is loaded, such as "0.2.0".
   function planish_version() result(text)
     character(:), allocatable :: text
     text = text_at(c_version())

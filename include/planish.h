@@ -10,9 +10,9 @@
 
 /* The version of this header; planish_version() is that of the library. */
 #define PLANISH_VERSION_MAJOR 0
-#define PLANISH_VERSION_MINOR 1
+#define PLANISH_VERSION_MINOR 2
 #define PLANISH_VERSION_PATCH 0
-#define PLANISH_VERSION "0.1.0"
+#define PLANISH_VERSION "0.2.0"
 
 #if defined(_WIN32) && !defined(PLANISH_STATIC)
 #  define PLANISH_API __declspec(dllimport)
@@ -3892,7 +3892,7 @@ extern "C" {
 #endif // __cplusplus
 
 /**
- * The version of the library that is loaded, such as "0.1.0": compare it with PLANISH_VERSION, the version
+ * The version of the library that is loaded, such as "0.2.0": compare it with PLANISH_VERSION, the version
  * of this header. Never NULL; the text is static.
  */
 PLANISH_API const char *planish_version(void);

@@ -311,7 +311,7 @@ Options defaults() {
   return options;
 }
 
-/// The version of the library that is loaded, such as "0.1.0".
+/// The version of the library that is loaded, such as "0.2.0".
 inline std::string version() { return planish_version(); }
 
 /// Throws unless the library that is loaded serves programs that were compiled with this header.

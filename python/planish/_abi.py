@@ -5,7 +5,7 @@
 from ctypes import (CFUNCTYPE, Structure, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint8, c_uint32, c_uint64,
                     c_void_p, sizeof)
 
-VERSION = "0.1.0"
+VERSION = "0.2.0"
 UNLIMITED = 4294967295
 NONE = 4294967295
 

@@ -94,7 +94,7 @@ impl From<()> for planish_status {
     }
 }
 
-/// The version of the library that is loaded, such as "0.1.0": compare it with PLANISH_VERSION, the version
+/// The version of the library that is loaded, such as "0.2.0": compare it with PLANISH_VERSION, the version
 /// of this header. Never NULL; the text is static.
 #[unsafe(no_mangle)]
 pub extern "C" fn planish_version() -> *const c_char {

@@ -65,8 +65,9 @@ fn name_and_unit_are_refused_by_name() {
 
 #[test]
 fn headers_of_other_versions_are_refused() {
-    ok(planish_check_version(0, 1));
-    refused(planish_check_version(0, 2), planish_status::Version, -1, &["0.2", "0.1.0"]);
+    ok(planish_check_version(0, 2));
+    refused(planish_check_version(0, 1), planish_status::Version, -1, &["0.1", "0.2.0"]);
+    refused(planish_check_version(0, 3), planish_status::Version, -1, &["0.3", "0.2.0"]);
     refused(planish_check_version(1, 0), planish_status::Version, -1, &["1.0"]);
 }
 
