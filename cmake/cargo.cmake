@@ -107,10 +107,21 @@ add_custom_target(
 # The command line tool needs crates that the library does not, so it is built on its own, after the library
 if(PLANISH_TOOL)
   set(PLANISH_TOOL_FILE "${_cargo_out}/planish${CMAKE_EXECUTABLE_SUFFIX}")
+  # the tool writes its manual and its completions itself, where it can run
+  set(PLANISH_PAGES "${CMAKE_CURRENT_BINARY_DIR}/pages")
+  set(_pages)
+  if(NOT CMAKE_CROSSCOMPILING AND NOT WIN32)
+    file(MAKE_DIRECTORY "${PLANISH_PAGES}/man1")
+    set(_pages COMMAND "${PLANISH_TOOL_FILE}" manual "${PLANISH_PAGES}/man1"
+               COMMAND "${PLANISH_TOOL_FILE}" completions bash > "${PLANISH_PAGES}/planish.bash"
+               COMMAND "${PLANISH_TOOL_FILE}" completions zsh > "${PLANISH_PAGES}/_planish"
+               COMMAND "${PLANISH_TOOL_FILE}" completions fish > "${PLANISH_PAGES}/planish.fish")
+  endif()
   add_custom_target(
     planish_tool ALL
-    COMMAND ${CMAKE_COMMAND} -E env --unset=MAKEFLAGS "CARGO_TARGET_DIR=${_target_dir}" ${PLANISH_CARGO} build
+    COMMAND ${CMAKE_COMMAND} -E env --unset=MAKEFLAGS ${_environment} ${PLANISH_CARGO} build
             --locked --package planish --bin planish --features cli --profile ${_profile} ${_target_flag} ${_more_flags}
+    ${_pages}
     BYPRODUCTS "${PLANISH_TOOL_FILE}"
     WORKING_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}"
     USES_TERMINAL VERBATIM

@@ -23,6 +23,14 @@ install(FILES "${PLANISH_LIB_DIR}/${PLANISH_STATIC_FILE}" DESTINATION "${CMAKE_I
 
 if(PLANISH_TOOL)
   install(PROGRAMS "${PLANISH_TOOL_FILE}" DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT Runtime)
+  if(NOT CMAKE_CROSSCOMPILING AND NOT WIN32)
+    install(DIRECTORY "${PLANISH_PAGES}/man1" DESTINATION "${CMAKE_INSTALL_MANDIR}" COMPONENT Runtime)
+    install(FILES "${PLANISH_PAGES}/planish.bash" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions"
+            RENAME planish COMPONENT Runtime)
+    install(FILES "${PLANISH_PAGES}/_planish" DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/site-functions" COMPONENT Runtime)
+    install(FILES "${PLANISH_PAGES}/planish.fish" DESTINATION "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d"
+            COMPONENT Runtime)
+  endif()
 endif()
 
 # pkg-config: paths start from the file itself, so `cmake --install --prefix` and a moved tree stay right

@@ -1,7 +1,8 @@
 //! `planish d1rc`.
 
 use crate::input::{MeshInput, threads};
-use crate::output::{self, Step, Table};
+use crate::output::{self, Table};
+use crate::step::Step;
 use crate::{Failure, Outcome};
 use clap::{Args, ValueEnum};
 use planish::Control;

@@ -2,20 +2,19 @@
 
 use crate::input::{MeshInput, threads};
 use crate::model;
-use crate::output::{self, Fit, Step, Table};
+use crate::output::{self, Fit, Table};
+use crate::step::StepArguments;
 use crate::{Failure, Given, Outcome};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
-use planish::export::step::{StepOptions, Unit};
 use planish::fit::common::Regularize;
-use planish::fit::conversion::ConversionOptions;
 use planish::fit::d1rc::{self, D1rcFitOptions};
 use planish::fit::pht::{self, PhtOptions};
 use planish::fit::report::{FitReport, Remarks, StopReason, Tolerance, ToleranceScale};
 use planish::fit::tensor::{self, Ends, Knots, Method, TensorOptions};
 use planish::mesh::{Mesh, MeshRepairs};
-use planish::model::{Form, FormOptions};
 use planish::parameterize::{Border, ParameterizeOptions};
+use planish::surface::Label;
 use planish::{Control, Error};
 use serde_json::json;
 use std::io::IsTerminal;
@@ -41,22 +40,12 @@ pub struct FitArguments {
     /// Take the tolerance in model units.
     #[arg(long)]
     absolute: bool,
-    /// Write a file: .step or .stp (the trimmed surface), .vtu (the mesh on the surface with its
-    /// deviation), .obj (a tessellation), .planish (the surface itself); may be given several times.
+    /// Write a file: .step or .stp (the trimmed surface), .vtu or .glb (the mesh on the surface with its deviation), .obj,
+    /// .off, .ply or .stl (a tessellation), .planish (the surface itself); may be given several times.
     #[arg(long, value_name = "FILE")]
     pub out: Vec<PathBuf>,
-    /// What one model unit is, for STEP files.
-    #[arg(long, value_enum, default_value_t = UnitName::Mm)]
-    unit: UnitName,
-    /// What STEP files hold of a PHT-spline.
-    #[arg(long, value_enum, default_value_t = FormName::Tensor)]
-    step_form: FormName,
-    /// Most levels that cells in one face of --step-form patches differ by: more gives fewer faces.
-    #[arg(long, default_value_t = 1, value_name = "N")]
-    pub level_spread: u32,
-    /// Name of the product in STEP files; that of the mesh file if it is left out.
-    #[arg(long, value_name = "NAME")]
-    pub product: Option<String>,
+    #[command(flatten)]
+    pub step: StepArguments,
     /// Write a picture of the surface coloured by deviation.
     #[arg(long, value_name = "PNG")]
     pub picture: Option<PathBuf>,
@@ -139,26 +128,11 @@ pub enum LayoutName {
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
-enum FormName {
-    /// One face over the lines of all cells.
-    Tensor,
-    /// A shell of faces that share edges, each over cells of nearly equal size: far fewer control points.
-    Patches,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
 enum KnotsName {
     /// Where the error asks for them.
     Adaptive,
     /// At equal distances.
     Uniform,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum UnitName {
-    Mm,
-    M,
-    Inch,
 }
 
 pub fn run(arguments: &FitArguments, given: &Given) -> Result<Outcome, Failure> {
@@ -187,20 +161,8 @@ pub fn run(arguments: &FitArguments, given: &Given) -> Result<Outcome, Failure> 
     }
     let fit = with_bar(arguments.threads, |control| fit_by_family(&mesh, arguments, control))?;
     let stem = arguments.mesh.file_stem().unwrap_or_default().to_string_lossy();
-    let text = StepOptions {
-        unit: unit(arguments),
-        product: arguments.product.as_deref().unwrap_or(&stem),
-        ..StepOptions::default()
-    };
-    let form = FormOptions {
-        form: match arguments.step_form {
-            FormName::Tensor => Form::Tensor,
-            FormName::Patches => Form::Patches,
-        },
-        level_spread: arguments.level_spread,
-        ..FormOptions::default()
-    };
-    let step = Step { text, conversion: ConversionOptions { form, ..ConversionOptions::default() } };
+    let label = Label::default();
+    let step = arguments.step.step(&label, &stem);
     for path in &arguments.out {
         output::write_fit(&mesh, &fit, path, &step)?;
     }
@@ -218,14 +180,6 @@ pub fn run(arguments: &FitArguments, given: &Given) -> Result<Outcome, Failure> 
     let remarks = fit.report.remarks;
     let is_met = !(remarks.has(Remarks::TOLERANCE_NOT_MET) || remarks.has(Remarks::ROUGH_BETWEEN_NODES));
     Ok(if is_met { Outcome::Done } else { Outcome::ToleranceNotMet })
-}
-
-pub fn unit(arguments: &FitArguments) -> Unit {
-    match arguments.unit {
-        UnitName::Mm => Unit::Millimetre,
-        UnitName::M => Unit::Metre,
-        UnitName::Inch => Unit::Inch,
-    }
 }
 
 /// Refuses what the family or the method would not look at.
@@ -246,7 +200,7 @@ fn check_used(arguments: &FitArguments, family: FamilyName, given: &Given) -> Re
     }
     given.refuse("free-ends", !arguments.ferguson, "is not used with --ferguson")?;
     let writes_step = arguments.out.iter().any(|path| output::is_step(path));
-    for option in ["unit", "product", "step-form", "level-spread"] {
+    for option in StepArguments::OPTIONS {
         given.refuse(option, writes_step, "is not used: no STEP file is written")?;
     }
     given.refuse(
@@ -254,7 +208,7 @@ fn check_used(arguments: &FitArguments, family: FamilyName, given: &Given) -> Re
         family == FamilyName::Pht,
         "is not used: only a PHT-spline has several forms",
     )?;
-    let is_patches = family == FamilyName::Model || matches!(arguments.step_form, FormName::Patches);
+    let is_patches = family == FamilyName::Model || arguments.step.is_patches();
     given.refuse("level-spread", is_patches, "is used with --step-form patches only")
 }
 

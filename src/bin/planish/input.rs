@@ -64,6 +64,9 @@ fn component(text: &str) -> Result<Components, String> {
 }
 
 impl MeshInput {
+    /// The names of its options.
+    pub const OPTIONS: [&str; 6] = ["weld", "repair", "no-repair", "orient", "component", "max-memory"];
+
     pub fn options(&self) -> MeshOptions {
         let base = if self.no_repair { Repair::NONE } else { Repair::SAFE };
         let orient = if self.orient { Repair::ORIENTATION } else { Repair::NONE };

@@ -2,12 +2,14 @@
 //!
 //! Exit code 0: done, and the tolerance met; 2: done, but the tolerance not met; 1: any error.
 
+mod convert;
 mod d1rc;
 mod decimate;
 mod eval;
 mod fit;
 mod info;
 mod input;
+mod manual;
 mod model;
 mod morph;
 mod output;
@@ -15,6 +17,8 @@ mod picture;
 mod render;
 mod sample;
 mod skin;
+mod step;
+mod topics;
 
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;
@@ -24,11 +28,16 @@ use std::process::ExitCode;
 
 /// Smooth spline surfaces from triangle meshes, within a stated tolerance.
 #[derive(Debug, Parser)]
-#[command(name = "planish", version, max_term_width = 100)]
+#[command(name = "planish", version, max_term_width = 100, after_help = EXIT_CODES)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
 }
+
+/// What every help ends with.
+const EXIT_CODES: &str = "\
+Exit codes: 0 done, and the tolerance met; 2 done and written, but the tolerance not met; 1 any error, told in one line.
+More by subject: planish help topics";
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -40,6 +49,8 @@ enum Command {
     Decimate(decimate::DecimateArguments),
     /// Make a smooth surface from a triangular control mesh.
     D1rc(d1rc::D1rcArguments),
+    /// Write what was saved, or a mesh, in other formats: STEP, VTK, OBJ, OFF, PLY, STL, glTF.
+    Convert(convert::ConvertArguments),
     /// Say what a mesh file or a saved surface holds.
     Info(info::InfoArguments),
     /// Evaluate a saved surface.
@@ -50,6 +61,13 @@ enum Command {
     Render(render::RenderArguments),
     /// Write one of the seeded sample meshes.
     Sample(sample::SampleArguments),
+    /// Explain a subject: tolerance, families, files, units, repair, reports, exit codes.
+    Topics(topics::TopicsArguments),
+    /// Print completions for a shell.
+    Completions(manual::CompletionsArguments),
+    /// Write the manual's pages, planish.1 and one for each command, into a folder.
+    #[command(hide = true)]
+    Manual(manual::ManualArguments),
 }
 
 /// How a command ended well.
@@ -108,11 +126,15 @@ fn main() -> ExitCode {
         Command::Skin(arguments) => skin::run(&arguments, &given),
         Command::Decimate(arguments) => decimate::run(&arguments),
         Command::D1rc(arguments) => d1rc::run(&arguments),
+        Command::Convert(arguments) => convert::run(&arguments, &given),
         Command::Info(arguments) => info::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
         Command::Morph(arguments) => morph::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
         Command::Sample(arguments) => sample::run(&arguments),
+        Command::Topics(arguments) => topics::run(&arguments),
+        Command::Completions(arguments) => manual::complete(&arguments),
+        Command::Manual(arguments) => manual::write(&arguments),
     };
     match outcome {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
@@ -177,6 +199,17 @@ mod tests {
         assert!(threads.contains("5000") && threads.contains("0 to 1024"), "{threads}");
         for line in [missing, near, family, command, threads] {
             assert!(!line.contains('\n') && !line.contains("Usage"), "{line}");
+        }
+    }
+
+    #[test]
+    fn arguments_are_consistent_and_every_help_tells_the_exit_codes() {
+        Arguments::command().debug_assert();
+        let help = Arguments::command().render_help().to_string();
+        assert!(help.contains("Exit codes: 0") && help.contains("planish help topics"), "{help}");
+        let topics = Arguments::try_parse_from(["planish", "help", "topics"]).expect_err("a help");
+        for word in ["tolerance", "families", "exit-codes"] {
+            assert!(topics.to_string().contains(word), "{topics}");
         }
     }
 

@@ -1,17 +1,16 @@
 //! `planish fit` where a mesh becomes a model: a solid of patches that meet smoothly.
 
-use crate::fit::{FitArguments, LayoutName, unit, with_bar};
+use crate::fit::{FitArguments, LayoutName, with_bar};
 use crate::output::{self, Table};
 use crate::picture::{Picture, View};
+use crate::step::Step;
 use crate::{Failure, Outcome};
 use glam::DVec3;
-use planish::export::step::{self, StepOptions};
-use planish::export::{native, vtk};
 use planish::fit::model::{Family, MeshModelOptions, ModelFit, ModelOptions, fit_mesh};
 use planish::fit::report::Remarks;
 use planish::layout::of_mesh::{LayoutKind, MeshLayoutOptions};
 use planish::mesh::{Mesh, MeshRepairs};
-use planish::query::tessellate::TessellateOptions;
+use planish::surface::Label;
 use serde_json::json;
 use std::path::Path;
 
@@ -19,10 +18,10 @@ pub fn run(mesh: &Mesh, repairs: &MeshRepairs, arguments: &FitArguments) -> Resu
     let options = options(arguments);
     let fit = with_bar(arguments.threads, |control| fit_mesh(mesh, &options, control))?;
     let stem = arguments.mesh.file_stem().unwrap_or_default().to_string_lossy();
-    let product = arguments.product.as_deref().unwrap_or(&stem);
-    let text = StepOptions { unit: unit(arguments), product, ..StepOptions::default() };
+    let label = Label::default();
+    let step = arguments.step.step(&label, &stem);
     for path in &arguments.out {
-        write(mesh, &fit, path, &text)?;
+        write(mesh, &fit, path, &step)?;
     }
     if let Some(path) = &arguments.picture {
         let moved = moved(mesh, &fit);
@@ -60,24 +59,14 @@ fn options(arguments: &FitArguments) -> MeshModelOptions {
         patches: arguments.patches.unwrap_or(defaults.patches),
         ..defaults
     };
-    MeshModelOptions { family: Family::Auto, fit, layout, level_spread: arguments.level_spread }
+    MeshModelOptions { family: Family::Auto, fit, layout, level_spread: arguments.step.level_spread }
 }
 
-fn write(mesh: &Mesh, fit: &ModelFit, path: &Path, text: &StepOptions) -> Result<(), Failure> {
-    match path.extension().and_then(|extension| extension.to_str()) {
-        Some(extension) if extension.eq_ignore_ascii_case("vtu") => {
-            let data = vtk::PointData { name: "deviation", dim: 1, values: &fit.errors };
-            vtk::write_mesh(&moved(mesh, fit), &[data], path)?;
-        }
-        _ if output::is_step(path) => {
-            step::write(&fit.model, text, path)?;
-        }
-        _ if output::is_tessellation(path) => {
-            output::write_mesh(&fit.model.tessellate(&TessellateOptions::default())?.mesh, path)?;
-        }
-        _ => native::save_file(&fit.model, path)?,
+fn write(mesh: &Mesh, fit: &ModelFit, path: &Path, step: &Step) -> Result<(), Failure> {
+    if output::shows_deviation(path) {
+        return output::write_deviation(&moved(mesh, fit), &fit.errors, path);
     }
-    Ok(())
+    output::write_model(&fit.model, path, step)
 }
 
 /// The mesh with its nodes on the model.

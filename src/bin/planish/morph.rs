@@ -1,8 +1,9 @@
 //! `planish morph`.
 
 use crate::input::MeshInput;
-use crate::output::{self, Step, write_png, write_surface};
+use crate::output::{self, write_png, write_surface};
 use crate::picture::{Picture, View};
+use crate::step::Step;
 use crate::{Failure, Outcome};
 use clap::Args;
 use glam::{DVec2, DVec3};

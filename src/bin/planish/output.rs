@@ -2,18 +2,20 @@
 
 use crate::Failure;
 use crate::picture::{Picture, View};
+use crate::step::Step;
 use glam::DVec2;
 use planish::Control;
+use planish::export::gltf::{self, Colours};
 use planish::export::html::{self, ReportOptions};
 use planish::export::mesh::Encoding;
-use planish::export::step::{self, StepOptions};
-use planish::export::{mesh as mesh_files, native, vtk};
+use planish::export::{mesh as mesh_files, native, step, vtk};
 use planish::file;
-use planish::fit::conversion::{ConversionOptions, to_model};
+use planish::fit::conversion::to_model;
 use planish::fit::report::{FitReport, ToleranceScale};
 use planish::memory;
 use planish::mesh::{Format, Mesh, MeshRepairs};
-use planish::query::tessellate::{TessellateOptions, tessellate};
+use planish::model::Model;
+use planish::query::tessellate::tessellate;
 use planish::surface::AnySurface;
 use std::fmt;
 use std::io::{self, ErrorKind, Write};
@@ -87,9 +89,9 @@ pub fn repair_rows(table: &mut Table, made: &MeshRepairs) {
 }
 
 /// The formats of surfaces, by the ends of names.
-const SURFACES: &[&str] = &["step", "stp", "vtu", "obj", "off", "ply", "stl", "planish"];
+pub const SURFACES: &[&str] = &["step", "stp", "vtu", "obj", "off", "ply", "stl", "glb", "planish"];
 /// Those of meshes.
-pub const MESHES: &[&str] = &["obj", "off", "ply", "stl"];
+pub const MESHES: &[&str] = &["obj", "off", "ply", "stl", "glb"];
 /// Those of pictures.
 pub const PICTURES: &[&str] = &["png"];
 /// Those of reports.
@@ -118,9 +120,19 @@ pub fn is_step(path: &Path) -> bool {
     ["step", "stp"].contains(&extension(path).as_str())
 }
 
-/// Whether a name asks for triangles of the surface.
-pub fn is_tessellation(path: &Path) -> bool {
-    MESHES.contains(&extension(path).as_str())
+/// Whether a name asks for a file of this program's own.
+pub fn is_saved(path: &Path) -> bool {
+    extension(path) == "planish"
+}
+
+/// Whether a name asks for a file for ParaView.
+pub fn is_vtk(path: &Path) -> bool {
+    extension(path) == "vtu"
+}
+
+/// Whether what a fit writes under a name is the mesh with its deviation.
+pub fn shows_deviation(path: &Path) -> bool {
+    ["vtu", "glb"].contains(&extension(path).as_str())
 }
 
 /// A fit by any method.
@@ -134,22 +146,24 @@ pub struct Fit {
     pub errors: Vec<f64>,
 }
 
-/// What STEP files hold of a surface, and what they say beside the shape.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Step<'a> {
-    pub conversion: ConversionOptions,
-    pub text: StepOptions<'a>,
-}
-
 /// Writes a fit in the format of the name.
 pub fn write_fit(mesh: &Mesh, fit: &Fit, path: &Path, step: &Step) -> Result<(), Failure> {
-    if extension(path) == "vtu" {
-        let data = vtk::PointData { name: "deviation", dim: 1, values: &fit.errors };
+    if shows_deviation(path) {
         let moved = vtk::on_surface(fit.surface.as_surface(), mesh, &fit.parameters)?;
-        vtk::write_mesh(&moved, &[data], path)?;
-        return Ok(());
+        return write_deviation(&moved, &fit.errors, path);
     }
     write_surface(&fit.surface, path, step)
+}
+
+/// Writes a mesh that lies on what was fitted to it, with the errors of its nodes.
+pub fn write_deviation(moved: &Mesh, errors: &[f64], path: &Path) -> Result<(), Failure> {
+    if extension(path) == "glb" {
+        let largest =
+            errors.iter().copied().filter(|error| error.is_finite()).fold(f64::MIN_POSITIVE, f64::max);
+        return Ok(gltf::write(moved, Some(Colours { values: errors, limit: largest }), path)?);
+    }
+    let data = vtk::PointData { name: "deviation", dim: 1, values: errors };
+    Ok(vtk::write_mesh(moved, &[data], path)?)
 }
 
 /// Writes a surface in the format of the name.
@@ -161,12 +175,28 @@ pub fn write_surface(surface: &AnySurface, path: &Path, step: &Step) -> Result<(
         "vtu" => match surface.as_surface().patches() {
             Some(patches) => vtk::write_patches(patches, path)?,
             None => {
-                let options = vtk::SurfaceOptions::default();
+                let options = vtk::SurfaceOptions { tessellate: step.triangles, ..Default::default() };
                 vtk::write_surface(surface.as_surface(), &options, path, Control::default().pool())?;
             }
         },
         "planish" => native::save_file(surface.as_saved(), path)?,
-        _ => write_mesh(&tessellate(surface.as_surface(), &TessellateOptions::default())?.mesh, path)?,
+        _ => write_mesh(&tessellate(surface.as_surface(), &step.triangles)?.mesh, path)?,
+    }
+    Ok(())
+}
+
+/// Writes a model in the format of the name.
+pub fn write_model(model: &Model, path: &Path, step: &Step) -> Result<(), Failure> {
+    match extension(path).as_str() {
+        "step" | "stp" => {
+            step::write(model, &step.text, path)?;
+        }
+        "vtu" => {
+            let options = vtk::SurfaceOptions { tessellate: step.triangles, ..Default::default() };
+            vtk::write_model(model, &options, path, Control::default().pool())?;
+        }
+        "planish" => native::save_file(model, path)?,
+        _ => write_mesh(&model.tessellate(&step.triangles)?.mesh, path)?,
     }
     Ok(())
 }
@@ -202,6 +232,9 @@ pub fn write_picture(mesh: &Mesh, fit: &Fit, path: &Path) -> Result<(), Failure>
 /// Writes a mesh in the format of the name.
 pub fn write_mesh(mesh: &Mesh, path: &Path) -> Result<(), Failure> {
     check_name(path, MESHES)?;
+    if extension(path) == "glb" {
+        return Ok(gltf::write(mesh, None, path)?);
+    }
     let format = Format::of_path(path).unwrap_or(Format::Obj);
     Ok(mesh_files::write(mesh, path, format, Encoding::Binary)?)
 }

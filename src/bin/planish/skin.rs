@@ -1,7 +1,8 @@
 //! `planish skin`.
 
 use crate::input::threads;
-use crate::output::{self, Step, Table};
+use crate::output::{self, Table};
+use crate::step::Step;
 use crate::{Failure, Given, Outcome};
 use clap::{Args, ValueEnum};
 use planish::Control;
@@ -140,6 +141,7 @@ fn write(fit: &SkinFit, arguments: &SkinArguments, path: &Path) -> Result<(), Fa
     let step = Step {
         text: StepOptions { unit: Unit::Millimetre, product: &stem, ..StepOptions::default() },
         conversion: ConversionOptions { form, ..ConversionOptions::default() },
+        ..Step::default()
     };
     output::write_surface(&fit.surface.clone().into(), path, &step)
 }
