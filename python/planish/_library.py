@@ -129,8 +129,10 @@ def made(name: str, *arguments: Any, run: Any = call) -> tuple[int, ctypes.c_voi
 
 
 def array(values: Any, dtype: Any = np.float64, width: int | None = None, what: str = "the array") -> np.ndarray:
-    """C-contiguous and of this type; no copy of what is so already. With `width` the last axis must have that length."""
+    """C-contiguous, aligned and of this type; no copy of what is so already. With `width` the last axis must have that length."""
     values = np.ascontiguousarray(values, dtype)
+    if not values.flags.aligned:  # as arrays are that lie in a message or a mapped file
+        values = values.copy()
     if width is not None and (values.ndim == 0 or values.shape[-1] != width):
         raise InvalidError(f"{what} needs rows of {width} numbers, its shape is {values.shape}")
     return values

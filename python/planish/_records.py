@@ -120,8 +120,9 @@ def _record_behind(kind: type, name: str) -> str:
 def _array_of(kind: type, name: str, value: Any) -> np.ndarray:
     """The array behind a pointer. Numbers of nodes, edges and triangles travel as uint32, all else as doubles."""
     element = getattr(kind, "elements", {}).get(name, ctypes.c_double)
-    if isinstance(value, np.ndarray) and value.dtype == np.dtype(element) and value.flags.c_contiguous:
-        return value
+    if isinstance(value, np.ndarray) and value.dtype == np.dtype(element):
+        if value.flags.c_contiguous and value.flags.aligned:
+            return value
     if element is ctypes.c_uint32:
         return indices(value, what=name)
     return array(value, np.dtype(element), what=name)

@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _abi
 from ._calls import LongCall, ProgressCallback
-from ._library import OUT, Handle, InvalidError, array, call, lib, made, path_of, pointer, read_only, text_of
+from ._library import OUT, Handle, InvalidError, array, call, lib, made, output, path_of, pointer, read_only, text_of
 from ._mesh import Mesh
 from ._records import Report, by_reference, options, report_record
 
@@ -145,15 +145,15 @@ class Surface(Handle):
 
         eval_options: ``outside`` is "fail" (the default: a ValueError), "flag" (NaN) or "extrapolate"; ``thread_count``.
         """
-        if not isinstance(uv, np.ndarray) or uv.dtype != np.float64 or not uv.flags.c_contiguous:
+        if not isinstance(uv, np.ndarray) or uv.dtype != np.float64 or not uv.flags.c_contiguous or not uv.flags.aligned:
             uv = array(uv)
         shape = uv.shape
         if not shape or shape[-1] != 2:
             raise InvalidError(f"uv needs rows of 2 numbers, its shape is {shape}")
         if out is None:
             out = np.empty(shape[:-1] + (self.dim,))
-        elif out.shape != shape[:-1] + (self.dim,) or out.dtype != np.float64 or not out.flags.c_contiguous:
-            raise InvalidError(f"out must be a C-contiguous array of float64 and shape {shape[:-1] + (self.dim,)}")
+        else:
+            out = output(out, shape[:-1] + (self.dim,))
         record = by_reference(options("eval_options", eval_options)) if eval_options else None
         call("planish_surface_eval", self, pointer(uv), uv.size // 2, record, pointer(out))
         return out

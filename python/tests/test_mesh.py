@@ -167,3 +167,11 @@ def test_layouts():
     assert len(quads) == len(ball()[0]) and quads.max() < len(layout.corners) and uv.min() >= 0 and uv.max() <= 1
     with pytest.raises(ValueError):
         planish.Layout([[0, 1, 2, 2]])
+
+
+def test_arrays_that_lie_askew_in_memory_are_copied():
+    points, triangles = sheet()
+    askew = np.frombuffer(b"\0" + points.tobytes(), np.float64, offset=1).reshape(points.shape)
+    assert not askew.flags.aligned
+    mesh = planish.Mesh(askew, triangles)
+    assert np.array_equal(mesh.points, points)

@@ -1,6 +1,7 @@
 """Beside other packages: each test runs where the package is there."""
 
 import copy
+import functools
 import pickle
 
 import numpy as np
@@ -91,17 +92,15 @@ def _faces(count):
         yield planish.Mesh(bent, triangles)
 
 
-def _fitted(mesh):
-    return planish.fit(mesh, 1e-2, "tensor", thread_count=1)
-
-
 def test_dask_gives_the_serial_result_to_the_bit():
     distributed = pytest.importorskip("dask.distributed")
     meshes = list(_faces(12))
-    serial = [_fitted(mesh).tobytes() for mesh in meshes]
+    # of the package alone: workers cannot import a function of this file
+    fit = functools.partial(planish.fit, tolerance=1e-2, family="tensor", thread_count=1)
+    serial = [fit(mesh).tobytes() for mesh in meshes]
     with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
         with distributed.Client(cluster) as client:
-            spread = client.gather(client.map(_fitted, meshes))
+            spread = client.gather(client.map(fit, meshes))
     assert [surface.tobytes() for surface in spread] == serial
 
 
