@@ -169,7 +169,7 @@ impl Handles {
                 Call::Tessellate { from, to } => {
                     let mut options = std::mem::zeroed::<planish_tessellate_options>();
                     checked(planish_tessellate_options_init(&mut options, size_of_val(&options)));
-                    options.max_points = 5000;
+                    options.max_point_count = 5000;
                     let from = self.surfaces[slot(from)];
                     let done = checked(planish_surface_tessellate(from, &options, &mut mesh));
                     self.put_mesh(to, mesh, done);

@@ -1,10 +1,10 @@
-//! Saved surfaces and curves of any content behind a frame that is right: no panic, and what loads is saved again to the
+//! Saved surfaces, curves and models of any content behind a frame that is right: no panic, and what loads is saved again to the
 //! same bytes, evaluates to numbers and has an end.
 #![no_main]
 
 use glam::DVec2;
 use libfuzzer_sys::fuzz_target;
-use planish::export::native::{load, load_curve, save};
+use planish::export::native::{load, load_curve, load_model, save};
 
 /// Bytes before the content: mark, version, kind, size.
 const FRAME: usize = 24;
@@ -31,6 +31,9 @@ fuzz_target!(|data: &[u8]| {
     let Some(bytes) = mended(data) else { return };
     if let Ok(curve) = load_curve(&bytes) {
         assert_eq!(save(&curve), bytes);
+    }
+    if let Ok(model) = load_model(&bytes) {
+        assert_eq!(save(&model), bytes);
     }
     let Ok(any) = load(&bytes) else { return };
     assert_eq!(save(any.as_saved()), bytes);
