@@ -35,6 +35,11 @@ impl Builder {
         VertexId(self.vertices.len() as u32 - 1)
     }
 
+    /// The place of a vertex that was added.
+    pub(super) fn place(&self, vertex: VertexId) -> DVec3 {
+        self.vertices[vertex.index()]
+    }
+
     /// Adds an edge across which its faces are smooth.
     pub fn edge(&mut self, curve: Curve, vertices: [VertexId; 2]) -> EdgeId {
         self.add_edge(Edge { curve, vertices, is_sharp: false })

@@ -34,7 +34,7 @@ pub use deviation::ModelDeviation;
 pub use error::ModelError;
 pub use evaluate::{ModelEvalError, ModelValues};
 pub use measure::{Joint, Measure};
-pub use of_patches::{PatchModel, Patchwork, of_patches};
+pub use of_patches::{PatchModel, Patchwork, PlaneFace, Planes, Rim, RimVertex, of_patches};
 pub use of_surface::{CURVE_TOLERANCE, Form, FormOptions, of_parts, of_surface};
 pub use project::{ModelFeet, ModelProjector};
 pub use tessellate::ModelTessellation;

@@ -8,12 +8,16 @@
 //! |       |       |    integers, so nothing is matched by distance.
 //! +-------o-------+
 //! ```
+//! Beside the patches there may be planes. A plane is one face, whose loops are made of the sharp edges of the layout, piece
+//! by piece as the patches have them, and of straight lines to other planes.
 
-use super::{Builder, Coedge, EdgeId, FaceId, Model, ModelError, Role, VertexId, straight};
+use super::{
+    Builder, Coedge, Edge, EdgeId, Face, FaceId, Loop, Model, ModelError, Plane, Role, VertexId, straight,
+};
 use crate::curve::Curve;
 use crate::geometry::{Axis, Domain};
 use crate::knots::KnotVector;
-use crate::layout::{Layout, Place, Side};
+use crate::layout::{HalfEdge, Layout, Place, Side};
 use crate::surface::Surface;
 use crate::surface::pht::PhtSurface;
 use crate::surface::tensor::TensorSurface;
@@ -21,13 +25,53 @@ use crate::tmesh::Vertex;
 use glam::{DVec2, DVec3};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Patches over a layout in one piece.
+/// A vertex in the loop of a plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum RimVertex {
+    /// One of the layout.
+    Layout(u32),
+    /// One that only planes have, by its number in [`Planes::vertices`].
+    Further(u32),
+}
+
+/// A part of the loop of a plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rim {
+    /// An edge of the layout, in the direction in which the loop runs.
+    Edge(HalfEdge),
+    /// A straight line.
+    Line([RimVertex; 2]),
+}
+
+/// A face in a plane.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlaneFace {
+    /// Its normal points out of the front.
+    pub plane: Plane,
+    /// Its loops, each closed, with the face on the left.
+    pub loops: Vec<Vec<Rim>>,
+    /// What the caller calls it.
+    pub label: u32,
+}
+
+/// The planes beside patches.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Planes {
+    /// Places of vertices that the layout does not have.
+    pub vertices: Vec<DVec3>,
+    /// The faces.
+    pub faces: Vec<PlaneFace>,
+}
+
+/// Patches over a layout, and planes, in one shell.
 #[derive(Debug, Clone, Copy)]
 pub struct Patchwork<'a> {
     /// How the patches meet.
     pub layout: &'a Layout,
     /// One for each quad, with equal vertices along common edges.
     pub surfaces: &'a [PhtSurface],
+    /// What closes it where the layout has borders.
+    pub planes: Option<&'a Planes>,
     /// The solid, by its number among the pieces, in which this piece bounds a void: its fronts look into it.
     pub void_in: Option<usize>,
 }
@@ -39,9 +83,16 @@ pub struct PatchModel {
     pub model: Model,
     /// For each piece and quad the faces with the rectangles that they have of the quad's parameters.
     faces: Vec<Vec<Vec<(Domain, FaceId)>>>,
+    /// For each piece its planes.
+    planes: Vec<Vec<FaceId>>,
 }
 
 impl PatchModel {
+    /// The face of a plane of a piece.
+    pub fn plane_at(&self, piece: usize, plane: usize) -> FaceId {
+        self.planes[piece][plane]
+    }
+
     /// The face at a place of a piece; its parameters are those of the place.
     pub fn face_at(&self, piece: usize, place: Place) -> FaceId {
         let faces = &self.faces[piece][place.quad as usize];
@@ -55,19 +106,22 @@ impl PatchModel {
 pub fn of_patches(pieces: &[Patchwork], level_spread: u32) -> Result<PatchModel, ModelError> {
     let mut builder = Builder::default();
     let mut shells = Vec::new();
-    let mut faces = Vec::new();
+    let (mut faces, mut planes) = (Vec::new(), Vec::new());
     for piece in pieces {
-        let of_piece = Stitching::new(piece, level_spread)?.build(&mut builder);
-        let is_closed = piece.layout.edges().iter().all(|edge| edge.second.is_some());
+        let mut stitching = Stitching::new(piece, level_spread)?;
+        let of_patches = stitching.build(&mut builder);
+        let of_planes = stitching.add_planes(&mut builder);
         let role = match piece.void_in {
-            Some(solid) if is_closed && solid < shells.len() => Role::VoidIn(shells[solid]),
-            _ if is_closed => Role::Solid,
+            Some(solid) if stitching.is_closed() && solid < shells.len() => Role::VoidIn(shells[solid]),
+            _ if stitching.is_closed() => Role::Solid,
             _ => Role::Open,
         };
-        shells.push(builder.shell(of_piece.iter().flatten().map(|&(_, face)| face).collect(), role));
-        faces.push(of_piece);
+        let all = of_patches.iter().flatten().map(|&(_, face)| face).chain(of_planes.iter().copied());
+        shells.push(builder.shell(all.collect(), role));
+        faces.push(of_patches);
+        planes.push(of_planes);
     }
-    Ok(PatchModel { model: builder.finish()?, faces })
+    Ok(PatchModel { model: builder.finish()?, faces, planes })
 }
 
 /// A corner of rectangles.
@@ -79,6 +133,8 @@ enum Corner {
     OnEdge(u32, u32),
     /// Inside a quad.
     Inside(u32, Vertex),
+    /// Of planes only.
+    Further(u32),
 }
 
 /// A piece of a line between rectangles, from one integer to another along it.
@@ -88,6 +144,8 @@ enum Piece {
     OfEdge(u32, [u32; 2]),
     /// Of a line inside a quad: at constant i, or else j.
     Inside(u32, bool, u32, [u32; 2]),
+    /// Straight between two corners, the smaller first.
+    Line([Corner; 2]),
 }
 
 /// A rectangle of cells.
@@ -108,6 +166,9 @@ struct Stitching<'a> {
     cuts_of_edges: BTreeMap<u32, BTreeSet<u32>>,
     vertices: BTreeMap<Corner, VertexId>,
     edges: BTreeMap<Piece, KnownEdge>,
+    planes: Option<&'a Planes>,
+    /// Edges of the layout in the loops of planes.
+    rims: BTreeSet<u32>,
 }
 
 /// An edge that one face has already.
@@ -117,6 +178,8 @@ struct KnownEdge {
     start: Corner,
     /// In space.
     curve: Curve,
+    /// Faces that have it.
+    uses: u32,
 }
 
 const UNIT: u32 = 1 << crate::tmesh::MAX_LEVEL;
@@ -130,7 +193,14 @@ impl<'a> Stitching<'a> {
                 tiles.push(Tile { quad, min: to_integers(min), max: to_integers(max), surface });
             }
         }
+        let rims = piece.planes.iter().flat_map(|planes| &planes.faces).flat_map(|face| &face.loops);
+        let rims = rims.flatten().filter_map(|rim| match rim {
+            Rim::Edge(half_edge) => Some(half_edge.edge),
+            Rim::Line(_) => None,
+        });
         let mut stitching = Self {
+            planes: piece.planes,
+            rims: rims.collect(),
             layout: piece.layout,
             tiles,
             cuts_inside: BTreeMap::new(),
@@ -170,7 +240,7 @@ impl<'a> Stitching<'a> {
         (half_edge.edge, if is_reversed { UNIT - along } else { along })
     }
 
-    fn build(mut self, builder: &mut Builder) -> Vec<Vec<(Domain, FaceId)>> {
+    fn build(&mut self, builder: &mut Builder) -> Vec<Vec<(Domain, FaceId)>> {
         let mut faces: Vec<Vec<(Domain, FaceId)>> = vec![Vec::new(); self.layout.quads().len()];
         for tile in std::mem::take(&mut self.tiles) {
             let mut bound = Vec::new();
@@ -241,10 +311,18 @@ impl<'a> Stitching<'a> {
             let ends = [&points[..3], &points[points.len() - 3..]].map(DVec3::from_slice);
             let vertices =
                 [0, 1].map(|k| *self.vertices.entry(corners[k]).or_insert_with(|| builder.vertex(ends[k])));
-            let id = builder.edge(curve.clone(), vertices);
-            self.edges.insert(piece, KnownEdge { id, start: corners[0], curve });
+            let is_sharp = match piece {
+                Piece::OfEdge(edge, _) => {
+                    let is_crease = self.layout.edges()[edge as usize].second.is_some();
+                    !self.layout.is_smooth(edge) && (is_crease || self.rims.contains(&edge))
+                }
+                _ => false,
+            };
+            let id = builder.add_edge(Edge { curve: curve.clone(), vertices, is_sharp });
+            self.edges.insert(piece, KnownEdge { id, start: corners[0], curve, uses: 0 });
             (id, corners[0])
         });
+        self.count_use(piece);
         // the edge runs as its first user's parameters increase; this one's may decrease along it
         let runs_along = start == corners[0];
         let mut ends = places.map(to_parameters);
@@ -255,12 +333,99 @@ impl<'a> Stitching<'a> {
         Coedge { edge, is_forward: is_forward == runs_along, pcurve }
     }
 
+    fn count_use(&mut self, piece: Piece) {
+        if let Some(known) = self.edges.get_mut(&piece) {
+            known.uses += 1;
+        }
+    }
+
+    /// Whether every edge has two faces.
+    fn is_closed(&self) -> bool {
+        self.edges.values().all(|edge| edge.uses == 2)
+    }
+
+    /// Faces of the planes, over edges that the patches have already.
+    fn add_planes(&mut self, builder: &mut Builder) -> Vec<FaceId> {
+        let Some(planes) = self.planes else { return Vec::new() };
+        let mut faces = Vec::new();
+        for face in &planes.faces {
+            let mut bounds: Vec<(f64, Loop)> = Vec::new();
+            for rims in &face.loops {
+                let (mut bound, mut points) = (Loop::new(), Vec::new());
+                for &rim in rims {
+                    for (piece, start) in self.pieces_of_rim(builder, planes, rim) {
+                        let known = &self.edges[&piece];
+                        let is_forward = known.start == start;
+                        bound.push(Coedge { edge: known.id, is_forward, pcurve: None });
+                        let mut along: Vec<DVec3> =
+                            known.curve.control_points().chunks_exact(3).map(DVec3::from_slice).collect();
+                        if !is_forward {
+                            along.reverse();
+                        }
+                        points.extend(along);
+                        self.count_use(piece);
+                    }
+                }
+                bounds.push((area(&points, face.plane.0.z()), bound));
+            }
+            // the outer loop has the face inside: of all its area is the largest
+            bounds.sort_by(|a, b| b.0.total_cmp(&a.0));
+            let surface = builder.surface(face.plane);
+            let bounds = bounds.into_iter().map(|(_, bound)| bound).collect();
+            faces.push(builder.add_face(Face { surface, is_forward: true, bounds, label: face.label }));
+        }
+        faces
+    }
+
+    /// The edges of a part of a loop, with the corners at which the loop enters them.
+    fn pieces_of_rim(&mut self, builder: &mut Builder, planes: &Planes, rim: Rim) -> Vec<(Piece, Corner)> {
+        match rim {
+            Rim::Edge(HalfEdge { edge, is_forward }) => {
+                let cuts: Vec<u32> = self.cuts_of_edges[&edge].iter().copied().collect();
+                let of_pair = |pair: &[u32]| {
+                    let start = if is_forward { pair[0] } else { pair[1] };
+                    (Piece::OfEdge(edge, [pair[0], pair[1]]), self.corner_on(edge, start))
+                };
+                let mut pieces: Vec<(Piece, Corner)> = cuts.windows(2).map(of_pair).collect();
+                if !is_forward {
+                    pieces.reverse();
+                }
+                pieces
+            }
+            Rim::Line(ends) => {
+                let corners = ends.map(|end| match end {
+                    RimVertex::Layout(vertex) => Corner::Vertex(vertex),
+                    RimVertex::Further(number) => Corner::Further(number),
+                });
+                let piece = Piece::Line([corners[0].min(corners[1]), corners[0].max(corners[1])]);
+                if !self.edges.contains_key(&piece) {
+                    let vertices = [0, 1].map(|k| {
+                        *self.vertices.entry(corners[k]).or_insert_with(|| match ends[k] {
+                            RimVertex::Further(number) => builder.vertex(planes.vertices[number as usize]),
+                            RimVertex::Layout(_) => {
+                                unreachable!("the patches have all vertices of their layout")
+                            }
+                        })
+                    });
+                    let curve = line(vertices.map(|vertex| builder.place(vertex)));
+                    let id = builder.add_edge(Edge { curve: curve.clone(), vertices, is_sharp: true });
+                    self.edges.insert(piece, KnownEdge { id, start: corners[0], curve, uses: 0 });
+                }
+                vec![(piece, corners[0])]
+            }
+        }
+    }
+
     fn corner(&self, quad: u32, at: Vertex) -> Corner {
         let side = [(true, at.i), (false, at.j)]
             .into_iter()
             .find_map(|(is_upright, line)| Some((side_of_line(quad, is_upright, line)?, is_upright)));
         let Some((side, is_upright)) = side else { return Corner::Inside(quad, at) };
         let (edge, along) = self.on_edge(side, if is_upright { at.j } else { at.i });
+        self.corner_on(edge, along)
+    }
+
+    fn corner_on(&self, edge: u32, along: u32) -> Corner {
         let ends = self.layout.edges()[edge as usize].ends;
         match along {
             0 => Corner::Vertex(ends[0]),
@@ -268,6 +433,19 @@ impl<'a> Stitching<'a> {
             _ => Corner::OnEdge(edge, along),
         }
     }
+}
+
+/// The area that a closed polygon has around a normal: negative the other way round.
+fn area(points: &[DVec3], normal: DVec3) -> f64 {
+    let Some(&origin) = points.first() else { return 0.0 };
+    let doubled: DVec3 = points.windows(2).map(|pair| (pair[0] - origin).cross(pair[1] - origin)).sum();
+    0.5 * doubled.dot(normal)
+}
+
+/// The straight curve between two places.
+fn line(ends: [DVec3; 2]) -> Curve {
+    let knots = KnotVector::clamped(&[0.0, 1.0], 1).expect("the unit interval");
+    Curve::new(3, knots, ends.iter().flat_map(|end| end.to_array()).collect()).expect("two control points")
 }
 
 /// The side of a quad that lies on a line.

@@ -1,5 +1,6 @@
-//! Foot points on a surface of patches, which may cross edges.
+//! Foot points on a surface of patches: they may cross smooth edges, and those on creases slide along them.
 
+use super::locks::{Lock, along, on_side};
 use crate::control::Pool;
 use crate::layout::{Layout, Place};
 use crate::surface::Surface;
@@ -14,41 +15,70 @@ const LEAST_ANGLE: f64 = 1e-6;
 /// Samples of one piece of work.
 const PIECE: usize = 512;
 
-/// Moves each place by Gauss-Newton steps towards the foot of its point, if that brings it nearer; returns the
-/// distances.
+/// What foot points move over.
+#[derive(Clone, Copy)]
+pub struct Ground<'a> {
+    pub layout: &'a Layout,
+    pub surfaces: &'a [PhtSurface],
+    /// By vertex of the layout: whether samples on creases stop there.
+    pub is_corner: &'a [bool],
+}
+
+/// Moves each place by Gauss-Newton steps towards the foot of its point, if that brings it nearer and its lock lets
+/// it; returns the distances.
 pub fn foot_points(
-    layout: &Layout,
-    surfaces: &[PhtSurface],
+    ground: Ground,
     places: &mut [Place],
+    locks: &mut [Lock],
     points: &[DVec3],
     steps: u32,
     pool: &Pool,
 ) -> Vec<f64> {
     let mut distances = vec![0.0; places.len()];
     pool.run(|| {
-        let data = places.par_chunks_mut(PIECE).zip(points.par_chunks(PIECE));
-        distances.par_chunks_mut(PIECE).zip(data).for_each(|(distances, (places, points))| {
-            for ((distance, place), &point) in distances.iter_mut().zip(places).zip(points) {
-                *distance = to_foot(layout, surfaces, place, point, steps);
+        let data =
+            places.par_chunks_mut(PIECE).zip(locks.par_chunks_mut(PIECE)).zip(points.par_chunks(PIECE));
+        distances.par_chunks_mut(PIECE).zip(data).for_each(|(distances, ((places, locks), points))| {
+            let samples = places.iter_mut().zip(locks).zip(points);
+            for (distance, ((place, lock), &point)) in distances.iter_mut().zip(samples) {
+                *distance = ground.to_foot(place, lock, point, steps);
             }
         });
     });
     distances
 }
 
-fn to_foot(layout: &Layout, surfaces: &[PhtSurface], place: &mut Place, point: DVec3, steps: u32) -> f64 {
-    let mut row = [0.0; 9];
-    for _ in 0..steps {
-        surfaces[place.quad as usize].eval_rows(&[place.uv], 1, &mut row);
-        let [on_surface, along_u, along_v] = [0, 3, 6].map(|k| DVec3::from_slice(&row[k..k + 3]));
-        let miss = point - on_surface;
-        let next = layout.cross(place.quad, place.uv + step(miss, along_u, along_v));
-        if !(distance(surfaces, next, point) < miss.length()) {
-            return miss.length();
+impl Ground<'_> {
+    fn to_foot(&self, place: &mut Place, lock: &mut Lock, point: DVec3, steps: u32) -> f64 {
+        let mut row = [0.0; 9];
+        for _ in 0..steps {
+            self.surfaces[place.quad as usize].eval_rows(&[place.uv], 1, &mut row);
+            let [on_surface, along_u, along_v] = [0, 3, 6].map(|k| DVec3::from_slice(&row[k..k + 3]));
+            let miss = point - on_surface;
+            let (next, next_lock) = match *lock {
+                Lock::Fixed => return miss.length(),
+                Lock::Free => {
+                    (self.layout.cross(place.quad, place.uv + step(miss, along_u, along_v)), Lock::Free)
+                }
+                Lock::Along(side) => {
+                    let step = step_along(miss, along(side, along_u, along_v));
+                    let next = on_side(*place, side).slide(self.layout, step, self.is_corner);
+                    (next.place(), next.lock())
+                }
+            };
+            if !(distance(self.surfaces, next, point) < miss.length()) {
+                return miss.length();
+            }
+            (*place, *lock) = (next, next_lock);
         }
-        *place = next;
+        distance(self.surfaces, *place, point)
     }
-    distance(surfaces, *place, point)
+}
+
+/// The step that would reach the foot on the tangent.
+fn step_along(miss: DVec3, tangent: DVec3) -> f64 {
+    let square = tangent.length_squared();
+    if square > 0.0 { (tangent.dot(miss) / square).clamp(-LONGEST_STEP, LONGEST_STEP) } else { 0.0 }
 }
 
 /// The step that would reach the foot on the tangent plane.

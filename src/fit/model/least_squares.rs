@@ -9,6 +9,7 @@
 //! components. The few enclosure equations are met by a dense Schur complement `K = C A^-1 C^T`, twice, so that what is left is
 //! rounding.
 
+use super::constraints::Projector;
 use super::samples::ByCell;
 use crate::control::{Pool, Watch};
 use crate::fit::common::FitError;
@@ -90,12 +91,13 @@ impl<'s, 'l> System<'s, 'l> {
         &self.cells
     }
 
-    /// The best surface.
+    /// The best surface: `smoothing` by cell.
     pub fn solve(
         &self,
         targets: &Targets,
         by_cell: &ByCell,
-        smoothing: f64,
+        smoothing: &[f64],
+        projector: &Projector,
         pool: &Pool,
         watch: &Watch,
     ) -> Result<Vec<PhtSurface>, FitError> {
@@ -105,7 +107,7 @@ impl<'s, 'l> System<'s, 'l> {
         let cells: Vec<usize> = (0..self.cells.len()).collect();
         for batch in cells.chunks(PIECE * PIECES) {
             watch.check()?;
-            let share = |&cell: &usize| self.share(cell, targets, by_cell.of(cell), smoothing);
+            let share = |&cell: &usize| self.share(cell, targets, by_cell.of(cell), smoothing[cell]);
             let shares: Vec<Share> = pool.run(|| {
                 let pieces = batch.par_chunks(PIECE);
                 pieces.flat_map_iter(|piece| piece.iter().map(share).collect::<Vec<_>>()).collect()
@@ -134,10 +136,11 @@ impl<'s, 'l> System<'s, 'l> {
         let solver = Solver { factor, matrix: &matrix };
         let mut unknowns = solver.solve(&right);
         solver.enclose(self.space, &scale, &mut unknowns);
-        let rows: Vec<f64> = (0..n)
+        let mut rows: Vec<f64> = (0..n)
             .flat_map(|k| (0..DIM).map(move |c| c * n + k))
             .map(|at| unknowns[at] * scale[at % n])
             .collect();
+        projector.apply(self.space, &mut rows);
         // an overflow in the solution is the one thing that can be wrong
         self.space.surfaces(&rows, DIM).map_err(|_| FitError::Singular)
     }
@@ -208,7 +211,8 @@ struct Share {
 }
 
 impl Solver<'_> {
-    /// Solutions of right-hand sides stored one after the other, with one step of refinement.
+    /// Solutions of right-hand sides stored one after the other, with one step of refinement, which takes back what
+    /// [`DIAGONAL`] did where the data say something.
     fn solve(&self, right: &[f64]) -> Vec<f64> {
         let n = self.matrix.cols();
         let mut solutions = right.to_vec();
@@ -216,6 +220,7 @@ impl Solver<'_> {
         let mut rest = right.to_vec();
         for (rest, solution) in rest.chunks_exact_mut(n).zip(solutions.chunks_exact(n)) {
             subtract_product(self.matrix, solution, rest);
+            rest.iter_mut().zip(solution).for_each(|(rest, x)| *rest += DIAGONAL * x);
         }
         self.factor.solve(&mut rest, right.len() / n);
         solutions.iter_mut().zip(&rest).for_each(|(x, d)| *x += d);

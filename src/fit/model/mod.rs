@@ -12,9 +12,15 @@
 //! ```
 
 mod bodies;
+mod constraints;
+#[cfg(test)]
+mod crease_tests;
 mod error;
+mod folds;
 mod foot;
+mod ground;
 mod least_squares;
+mod locks;
 mod options;
 mod refine;
 mod report;
@@ -23,6 +29,7 @@ mod samples;
 mod tests;
 mod whole;
 
+pub use constraints::{Constraints, PlaneEquation};
 pub use error::ModelFitError;
 pub use options::ModelOptions;
 pub use report::{ModelReport, PatchReport};
@@ -34,12 +41,12 @@ use super::common::rounds::run;
 use crate::control::Control;
 use crate::layout::{Layout, Place};
 use crate::mesh::Mesh;
-use crate::query::triangles::TriangleTree;
 use crate::surface::g1::uniform;
 use crate::surface::pht::PhtSurface;
 use glam::DVec2;
+use ground::Regions;
 use refine::Refinement;
-use samples::Samples;
+use samples::{Samples, facet_normals};
 use std::time::Instant;
 
 /// Patches that meet smoothly, with all that is known of them.
@@ -69,6 +76,19 @@ pub fn fit_over_layout(
     options: &ModelOptions,
     control: &mut Control,
 ) -> Result<LayoutFit, ModelFitError> {
+    fit_with_creases(mesh, layout, places, &Constraints::default(), options, control)
+}
+
+/// The same over a layout with creases, of a mesh that is cut along them: each node of a crease once for each side, at
+/// a place on that side.
+pub fn fit_with_creases(
+    mesh: &Mesh,
+    layout: &Layout,
+    places: NodePlaces,
+    constraints: &Constraints,
+    options: &ModelOptions,
+    control: &mut Control,
+) -> Result<LayoutFit, ModelFitError> {
     let start = Instant::now();
     options.check(layout.quads().len())?;
     check_places(mesh, layout, places)?;
@@ -80,14 +100,22 @@ pub fn fit_over_layout(
     let (tolerance, is_raised) = options.tolerance.absolute(&mesh.bounds());
     let facets = triangle_sagittas(mesh);
     let sagittas: Vec<f64> = (0..mesh.triangles().len()).map(|triangle| facets.of(triangle)).collect();
-    let samples = Samples::new(mesh, places, layout, &sagittas);
+    let is_corner = locks::corners(layout, &constraints.corners);
+    let samples = Samples::new(mesh, places, layout, &sagittas, &is_corner);
     super::common::checks::check_count(samples.nodes.len())?;
+    let of_nodes = samples.nodes.iter().copied().zip(samples.places.iter().copied());
+    let regions = Regions::new(mesh, layout, of_nodes);
     let mut refinement = Refinement {
         layout,
         options,
         samples,
         meshes: uniform(layout, start_level)?,
-        tree: TriangleTree::new(mesh),
+        constraints,
+        has_creases: (0..layout.edges().len() as u32).any(|edge| !layout.is_smooth(edge)),
+        is_corner,
+        regions,
+        facet_normals: facet_normals(mesh),
+        stiff: Vec::new(),
         sagittas,
         tolerance,
         before: Vec::new(),
@@ -97,7 +125,7 @@ pub fn fit_over_layout(
         idle_limit: refine::MOST_IDLE,
     };
     let outcome = run(&mut refinement, control)?;
-    let mut report = report::measure(&refinement, &outcome, control)?;
+    let mut report = report::measure(mesh, &refinement, &outcome, control)?;
     report.remarks.add_if(is_raised, super::report::Remarks::TOLERANCE_RAISED);
     report.fit_seconds = start.elapsed().as_secs_f64();
     let round = outcome.best;

@@ -4,26 +4,30 @@
 //! conform the cells along edges, least squares over all patches
 //! move each sample one step towards its foot point
 //! split the cells that hold a node above the tolerance, or another sample above twice of it
+//! stiffen the cells whose normals are reversed
 //! ```
 //! Between the samples a cell may swing: cells with few of them get guards, places whose targets are the points of the
 //! mesh nearest to the surface of the round before.
 
+use super::constraints::{Constraints, Projector};
 use super::error::ModelFitError;
-use super::foot::foot_points;
-use super::least_squares::{System, Targets};
+use super::folds::folded_cells;
+use super::foot::{Ground, foot_points};
+use super::ground::Regions;
+use super::least_squares::{CellPlace, System, Targets};
+use super::locks::Lock;
 use super::options::ModelOptions;
 use super::samples::{ByCell, Samples, guard_places, quads_of_cells, weight_on_facet};
 use crate::control::{Control, Pool, Watch};
 use crate::fit::common::report::StopReason;
 use crate::fit::common::rounds::{Next, Rounds, Standing};
+use crate::geometry::Domain;
 use crate::layout::{Layout, Place};
-use crate::mesh::Mesh;
-use crate::query::triangles::TriangleTree;
 use crate::surface::Surface;
 use crate::surface::g1::{Space, conform};
 use crate::surface::pht::PhtSurface;
 use crate::tmesh::{MAX_LEVEL, NodeId, TMesh};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 /// A fit in progress.
@@ -32,7 +36,18 @@ pub struct Refinement<'a> {
     pub options: &'a ModelOptions,
     pub samples: Samples,
     pub meshes: Vec<TMesh>,
-    pub tree: TriangleTree<&'a Mesh>,
+    /// What the fit keeps exactly.
+    pub constraints: &'a Constraints,
+    /// Whether the layout has borders or creases.
+    pub has_creases: bool,
+    /// By vertex of the layout, whether samples on creases stop there.
+    pub is_corner: Vec<bool>,
+    /// The mesh under the patches.
+    pub regions: Regions,
+    /// By triangle of the mesh.
+    pub facet_normals: Vec<DVec3>,
+    /// Parts of patches that folded, with what their energy is multiplied by.
+    pub stiff: Vec<Stiff>,
     /// How far the shape may lie above each facet.
     pub sagittas: Vec<f64>,
     /// In model units.
@@ -52,8 +67,11 @@ pub struct Refinement<'a> {
 pub struct Round {
     pub surfaces: Vec<PhtSurface>,
     pub places: Vec<Place>,
+    pub locks: Vec<Lock>,
     /// By sample.
     pub distances: Vec<f64>,
+    /// Parts of patches where the normal is reversed.
+    pub folded: Vec<(u32, Domain)>,
     /// Free unknowns a component.
     pub free_count: usize,
     /// Samples by cell at their new places.
@@ -63,6 +81,25 @@ pub struct Round {
     /// The larger of that and half the error of the other samples.
     error: f64,
 }
+
+/// A part of a patch that resists bending more than others.
+#[derive(Debug, Clone, Copy)]
+pub struct Stiff {
+    quad: u32,
+    domain: Domain,
+    factor: f64,
+}
+
+/// What the energy of a folded cell and around it is multiplied by, each time it is found.
+const STIFFER: f64 = 10.0;
+/// Most of that: a thousand times the energy makes a cell a plane plate.
+const STIFFEST: f64 = 1e3;
+/// A round with folds is worth one without that misses so many times as much.
+const FOLD_PENALTY: f64 = 2.0;
+
+/// Facets of a part with creases say where the shape is to this share of the tolerance: its round walls are to have their own
+/// size, not that of a polygon's, and are so coarse on purpose.
+const KNOWN_OF_PARTS: f64 = 0.1;
 
 /// What the tolerance is for samples that are no nodes, beside that of nodes.
 const SLACK: f64 = 2.0;
@@ -88,12 +125,13 @@ impl Rounds for Refinement<'_> {
         self.rounds += 1;
         let round = control.watch(|pool, watch| self.round(pool, watch))??;
         self.samples.places.clone_from(&round.places);
+        self.samples.locks.clone_from(&round.locks);
         self.before.clone_from(&round.surfaces);
         Ok(round)
     }
 
     fn error(&self, round: &Round) -> f64 {
-        round.error
+        if self.mends(round) { FOLD_PENALTY * round.error.max(self.tolerance) } else { round.error }
     }
 
     fn tolerance(&self) -> f64 {
@@ -102,7 +140,8 @@ impl Rounds for Refinement<'_> {
 
     fn refine(&mut self, standing: &Standing<Round>, _: &Control) -> Next {
         let Some(round) = standing.round else { return Next::Stop(StopReason::Stagnated) };
-        if round.error <= self.tolerance {
+        let is_folded = self.mends(round);
+        if round.error <= self.tolerance && !is_folded {
             return Next::Done;
         }
         if self.rounds >= self.options.max_rounds {
@@ -111,8 +150,10 @@ impl Rounds for Refinement<'_> {
         if standing.idle >= self.idle_limit && self.stuck == 0 {
             return Next::Stop(StopReason::Stagnated);
         }
+        let is_stiffer = is_folded && self.stiffen(round);
         match self.split(round) {
             Ok(()) => self.stuck = 0,
+            Err(_) if is_stiffer => self.stuck = 0,
             Err(_) if self.stuck + 1 < MOST_STUCK => self.stuck += 1,
             // moving samples does not help the nodes any more: cells with few of them are held by guards
             Err(StopReason::DataExhausted) if self.least_samples > 1 && round.node_error > self.tolerance => {
@@ -127,6 +168,40 @@ impl Rounds for Refinement<'_> {
 }
 
 impl Refinement<'_> {
+    /// Whether a round has folds that the fit is to mend: where creases end in corners, patches are narrow there.
+    fn mends(&self, round: &Round) -> bool {
+        !round.folded.is_empty() && self.has_creases
+    }
+
+    /// The distance to which facets say where the shape is.
+    fn known_on_facets(&self) -> f64 {
+        if self.has_creases { KNOWN_OF_PARTS * self.tolerance } else { self.tolerance }
+    }
+
+    /// Raises the energy where the surface is folded and around it; whether any was raised.
+    fn stiffen(&mut self, round: &Round) -> bool {
+        let before = self.stiff.len();
+        for &(quad, domain) in &round.folded {
+            let factor = STIFFER * self.stiffness(quad, &domain);
+            if factor <= STIFFEST {
+                let margin = DVec2::splat(0.5 * domain.size().x);
+                let domain = Domain { min: domain.min - margin, max: domain.max + margin };
+                self.stiff.push(Stiff { quad, domain, factor });
+            }
+        }
+        self.stiff.len() > before
+    }
+
+    /// What the energy in a part of a patch is multiplied by.
+    fn stiffness(&self, quad: u32, domain: &Domain) -> f64 {
+        let overlaps = |stiff: &&Stiff| {
+            stiff.quad == quad
+                && stiff.domain.min.cmplt(domain.max).all()
+                && domain.min.cmplt(stiff.domain.max).all()
+        };
+        self.stiff.iter().filter(overlaps).map(|stiff| stiff.factor).fold(1.0, f64::max)
+    }
+
     fn round(&self, pool: &Pool, watch: &Watch) -> Result<Round, ModelFitError> {
         let space = Space::new(self.layout, self.meshes.clone())?;
         watch.check()?;
@@ -137,16 +212,35 @@ impl Refinement<'_> {
         let all_places: Vec<Place> = self.samples.places.iter().chain(&targets.1).copied().collect();
         let by_cell = if targets.1.is_empty() { by_cell } else { ByCell::sort(&space, &all_places, pool) };
         watch.check()?;
-        let surfaces = system.solve(&targets.0, &by_cell, self.options.smoothing, pool, watch)?;
+        let quads = quads_of_cells(&space);
+        let energy: Vec<f64> = quads
+            .iter()
+            .zip(system.cells())
+            .map(|(&quad, cell)| self.options.smoothing * self.stiffness(quad, &domain_of(cell)))
+            .collect();
+        let projector = Projector::new(&space, self.constraints);
+        let surfaces = system.solve(&targets.0, &by_cell, &energy, &projector, pool, watch)?;
         watch.check()?;
-        let mut places = self.samples.places.clone();
+        let (mut places, mut locks) = (self.samples.places.clone(), self.samples.locks.clone());
+        let ground = Ground { layout: self.layout, surfaces: &surfaces, is_corner: &self.is_corner };
         let steps = self.options.foot_steps;
-        let distances = foot_points(self.layout, &surfaces, &mut places, &self.samples.points, steps, pool);
+        let distances = foot_points(ground, &mut places, &mut locks, &self.samples.points, steps, pool);
         let by_cell = ByCell::sort(&space, &places, pool);
+        watch.check()?;
+        let cells = (quads.as_slice(), system.cells());
+        let normal_near = |quad: u32, point: DVec3| {
+            let near = self.regions.nearest(quad, point);
+            near.map_or(DVec3::ZERO, |near| self.facet_normals[near.triangle as usize])
+        };
+        let of_samples = (&self.samples, places.as_slice());
+        let folded =
+            folded_cells(&surfaces, cells, of_samples, &by_cell, self.has_creases, &normal_near, pool);
+        let folded = folded.into_iter().map(|cell| (quads[cell], domain_of(&system.cells()[cell]))).collect();
         let errors = (0..distances.len()).map(|sample| self.samples.error(sample, distances[sample]));
         let error = errors.fold(0.0, f64::max);
         let node_error = distances[..self.samples.nodes.len()].iter().copied().fold(0.0, f64::max);
-        Ok(Round { surfaces, places, distances, free_count: space.free_count(), by_cell, node_error, error })
+        let free_count = space.free_count();
+        Ok(Round { surfaces, places, locks, distances, folded, free_count, by_cell, node_error, error })
     }
 
     /// The samples with their weights, and after them the guards, whose places come along.
@@ -158,7 +252,7 @@ impl Refinement<'_> {
         pool: &Pool,
     ) -> (Targets, Vec<Place>) {
         let Samples { places, points, .. } = &self.samples;
-        let weight = |sample: usize| self.samples.weight(sample, self.tolerance);
+        let weight = |sample: usize| self.samples.weight(sample, self.known_on_facets());
         let mut targets = Targets {
             uv: places.iter().map(|place| place.uv).collect(),
             points: points.clone(),
@@ -172,9 +266,9 @@ impl Refinement<'_> {
             let mut row = [0.0; 3];
             self.before[place.quad as usize].eval_rows(&[place.uv], 0, &mut row);
             let point = DVec3::from_array(row);
-            self.tree.nearest(point).map_or((point, 0.0), |nearest| {
+            self.regions.nearest(place.quad, point).map_or((point, 0.0), |nearest| {
                 let sagitta = self.sagittas[nearest.triangle as usize];
-                (nearest.point, weight_on_facet(sagitta, self.tolerance))
+                (nearest.point, weight_on_facet(sagitta, self.known_on_facets()))
             })
         };
         let nearest: Vec<(DVec3, f64)> =
@@ -194,6 +288,7 @@ impl Refinement<'_> {
         let mut first = 0;
         let mut numbers = cells.into_iter().peekable();
         let least_samples = self.least_samples;
+        let has_creases = self.has_creases;
         for mesh in &mut self.meshes {
             let leaves: Vec<NodeId> = mesh.leaves().collect();
             let of_mesh: Vec<Rough> =
@@ -205,8 +300,13 @@ impl Refinement<'_> {
                 if fits { Ok(()) } else { Err(StopReason::Limit) }
             };
             let grade = if options.grade == 0 { MAX_LEVEL } else { options.grade };
-            for rough in of_mesh.into_iter().filter(|rough| rough.samples >= least_samples) {
+            for rough in of_mesh {
                 let leaf = leaves[rough.cell - first];
+                // a corner between creases swings when it is left with few samples
+                let is_kept = has_creases && is_at_corner(&mesh.cell_domain(mesh.cell(leaf)));
+                if rough.samples < if is_kept { options.min_samples } else { least_samples } {
+                    continue;
+                }
                 // a neighbour may have split it
                 if mesh.is_leaf(leaf)
                     && let Err(limit) = mesh.split_graded(leaf, grade, &mut allow)
@@ -223,6 +323,16 @@ impl Refinement<'_> {
         conform(self.layout, &mut self.meshes);
         Ok(())
     }
+}
+
+fn domain_of(cell: &CellPlace) -> Domain {
+    Domain { min: cell.min, max: cell.min + cell.size }
+}
+
+/// Whether a part of a patch has one of its corners.
+fn is_at_corner(domain: &Domain) -> bool {
+    [domain.min, domain.max].iter().any(|at| at.x == 0.0 || at.x == 1.0)
+        && [domain.min, domain.max].iter().any(|at| at.y == 0.0 || at.y == 1.0)
 }
 
 /// A cell that misses the tolerance.

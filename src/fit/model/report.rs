@@ -1,6 +1,7 @@
 //! What a fit of a model says of itself.
 
 use super::error::ModelFitError;
+use super::locks::Lock;
 use super::refine::{Refinement, Round};
 use crate::control::Control;
 use crate::fit::common::report::{Remarks, StopReason};
@@ -8,6 +9,7 @@ use crate::fit::common::rounds::Outcome;
 use crate::mesh::Mesh;
 use crate::summary::{sum, summarize};
 use crate::surface::g1::{enclosed_volume, normal_jump};
+use crate::surface::pht::PhtSurface;
 use crate::surface::{Patches, Surface};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -52,6 +54,10 @@ pub struct ModelReport {
     pub normal_jump: f64,
     /// Largest distance between the sides of an edge.
     pub gap: f64,
+    /// Largest distance of a node on a crease or border from its curve; 0 without any.
+    pub crease_error: f64,
+    /// Cells in which the normal points against that of the mesh.
+    pub folded_cells: usize,
     /// Enclosed by the surface; NaN for a layout with a border.
     pub volume: f64,
     /// Enclosed by the mesh.
@@ -83,24 +89,31 @@ const BACK_PLACES: usize = 5;
 
 /// Measures the finished surfaces.
 pub fn measure(
+    mesh: &Mesh,
     refinement: &Refinement,
     outcome: &Outcome<Round>,
     control: &mut Control,
 ) -> Result<ModelReport, ModelFitError> {
-    let (round, mesh) = (&outcome.best, refinement.tree.mesh());
+    let round = &outcome.best;
     let nodes = refinement.samples.nodes.len();
     let errors = summarize(round.distances[..nodes].to_vec());
     let jump = normal_jump(refinement.layout, &round.surfaces)?;
     let back = control.watch(|pool, watch| -> Result<f64, ModelFitError> {
         let mut largest: f64 = 0.0;
-        for surface in &round.surfaces {
+        for (quad, surface) in (0..).zip(&round.surfaces) {
             watch.check()?;
-            largest = largest.max(pool.run(|| back_distance(refinement, surface)));
+            largest = largest.max(pool.run(|| back_distance(refinement, quad, surface)));
         }
         Ok(largest)
     })??;
     let is_closed = refinement.layout.edges().iter().all(|edge| edge.second.is_some());
     let largest = |distances: &[f64]| distances.iter().copied().fold(0.0, f64::max);
+    let on_creases: Vec<f64> = round.distances[..nodes]
+        .iter()
+        .zip(&round.locks)
+        .filter(|(_, lock)| **lock != Lock::Free)
+        .map(|(distance, _)| *distance)
+        .collect();
     let patches = patches(refinement, round);
     let tmeshes = round.surfaces.iter().map(|surface| surface.mesh());
     let level =
@@ -109,6 +122,7 @@ pub fn measure(
     let mut remarks = Remarks::default();
     remarks.add_if(errors.max > tolerance, Remarks::TOLERANCE_NOT_MET);
     remarks.add_if(outcome.stop == StopReason::Stagnated, Remarks::STAGNATED);
+    remarks.add_if(!round.folded.is_empty(), Remarks::FOLDED_PARAMETERS);
     let max_interior_error = largest(&round.distances[nodes..]);
     // what facets explain is never more than there is
     let facet_sagitta = largest(&refinement.sagittas).min(max_interior_error);
@@ -127,6 +141,8 @@ pub fn measure(
         max_back_distance: back,
         normal_jump: jump.normal,
         gap: jump.gap,
+        crease_error: largest(&on_creases),
+        folded_cells: round.folded.len(),
         volume: if is_closed { enclosed_volume(&round.surfaces) } else { f64::NAN },
         mesh_volume: mesh_volume(mesh),
         coefficient_count: patches.iter().map(|patch| patch.coefficient_count).sum(),
@@ -166,7 +182,7 @@ fn patches(refinement: &Refinement, round: &Round) -> Vec<PatchReport> {
 }
 
 /// Largest distance from places on a patch to the mesh.
-fn back_distance(refinement: &Refinement, surface: &crate::surface::pht::PhtSurface) -> f64 {
+fn back_distance(refinement: &Refinement, quad: u32, surface: &PhtSurface) -> f64 {
     let of_cell = |cell: usize| {
         let domain = surface.patch(cell).domain;
         let place = |k: usize| {
@@ -176,8 +192,10 @@ fn back_distance(refinement: &Refinement, surface: &crate::surface::pht::PhtSurf
         let uv: Vec<DVec2> = (0..BACK_PLACES * BACK_PLACES).map(place).collect();
         let mut rows = vec![0.0; 3 * uv.len()];
         surface.eval_rows(&uv, 0, &mut rows);
-        let distance =
-            |row| refinement.tree.nearest(DVec3::from_slice(row)).map_or(0.0, |near| near.distance);
+        let distance = |row| {
+            let near = refinement.regions.nearest(quad, DVec3::from_slice(row));
+            near.map_or(0.0, |near| near.distance)
+        };
         rows.chunks_exact(3).map(distance).fold(0.0, f64::max)
     };
     (0..surface.patch_count()).into_par_iter().with_min_len(16).map(of_cell).reduce(|| 0.0, f64::max)

@@ -2,9 +2,11 @@
 //!
 //! Nodes count 1. Between them, so that no cell is left to itself: centroids of facets, middles of edges, and a grid
 //! on facets much longer than usual. These have their parameters from the facet's corners, over at most two patches that
-//! are unfolded into one plane; the few that lie over more are left out.
+//! are unfolded into one plane; the few that lie over more are left out. The middle of an edge of a crease lies on the
+//! crease too.
 
 use super::least_squares::CellPlace;
+use super::locks::{Lock, feature_at, halfway, lock, same_places};
 use crate::control::Pool;
 use crate::layout::{Layout, Place, cube_place};
 use crate::lists::Lists;
@@ -32,14 +34,29 @@ impl NodePlaces<'_> {
                 (direction != DVec3::ZERO).then(|| cube_place(direction))
             }
             Self::Patches(places) => {
-                let Place { quad, uv: near } = places[nodes[0] as usize]?;
-                let mut uv = DVec2::ZERO;
-                for (&node, &share) in nodes.iter().zip(shares) {
-                    uv += share * layout.unfold(quad, places[node as usize]?, near)?;
-                }
-                Some(layout.cross(quad, uv))
+                let of_nodes: Option<Vec<Vec<Place>>> =
+                    nodes.iter().map(|&node| Some(same_places(layout, places[node as usize]?))).collect();
+                let of_nodes = of_nodes?;
+                let over = |Place { quad, uv: near }: Place| {
+                    let mut uv = DVec2::ZERO;
+                    for (same, share) in of_nodes.iter().zip(shares) {
+                        let unfolded = same.iter().filter_map(|&place| layout.unfold(quad, place, near));
+                        let distance = |uv: &DVec2| uv.distance_squared(near);
+                        uv += share * unfolded.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+                    }
+                    Some(layout.cross(quad, uv))
+                };
+                of_nodes.iter().flatten().find_map(|&place| over(place))
             }
         }
+    }
+
+    /// The place and lock halfway along an edge of a crease; none for an edge inside, or over a whole side.
+    fn on_crease(&self, layout: &Layout, [a, b]: [u32; 2]) -> Option<(Place, Lock)> {
+        let Self::Patches(places) = self else { return None };
+        let [a, b] = [a, b].map(|node| places[node as usize].and_then(|place| feature_at(layout, place)));
+        let middle = halfway(layout, a?, b?)?;
+        Some((middle.place(), middle.lock()))
     }
 
     /// The place of a node; none for a node that the map leaves out.
@@ -66,6 +83,10 @@ impl NodePlaces<'_> {
 pub struct Samples {
     pub places: Vec<Place>,
     pub points: Vec<DVec3>,
+    /// How each may move.
+    pub locks: Vec<Lock>,
+    /// The normal of the mesh there.
+    pub normals: Vec<DVec3>,
     /// How far the shape may lie above the facet there: 0 at nodes.
     pub allowances: Vec<f64>,
     /// The node of each of the first samples.
@@ -76,10 +97,11 @@ pub struct Samples {
 
 /// Weight of a sample that is no node.
 const BETWEEN: f64 = 0.3;
-/// What a place on a facet counts beside a node, by how far the shape may lie above it.
-pub fn weight_on_facet(sagitta: f64, tolerance: f64) -> f64 {
-    let known = (tolerance / sagitta).min(1.0);
-    BETWEEN * known * known
+/// What a place on a facet counts beside a node, by how far the shape may lie above it: less where that is more than
+/// `known`, the distance to which facets say where the shape is.
+pub fn weight_on_facet(sagitta: f64, known: f64) -> f64 {
+    let share = (known / sagitta).min(1.0);
+    BETWEEN * share * share
 }
 
 /// A facet whose longest edge is this many times the median gets a grid.
@@ -88,55 +110,106 @@ const LONG: f64 = 3.0;
 const MOST_ROWS: usize = 16;
 
 impl Samples {
-    /// Samples of all facets.
-    pub fn new(mesh: &Mesh, map: NodePlaces, layout: &Layout, sagittas: &[f64]) -> Self {
+    /// Samples of all facets; `is_corner` by vertex of the layout.
+    pub fn new(mesh: &Mesh, map: NodePlaces, layout: &Layout, sagittas: &[f64], is_corner: &[bool]) -> Self {
         let (points, triangles) = (mesh.points(), mesh.triangles());
         let nodes = (0..points.len() as u32).filter(|&node| mesh.is_used(node));
         let (nodes, places): (Vec<u32>, Vec<Place>) =
             nodes.filter_map(|node| map.node(node).map(|place| (node, place))).unzip();
-        let at_nodes = nodes.iter().map(|&node| points[node as usize]).collect();
-        let mut samples =
-            Self { places, points: at_nodes, allowances: vec![0.0; nodes.len()], nodes, dropped: 0 };
-        let mut add = |nodes: &[u32], shares: &[f64], sagitta: f64| {
-            samples.add(mesh, map.mean(layout, nodes, shares), nodes, shares, sagitta);
+        let (locks, places): (Vec<Lock>, Vec<Place>) =
+            places.into_iter().map(|place| lock(layout, place, is_corner)).unzip();
+        let (of_nodes, of_facets) = (node_normals(mesh), facet_normals(mesh));
+        let mut samples = Self {
+            places,
+            locks,
+            points: nodes.iter().map(|&node| points[node as usize]).collect(),
+            normals: nodes.iter().map(|&node| of_nodes[node as usize]).collect(),
+            allowances: vec![0.0; nodes.len()],
+            nodes,
+            dropped: 0,
         };
-        for (triangle, &sagitta) in triangles.iter().zip(sagittas) {
-            add(triangle, &[1.0 / 3.0; 3], sagitta);
+        let facets = || triangles.iter().zip(&of_facets).zip(sagittas);
+        for ((triangle, &normal), &sagitta) in facets() {
+            let place = map.mean(layout, triangle, &THIRDS).map(|place| (place, Lock::Free));
+            samples.add(mesh, place, (triangle, &THIRDS), (normal, sagitta));
         }
-        for (triangle, &sagitta) in triangles.iter().zip(sagittas) {
+        for ((triangle, &normal), &sagitta) in facets() {
             for [a, b] in [[0, 1], [1, 2], [2, 0]].map(|ends| ends.map(|k| triangle[k])) {
+                let is_border = mesh.edge_between(b, a).is_none();
                 // of both facets at an edge the one that runs upwards, at a border the only one
-                if a < b || mesh.edge_between(b, a).is_none() {
-                    add(&[a, b], &[0.5; 2], sagitta);
+                if a < b || is_border {
+                    let on_crease = is_border.then(|| map.on_crease(layout, [a, b])).flatten();
+                    let place = on_crease.or_else(|| Some((map.mean(layout, &[a, b], &HALVES)?, Lock::Free)));
+                    samples.add(mesh, place, (&[a, b], &HALVES), (normal, sagitta));
                 }
             }
         }
-        for ((triangle, &sagitta), rows) in triangles.iter().zip(sagittas).zip(grid_rows(mesh)) {
+        for (((triangle, &normal), &sagitta), rows) in facets().zip(grid_rows(mesh)) {
             for a in 0..rows {
                 for b in 0..rows - a {
                     let share = |k: usize| (k as f64 + 1.0 / 3.0) / rows as f64;
-                    add(triangle, &[share(a), share(b), share(rows - 1 - a - b)], sagitta);
+                    let shares = [share(a), share(b), share(rows - 1 - a - b)];
+                    let place = map.mean(layout, triangle, &shares).map(|place| (place, Lock::Free));
+                    samples.add(mesh, place, (triangle, &shares), (normal, sagitta));
                 }
             }
         }
         samples
     }
 
-    fn add(&mut self, mesh: &Mesh, place: Option<Place>, nodes: &[u32], shares: &[f64], sagitta: f64) {
-        let Some(place) = place else {
+    fn add(
+        &mut self,
+        mesh: &Mesh,
+        place: Option<(Place, Lock)>,
+        (nodes, shares): (&[u32], &[f64]),
+        (normal, sagitta): (DVec3, f64),
+    ) {
+        let Some((place, lock)) = place else {
             self.dropped += 1;
             return;
         };
         let terms = nodes.iter().zip(shares);
         self.points.push(terms.map(|(&node, &share)| share * mesh.points()[node as usize]).sum());
         self.places.push(place);
+        self.locks.push(lock);
+        self.normals.push(normal);
         self.allowances.push(sagitta);
     }
 
-    /// What a sample counts beside a node: less where the facet itself is farther from the shape than the tolerance.
-    pub fn weight(&self, sample: usize, tolerance: f64) -> f64 {
-        if sample < self.nodes.len() { 1.0 } else { weight_on_facet(self.allowances[sample], tolerance) }
+    /// What a sample counts beside a node.
+    pub fn weight(&self, sample: usize, known: f64) -> f64 {
+        if sample < self.nodes.len() {
+            self.locks[sample].weight()
+        } else {
+            weight_on_facet(self.allowances[sample], known)
+        }
     }
+}
+
+/// Shares of the nodes in the middle of a facet.
+const THIRDS: [f64; 3] = [1.0 / 3.0; 3];
+/// The same for an edge.
+const HALVES: [f64; 2] = [0.5; 2];
+
+/// The normal of each facet, of length 1.
+pub fn facet_normals(mesh: &Mesh) -> Vec<DVec3> {
+    areas(mesh).map(DVec3::normalize_or_zero).collect()
+}
+
+/// The normal of each node, the mean of its facets'.
+fn node_normals(mesh: &Mesh) -> Vec<DVec3> {
+    let mut sums = vec![DVec3::ZERO; mesh.points().len()];
+    for (triangle, area) in mesh.triangles().iter().zip(areas(mesh)) {
+        triangle.iter().for_each(|&node| sums[node as usize] += area);
+    }
+    sums.into_iter().map(DVec3::normalize_or_zero).collect()
+}
+
+fn areas(mesh: &Mesh) -> impl Iterator<Item = DVec3> + '_ {
+    mesh.triangles().iter().map(|triangle| {
+        let [a, b, c] = triangle.map(|node| mesh.points()[node as usize]);
+        (b - a).cross(c - a)
+    })
 }
 
 /// Rows of the grid on each facet; 0 for a facet of usual size.

@@ -11,7 +11,7 @@ use crate::tmesh::TMesh;
 use glam::DVec3;
 
 /// Places in all cells, `k` times `k` in each.
-fn dense_places(space: &Space, k: usize) -> Vec<Place> {
+pub(super) fn dense_places(space: &Space, k: usize) -> Vec<Place> {
     let mut places = Vec::new();
     for (quad, surface_mesh) in (0..).zip(space.meshes()) {
         for leaf in surface_mesh.leaves() {
@@ -26,7 +26,7 @@ fn dense_places(space: &Space, k: usize) -> Vec<Place> {
 }
 
 /// The patches of the space that are nearest to `points` at `places`.
-fn solve(space: &Space, places: &[Place], points: &[DVec3], smoothing: f64) -> Vec<PhtSurface> {
+pub(super) fn solve(space: &Space, places: &[Place], points: &[DVec3], smoothing: f64) -> Vec<PhtSurface> {
     let targets = Targets {
         uv: places.iter().map(|place| place.uv).collect(),
         points: points.to_vec(),
@@ -34,12 +34,14 @@ fn solve(space: &Space, places: &[Place], points: &[DVec3], smoothing: f64) -> V
     };
     let pool = Pool::new(1);
     let by_cell = ByCell::sort(space, places, &pool);
-    let solve = Control::new(1)
-        .watch(|pool, watch| System::new(space, pool).solve(&targets, &by_cell, smoothing, pool, watch));
+    let energy = vec![smoothing; by_cell.cell_count()];
+    let solve = Control::new(1).watch(|pool, watch| {
+        System::new(space, pool).solve(&targets, &by_cell, &energy, &Default::default(), pool, watch)
+    });
     solve.unwrap().unwrap()
 }
 
-fn points_at(surfaces: &[PhtSurface], places: &[Place]) -> Vec<DVec3> {
+pub(super) fn points_at(surfaces: &[PhtSurface], places: &[Place]) -> Vec<DVec3> {
     let point = |place: &Place| {
         let mut row = [0.0; 3];
         surfaces[place.quad as usize].eval_rows(&[place.uv], 0, &mut row);
@@ -49,7 +51,11 @@ fn points_at(surfaces: &[PhtSurface], places: &[Place]) -> Vec<DVec3> {
 }
 
 /// Bilinear places between the vertices, on the unit sphere unless `is_flat`.
-fn between_vertices((quads, vertices): &PlacedQuads, places: &[Place], is_flat: bool) -> Vec<DVec3> {
+pub(super) fn between_vertices(
+    (quads, vertices): &PlacedQuads,
+    places: &[Place],
+    is_flat: bool,
+) -> Vec<DVec3> {
     let point = |place: &Place| {
         let [a, b, c, d] = quads[place.quad as usize].map(|v| vertices[v as usize]);
         let (low, high) = (a.lerp(b, place.uv.x), d.lerp(c, place.uv.x));
@@ -88,13 +94,24 @@ fn random_meshes(layout: &Layout, level: u32, splits: usize, seed: u64) -> Vec<T
 /// A smooth surface near the sphere or torus over random cells, with noise.
 fn check_smoothness(name: &str, quads: PlacedQuads, level: u32, splits: usize, is_flat: bool) {
     let layout = Layout::new(&quads.0).unwrap();
-    let space = Space::new(&layout, random_meshes(&layout, level, splits, 5)).unwrap();
+    check_smoothness_over(name, &layout, &quads, [level, splits as u32], is_flat);
+}
+
+/// The same over a layout of the quads, from cells of a level and so many splits.
+pub(super) fn check_smoothness_over(
+    name: &str,
+    layout: &Layout,
+    quads: &PlacedQuads,
+    [level, splits]: [u32; 2],
+    is_flat: bool,
+) {
+    let space = Space::new(layout, random_meshes(layout, level, splits as usize, 5)).unwrap();
     let places = dense_places(&space, 4);
     let mut random = Random::new(9);
     let mut noisy = |p: DVec3| bent(p) + 0.002 * DVec3::from_array([(); 3].map(|()| random.signed()));
-    let points: Vec<DVec3> = between_vertices(&quads, &places, is_flat).into_iter().map(&mut noisy).collect();
+    let points: Vec<DVec3> = between_vertices(quads, &places, is_flat).into_iter().map(&mut noisy).collect();
     let surfaces = solve(&space, &places, &points, 1e-6);
-    let jump = normal_jump(&layout, &surfaces).unwrap();
+    let jump = normal_jump(layout, &surfaces).unwrap();
     assert!(jump.normal <= 1e-12 && jump.gap <= 2e-15, "{name}: {jump:?}");
 }
 
@@ -127,12 +144,22 @@ fn patches_share_their_tangent_planes_up_to_borders() {
 
 /// Errors of the best approximation of a smooth map of a coarse smooth surface over the same layout, level by level.
 fn orders(quads: &PlacedQuads, base: u32, levels: [u32; 2]) -> f64 {
-    let layout = Layout::new(&quads.0).unwrap();
-    let coarse = Space::new(&layout, uniform(&layout, base).unwrap()).unwrap();
+    orders_over(&Layout::new(&quads.0).unwrap(), quads, base, levels, false)
+}
+
+/// The same over a layout of the quads.
+pub(super) fn orders_over(
+    layout: &Layout,
+    quads: &PlacedQuads,
+    base: u32,
+    levels: [u32; 2],
+    is_flat: bool,
+) -> f64 {
+    let coarse = Space::new(layout, uniform(layout, base).unwrap()).unwrap();
     let places = dense_places(&coarse, 6);
-    let target = solve(&coarse, &places, &between_vertices(quads, &places, false), 1e-6);
+    let target = solve(&coarse, &places, &between_vertices(quads, &places, is_flat), 1e-6);
     let [coarse, fine] = levels.map(|level| {
-        let space = Space::new(&layout, uniform(&layout, level).unwrap()).unwrap();
+        let space = Space::new(layout, uniform(layout, level).unwrap()).unwrap();
         let places = dense_places(&space, 5);
         let points: Vec<DVec3> = points_at(&target, &places).into_iter().map(bent).collect();
         let surfaces = solve(&space, &places, &points, 1e-9);

@@ -165,6 +165,7 @@ fn patches(
         .map(|(piece, body)| Patchwork {
             layout: &piece.layout,
             surfaces: &piece.surfaces,
+            planes: None,
             void_in: body.void_in,
         })
         .collect();
@@ -308,6 +309,8 @@ fn together(mesh: &Mesh, components: &[ComponentReport], errors: &[f64]) -> Mode
         max_back_distance: largest(|fit| fit.max_back_distance),
         normal_jump: largest(|fit| fit.normal_jump),
         gap: largest(|fit| fit.gap),
+        crease_error: largest(|fit| fit.crease_error),
+        folded_cells: fits().map(|fit| fit.folded_cells).sum(),
         volume: fits().map(|fit| fit.volume).sum(),
         mesh_volume: fits().map(|fit| fit.mesh_volume).sum(),
         patches: fits().flat_map(|fit| fit.patches.iter().cloned()).collect(),

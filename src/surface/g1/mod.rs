@@ -20,6 +20,10 @@
 //! inside   the four rows of the jet
 //! ```
 //! so whatever the unknowns are, the surface is smooth to rounding, apart from the few enclosure equations.
+//!
+//! Across a crease the sides share E alone: E_j and E'_j are free, and each side has its own D_j and D'_j. Around a vertex
+//! creases part the quads into sectors, each with its own plane that the tangents T_0, T_k at its ends span; where they lie
+//! on one line (a crease that goes straight on, or ends there) the plane has a free direction Y.
 
 mod combination;
 mod conform;
@@ -101,6 +105,17 @@ pub struct Enclosure {
     pub sum: Combination,
 }
 
+/// A free unknown of the curve over a sharp edge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct CreaseUnknown {
+    /// The edge.
+    pub edge: u32,
+    /// Its number.
+    pub unknown: u32,
+    /// Whether it is a place, not a derivative along the edge.
+    pub is_position: bool,
+}
+
 /// A smooth space over a layout.
 #[derive(Debug, Clone)]
 pub struct Space<'a> {
@@ -113,6 +128,9 @@ pub struct Space<'a> {
     rows: Vec<Combination>,
     free_count: usize,
     enclosures: Vec<Enclosure>,
+    /// The position of each vertex.
+    positions: Vec<Combination>,
+    crease_unknowns: Vec<CreaseUnknown>,
 }
 
 impl<'a> Space<'a> {
@@ -130,8 +148,17 @@ impl<'a> Space<'a> {
             starts.push(starts[starts.len() - 1] + topology.basis.len() as u32);
         }
         let rows = vec![Combination::default(); ROWS * starts[starts.len() - 1] as usize];
-        let mut space =
-            Self { layout, meshes, topologies, starts, rows, free_count: 0, enclosures: Vec::new() };
+        let mut space = Self {
+            layout,
+            meshes,
+            topologies,
+            starts,
+            rows,
+            free_count: 0,
+            enclosures: Vec::new(),
+            positions: Vec::new(),
+            crease_unknowns: Vec::new(),
+        };
         space.build()?;
         Ok(space)
     }
@@ -164,6 +191,16 @@ impl<'a> Space<'a> {
     /// The equations that the unknowns have to keep.
     pub fn enclosures(&self) -> &[Enclosure] {
         &self.enclosures
+    }
+
+    /// The unknowns of the curves over all sharp edges; those at a vertex once for each of its edges.
+    pub fn crease_unknowns(&self) -> &[CreaseUnknown] {
+        &self.crease_unknowns
+    }
+
+    /// The unknown that is the place of a vertex; none for a number that no quad has.
+    pub fn vertex_unknown(&self, vertex: u32) -> Option<u32> {
+        self.positions[vertex as usize].terms().first().map(|&(number, _)| number)
     }
 
     /// The four rows of the jet of a basis vertex of a quad.
@@ -200,6 +237,7 @@ impl<'a> Space<'a> {
         let balances = self.edges(&vertices, &tangents)?;
         self.corners(&vertices, &tangents, &balances);
         self.inside();
+        self.positions = vertices;
         Ok(())
     }
 
@@ -237,6 +275,9 @@ impl<'a> Space<'a> {
             let curve = self.curve(&breaks, function.as_ref(), [begin, end], [away, back]);
             for j in 1..breaks.len() - 1 {
                 self.break_jets(&sides, j, &curve, is_smooth);
+            }
+            if !is_smooth {
+                self.note_crease(number, &curve);
             }
             if let Some(g) = &function {
                 let last = breaks.len() - 1;
@@ -325,6 +366,18 @@ impl<'a> Space<'a> {
             .map(|j| Combination::sum([(0.5 * g.right[j], &rows[j][1]), (0.5 * g.values[j], &second[j])]))
             .collect();
         Curve { rows, second, half, half_slope }
+    }
+
+    /// Over a sharp edge each position and derivative is an unknown, or the opposite of one.
+    fn note_crease(&mut self, edge: u32, curve: &Curve) {
+        for (row, is_position) in curve.rows.iter().flat_map(|[e, d]| [(e, true), (d, false)]) {
+            let unknowns = row.terms().iter();
+            self.crease_unknowns.extend(unknowns.map(|&(unknown, _)| CreaseUnknown {
+                edge,
+                unknown,
+                is_position,
+            }));
+        }
     }
 
     /// Jets at an inner break, on both sides of an edge.

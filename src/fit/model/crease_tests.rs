@@ -1,0 +1,208 @@
+//! Fits over layouts with creases, made by hand.
+
+use super::tests::*;
+use super::*;
+use crate::layout::{CUBE_FACES, Creases, HalfEdge, Side};
+use crate::model::{Frame, Patchwork, Plane, PlaneFace, Planes, Rim, Role, of_patches};
+use crate::samples::layouts::{PlacedQuads, numbered_edges};
+use crate::surface::g1::{Space, normal_jump};
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// The quads of the cube with their corners.
+fn cube() -> PlacedQuads {
+    let layout = Layout::cube();
+    let mut places = vec![DVec3::ZERO; 8];
+    for (face, quad) in CUBE_FACES.iter().zip(layout.quads()) {
+        for (uv, &vertex) in [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].into_iter().zip(quad) {
+            places[vertex as usize] = face.point(uv);
+        }
+    }
+    (layout.quads().to_vec(), places)
+}
+
+/// A prism of four sides, each end with a quad at every side and one in the middle.
+fn prism() -> PlacedQuads {
+    let ring = |height: f64, radius: f64| {
+        (0..4).map(move |k| {
+            let (sin, cos) = (PI / 2.0 * f64::from(k)).sin_cos();
+            DVec3::new(radius * cos, radius * sin, height)
+        })
+    };
+    let places = ring(-0.6, 1.0).chain(ring(0.6, 1.0)).chain(ring(-0.6, 0.4)).chain(ring(0.6, 0.4));
+    let around = (0..4).map(|k| [k, (k + 1) % 4]);
+    let wall = around.clone().map(|[a, b]| [a, b, 4 + b, 4 + a]);
+    let bottom = around.clone().map(|[a, b]| [b, a, 8 + a, 8 + b]).chain([[11, 10, 9, 8]]);
+    let top = around.map(|[a, b]| [4 + a, 4 + b, 12 + b, 12 + a]).chain([[12, 13, 14, 15]]);
+    (wall.chain(bottom).chain(top).collect(), places.collect())
+}
+
+fn creased(quads: &[[u32; 4]], sharp: &[[u32; 2]], angle: impl Fn(usize) -> f64) -> Layout {
+    let (numbers, sharp) = numbered_edges(quads, sharp);
+    let angle = |sector: &crate::layout::Sector| angle(sector.valence());
+    Layout::with_creases(quads, &numbers, &Creases { sharp: &sharp, angle: &angle }).unwrap()
+}
+
+/// The prism with its two rims sharp, which go straight on.
+fn prism_layout() -> (Layout, PlacedQuads) {
+    let quads = prism();
+    let rims: Vec<[u32; 2]> = (0..8).map(|k| [k, k / 4 * 4 + (k + 1) % 4]).collect();
+    (creased(&quads.0, &rims, |_| PI), quads)
+}
+
+/// The cube with the edges around one face sharp; the other three quads at its corners meet at `angle` between them.
+fn box_with_lid(angle: f64) -> (Layout, PlacedQuads) {
+    let quads = cube();
+    let rim: Vec<[u32; 2]> = (0..4).map(|k| [quads.0[0][k], quads.0[0][(k + 1) % 4]]).collect();
+    (creased(&quads.0, &rim, |valence| if valence == 1 { PI / 2.0 } else { angle }), quads)
+}
+
+/// A cube with one sharp edge, which ends in the smooth rest at both ends.
+fn cube_with_dart() -> (Layout, PlacedQuads) {
+    let quads = cube();
+    let edge = [quads.0[0][0], quads.0[0][1]];
+    (creased(&quads.0, &[edge], |_| PI), quads)
+}
+
+#[test]
+fn a_cube_of_sharp_edges_is_exact() {
+    let quads = cube();
+    let all: Vec<[u32; 2]> = Layout::cube().edges().iter().map(|edge| edge.ends).collect();
+    let layout = creased(&quads.0, &all, |_| PI / 2.0);
+    for level in [0, 2] {
+        let space = Space::new(&layout, uniform(&layout, level).unwrap()).unwrap();
+        let places = dense_places(&space, 5);
+        let points = between_vertices(&quads, &places, true);
+        let surfaces = solve(&space, &places, &points, 1e-4);
+        let between = dense_places(&space, 7);
+        let exact = between_vertices(&quads, &between, true);
+        let misses = points_at(&surfaces, &between).into_iter().zip(exact).map(|(a, b)| a.distance(b));
+        let miss = misses.fold(0.0, f64::max);
+        // normal equations of a condition of some hundreds, solved for numbers up to 1
+        assert!(miss <= 512.0 * f64::EPSILON, "level {level}: {miss:e}");
+        assert_eq!(normal_jump(&layout, &surfaces).unwrap().normal, 0.0, "no edge is smooth");
+        // the shape really has edges
+        let corner = points_at(&surfaces, &[Place { quad: 0, uv: DVec2::ZERO }])[0];
+        assert!(corner.distance(quads.1[quads.0[0][0] as usize]) <= 2048.0 * f64::EPSILON, "{corner}");
+    }
+}
+
+#[test]
+fn patches_are_smooth_between_creases_and_share_them() {
+    let (prism, prism_quads) = prism_layout();
+    check_smoothness_over("prism", &prism, &prism_quads, [2, 20], true);
+    for angle in [0.6, 1.5, 2.4, 4.0, 5.4] {
+        let (layout, quads) = box_with_lid(angle);
+        check_smoothness_over(&format!("wedges of {angle}"), &layout, &quads, [2, 20], false);
+    }
+    let (dart, quads) = cube_with_dart();
+    check_smoothness_over("dart", &dart, &quads, [2, 20], false);
+}
+
+#[test]
+fn shapes_with_creases_converge_at_order_four() {
+    let cases = [
+        ("prism", prism_layout(), true),
+        ("wedge", box_with_lid(2.4), false),
+        ("dart", cube_with_dart(), false),
+    ];
+    for (name, (layout, quads), is_flat) in cases {
+        let order = orders_over(&layout, &quads, 1, [2, 3], is_flat);
+        assert!(order >= 3.5, "{name}: {order}");
+    }
+}
+
+/// The wall of a cylinder of radius 1 and height 2, triangulated in `turn` by `rows` squares, with the places of its nodes on
+/// the wall of [`wall_layout`]; `slip` displaces them along the rims.
+fn wall(turn: u32, rows: u32, slip: f64) -> (Mesh, Vec<Option<Place>>) {
+    let mut points = Vec::new();
+    let mut places = Vec::new();
+    for row in 0..=rows {
+        for k in 0..turn {
+            let (height, around) = (f64::from(row) / f64::from(rows), f64::from(k) / f64::from(turn));
+            let (sin, cos) = (2.0 * PI * around).sin_cos();
+            points.push(DVec3::new(cos, sin, 2.0 * height));
+            let slipped = 4.0 * around + slip * (8.0 * PI * around).sin();
+            let quad = (slipped.floor() as u32).min(3);
+            places.push(Some(Place { quad, uv: DVec2::new(slipped - f64::from(quad), height) }));
+        }
+    }
+    let squares = (0..turn * rows).map(|at| (at / turn * turn, at % turn));
+    let triangles = squares.flat_map(|(row, k)| {
+        let [a, b] = [row + k, row + (k + 1) % turn];
+        [[a, b, b + turn], [a, b + turn, a + turn]]
+    });
+    (Mesh::new(points, triangles.collect()).unwrap(), places)
+}
+
+/// Four quads around, with the planes of the caps.
+fn wall_layout() -> (Layout, Constraints, Planes) {
+    let quads: Vec<[u32; 4]> = (0..4).map(|k| [k, (k + 1) % 4, 4 + (k + 1) % 4, 4 + k]).collect();
+    let layout = creased(&quads, &[], |_| PI);
+    let planes = [(DVec3::NEG_Z, 0.0), (DVec3::Z, 2.0)];
+    let mut constraints = Constraints {
+        planes: planes.map(|(normal, offset)| PlaneEquation { normal, offset }).to_vec(),
+        ..Constraints::default()
+    };
+    let mut faces = Vec::new();
+    for (number, side) in [(0_u32, 0_u8), (1, 2)] {
+        let edges = (0..4).map(|quad| layout.edge_of(Side { quad, side }));
+        let mut rims: Vec<Rim> = edges.map(|edge| Rim::Edge(edge.reversed())).collect();
+        // the sides above run against the way around, those below along it
+        if side == 0 {
+            rims.reverse();
+        }
+        for rim in &rims {
+            let Rim::Edge(HalfEdge { edge, .. }) = *rim else { continue };
+            constraints.of_edges.insert(edge, vec![number]);
+        }
+        let (normal, offset) = planes[number as usize];
+        let frame = Frame::new(offset * normal, normal, DVec3::X).unwrap();
+        faces.push(PlaneFace { plane: Plane(frame), loops: vec![rims], label: number });
+    }
+    (layout, constraints, Planes { vertices: Vec::new(), faces })
+}
+
+#[test]
+fn a_cylinder_is_its_wall_between_two_planes() {
+    let (layout, constraints, planes) = wall_layout();
+    for slip in [0.0, 0.04] {
+        let (mesh, places) = wall(60, 12, slip);
+        let options = ModelOptions::default().with_smoothing(1e-3);
+        let places = NodePlaces::Patches(&places);
+        let mut control = Control::new(1);
+        let fit = fit_with_creases(&mesh, &layout, places, &constraints, &options, &mut control).unwrap();
+        let report = &fit.report;
+        assert!(report.max_error <= report.tolerance, "slip {slip}: {report:?}");
+        assert_eq!(report.folded_cells, 0, "slip {slip}");
+        assert!(report.normal_jump <= 1e-12 && report.gap <= 4.0 * f64::EPSILON, "slip {slip}: {report:?}");
+        // the rims miss their nodes by less than half of what the facets say between them
+        assert!(report.crease_error <= 0.5 * report.tolerance, "slip {slip}: {:e}", report.crease_error);
+        assert!(report.coefficient_count <= 700, "slip {slip}: {}", report.coefficient_count);
+        // each rim lies in its plane to rounding of coordinates up to 2
+        let along: Vec<Place> = (0..4 * 33)
+            .map(|k| Place { quad: k / 33, uv: DVec2::new(f64::from(k % 33) / 32.0, 0.0) })
+            .collect();
+        for (height, offset) in [(0.0, 0.0), (1.0, 2.0)] {
+            let rim: Vec<Place> =
+                along.iter().map(|at| Place { uv: DVec2::new(at.uv.x, height), ..*at }).collect();
+            let off = points_at(&fit.surfaces, &rim).iter().map(|p| (p.z - offset).abs()).fold(0.0, f64::max);
+            assert!(off <= 16.0 * f64::EPSILON, "slip {slip}: {off:e}");
+        }
+
+        let piece =
+            Patchwork { layout: &layout, surfaces: &fit.surfaces, planes: Some(&planes), void_in: None };
+        let model = of_patches(&[piece], 1).unwrap().model;
+        assert_eq!((model.shells().len(), model.shells()[0].role), (1, Role::Solid));
+        assert_eq!(model.euler_characteristic(), 2);
+        let measure = model.measure();
+        assert!(measure.max_gap <= 1e-12 && measure.free_edge_count == 0, "{measure:?}");
+        let exact = [2.0 * PI, 6.0 * PI];
+        assert!(
+            (measure.volume / exact[0] - 1.0).abs() <= 5e-4,
+            "slip {slip}: {}",
+            measure.volume / exact[0]
+        );
+        assert!((measure.area / exact[1] - 1.0).abs() <= 1e-3, "slip {slip}: {}", measure.area / exact[1]);
+    }
+}
