@@ -30,6 +30,8 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_ListOfShape.hxx>
+#include <TopTools_MapOfShape.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Shape.hxx>
 #include <gp_Lin.hxx>
@@ -141,6 +143,23 @@ int hits(const TopoDS_Face &face, double x, double y) {
   intersector.Perform(gp_Lin(gp_Pnt(x, y, -1e6), gp_Dir(0, 0, 1)), 0, 2e6);
   CHECK(intersector.IsDone());
   return intersector.NbPnt();
+}
+
+// Edges with a face on one side only: those of one face that are no seam of it.
+int free_edges(const TopoDS_Shape &shape) {
+  TopTools_IndexedDataMapOfShapeListOfShape faces_of_edges;
+  TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of_edges);
+  int found = 0;
+  for (int k = 1; k <= faces_of_edges.Extent(); ++k) {
+    const TopTools_ListOfShape &faces = faces_of_edges(k);
+    const TopoDS_Edge edge = TopoDS::Edge(faces_of_edges.FindKey(k));
+    const bool is_seam = faces.Extent() > 0 && BRep_Tool::IsClosed(edge, TopoDS::Face(faces.First()));
+    // a seam is listed twice with its face, or once
+    TopTools_MapOfShape different;
+    for (const TopoDS_Shape &face : faces) different.Add(face);
+    found += different.Extent() == 1 && !is_seam;
+  }
+  return found;
 }
 
 // Everything that holds for any file; the face, for more.
@@ -385,6 +404,37 @@ TEST(OcctStep, TubeWithASeam) {
   CHECK_EQUAL(planish_tensor_new(3, 2, 1, knots, 12, ends, 4, points.data(), weights.data(), &out), PLANISH_STATUS_OK);
   const TopoDS_Face face = check_file(Surface(out), "tube", PLANISH_UNIT_MILLIMETRE, 1);
   CHECK_NEAR(area(face), 6 * M_PI, 1e-5);
+  CHECK_EQUAL(free_edges(face), 2);
+}
+
+// Closed rows: both sides of the seam are one edge, and the first and the last row alone are free.
+TEST(OcctStep, ClosedSkinHasNoFreeEdgeAlongItsSeam) {
+  std::vector<double> points;
+  const std::vector<std::size_t> counts = {24, 31, 18, 40};
+  for (std::size_t j = 0; j < counts.size(); ++j) {
+    const double z = static_cast<double>(j);
+    for (std::size_t k = 0; k < counts[j]; ++k) {
+      const double angle = 2 * M_PI * static_cast<double>(k) / static_cast<double>(counts[j]);
+      const double radius = 2 + 0.3 * std::sin(z) + 0.1 * std::cos(3 * angle);
+      points.insert(points.end(), {radius * std::cos(angle), radius * std::sin(angle), z});
+    }
+  }
+  planish_skin_options options;
+  CHECK_EQUAL(planish_skin_options_init(&options, sizeof options), PLANISH_STATUS_OK);
+  options.closed = 1;
+  planish_surface *out = nullptr;
+  CHECK_EQUAL(planish_tspline_skin(points.data(), counts.data(), counts.size(), &options, &out, nullptr),
+              PLANISH_STATUS_OK);
+  const Surface skin(out);
+  CHECK_EQUAL(free_edges(check_file(skin, "closed", PLANISH_UNIT_MILLIMETRE, 1)), 2);
+  planish_step_options step;
+  CHECK_EQUAL(planish_step_options_init(&step, sizeof step), PLANISH_STATUS_OK);
+  step.form = PLANISH_STEP_FORM_STRIPS;
+  CHECK_EQUAL(planish_surface_write_step(skin.get(), "occt_closed_strips.step", &step), PLANISH_STATUS_OK);
+  const TopoDS_Shape strips = read("occt_closed_strips.step");
+  CHECK(BRepCheck_Analyzer(strips).IsValid());
+  CHECK_EQUAL(count(strips, TopAbs_FACE), 3);
+  CHECK_EQUAL(free_edges(strips), 2);
 }
 
 // Sections of a bent, tapered trough: one face for all, or one for each pair of rows, of one area.

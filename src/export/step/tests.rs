@@ -199,3 +199,46 @@ fn a_pht_spline_is_a_shell_of_patches() {
         }
     }
 }
+
+#[test]
+fn a_closed_skin_is_written_closed() {
+    use crate::Control;
+    use crate::fit::skin::{Rows, SkinMethod, SkinOptions, skin};
+    let set = crate::samples::rows::screwdriver();
+    let rows = Rows { points: &set.points, counts: &set.counts, dim: 3 };
+    let forms = [
+        (Form::Tensor, SkinMethod::default()),
+        (Form::Strips, SkinMethod::default()),
+        (Form::Tensor, SkinMethod::CommonKnots),
+    ];
+    for (form, method) in forms {
+        let options = SkinOptions { method, ..SkinOptions::default() };
+        let surface = skin(&rows, &options, &mut Control::new(2)).unwrap().surface.into();
+        let model = of_surface(&surface, &FormOptions { form, ..FormOptions::default() }).unwrap();
+        // only the first and the last row are free, each a closed edge
+        let free: Vec<_> = model.edge_ids().filter(|&edge| model.is_free(edge)).collect();
+        assert_eq!(free.len(), 2, "{form:?}");
+        assert!(free.iter().all(|&edge| model.edge(edge).vertices[0] == model.edge(edge).vertices[1]));
+        let (text, report) = to_text(&model, &StepOptions::default()).unwrap();
+        check_syntax(&text);
+        assert_eq!(text.matches("=SEAM_CURVE(").count(), report.face_count, "{form:?}");
+        assert!(report.curve_deviation <= 1e-7 * report.diagonal, "{report:?}");
+        // and the mesh of it has two rows of free edges
+        let mesh = model.tessellate(&Default::default()).unwrap().mesh;
+        assert_eq!((mesh.loops().len(), mesh.component_count()), (2, 1), "{form:?}");
+    }
+}
+
+#[test]
+fn a_face_lies_on_what_is_around_its_trims() {
+    let whole = wave();
+    let loops = vec![rectangle(0.3, 0.4), circle([0.35, 0.35], 0.02, 9)];
+    let surface = AnySurface::from(trimmed(whole.clone(), loops.clone()));
+    let model = of_surface(&surface, &FormOptions::default()).unwrap();
+    let part = model.carrier(model.face_ids().next().unwrap()).domain().unwrap();
+    assert!((part.min.x - 0.299).abs() < 1e-15 && (part.max.y - 0.401).abs() < 1e-15, "{part:?}");
+    assert_eq!(model.trims(model.face_ids().next().unwrap()).unwrap().loops().len(), 2);
+    let (text, report) = to_text(&model, &StepOptions::default()).unwrap();
+    check_syntax(&text);
+    assert!(report.curve_deviation <= 1e-7 * report.diagonal, "{report:?}");
+}

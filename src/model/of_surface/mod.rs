@@ -12,8 +12,9 @@ mod loops;
 mod tiling;
 
 use super::{Builder, Coedge, Model, ModelError, Role};
+use crate::curve::Curve;
 use crate::geometry::{Bounds, Domain};
-use crate::surface::tensor::TensorSurface;
+use crate::surface::tensor::{Axis, TensorSurface};
 use crate::surface::{AnySurface, ConvertError, Surface};
 use glam::{DVec2, DVec3};
 use image::{Image, image, points};
@@ -52,6 +53,14 @@ impl Default for FormOptions {
 /// How near the curves of edges are to the surface, as a share of the diagonal.
 pub const CURVE_TOLERANCE: f64 = 1e-7;
 
+/// Sides nearer to each other than this share of the tolerance of curves are one: the curve of one is as near to the other
+/// as curves may be.
+const SEAM_SHARE: f64 = 0.1;
+
+/// How far the surface of a face goes on beyond its trims, as a share of their ranges: a curve on the very border of a
+/// surface is harder on programs that extend or offset it.
+const MARGIN: f64 = 0.01;
+
 /// A turn of the image by more than this is a corner: below 45 degrees, the corner of an octagon, and above the
 /// turns of a round hole drawn with a dozen points. More corners only make more edges.
 const CORNER_DEGREES: f64 = 40.0;
@@ -60,12 +69,36 @@ const CORNER_DEGREES: f64 = 40.0;
 /// of a surface fitted to it.
 pub fn of_surface(surface: &AnySurface, options: &FormOptions) -> Result<Model, ModelError> {
     let parts = match (surface, options.form) {
-        (AnySurface::Tensor(tensor), _) => vec![tensor.clone()],
+        (AnySurface::Tensor(tensor), _) => vec![around_trims(tensor)],
         (AnySurface::TSpline(tspline), Form::Strips) => tspline.to_strips().map_err(ConvertError::from)?,
         (AnySurface::Pht(pht), Form::Patches) => pht.to_tensor_patches(options.level_spread)?,
-        _ => vec![surface.to_tensor(options.max_coefficients)?],
+        _ => vec![around_trims(&surface.to_tensor(options.max_coefficients)?)],
     };
     of_parts(surface.as_surface(), parts)
+}
+
+/// The part of a surface around its trims and a little more, cut at knot lines where some are near: what lies farther
+/// off belongs to no face, but programs draw it and count it into the box of the shape.
+fn around_trims(surface: &TensorSurface) -> TensorSurface {
+    let trims = &surface.region().trims;
+    if trims.is_empty() {
+        return surface.clone();
+    }
+    let trimmed = Domain::around(trims.loops().iter().flatten().copied());
+    let (margin, whole) = (MARGIN * trimmed.size(), surface.domain());
+    let [(u0, u1), (v0, v1)] = [
+        (Axis::U, [trimmed.min.x, trimmed.max.x], margin.x),
+        (Axis::V, [trimmed.min.y, trimmed.max.y], margin.y),
+    ]
+    .map(|(axis, [from, to], margin)| {
+        let breaks = surface.knots(axis).breaks();
+        let before = breaks.iter().rev().find(|&&at| at < from && from - margin <= at);
+        let after = breaks.iter().find(|&&at| to < at && at <= to + margin);
+        (before.copied().unwrap_or(from - margin), after.copied().unwrap_or(to + margin))
+    });
+    let part = Domain { min: whole.clamp(DVec2::new(u0, v0)), max: whole.clamp(DVec2::new(u1, v1)) };
+    // of a surface whose numbers overflow the whole is left, for the writer to tell
+    surface.restrict(part).unwrap_or_else(|_| surface.clone())
 }
 
 /// The faces that `parts`, which meet with equal parameters, have inside the trims of the `whole`.
@@ -97,7 +130,8 @@ pub fn of_parts(whole: &dyn Surface, parts: Vec<TensorSurface>) -> Result<Model,
             return Err(ModelError::Collapsed { index: trim });
         }
     }
-    assemble(parts, layout, images, diagonal)
+    let seams = seams(&parts, &layout.edges, &images, tiling.domain(), tolerance);
+    assemble(parts, layout, images, &seams, diagonal)
 }
 
 /// Points of the surface inside the trims and on them.
@@ -126,9 +160,10 @@ fn assemble(
     parts: Vec<TensorSurface>,
     layout: Layout,
     images: Vec<Option<Image>>,
+    seams: &[Option<Seam>],
     diagonal: f64,
 ) -> Result<Model, ModelError> {
-    let mut numbers = Vertices::new(&layout.edges, &images);
+    let mut numbers = Vertices::new(&layout.edges, &images, seams);
     let mut is_used = vec![false; layout.edges.len()];
     layout
         .faces
@@ -138,8 +173,8 @@ fn assemble(
     // edges with length that bound a face, and the numbers of their vertices
     let mut kept = Vec::with_capacity(images.len());
     let mut places: Vec<Option<DVec3>> = Vec::new();
-    for ((plane, image), is_used) in layout.edges.iter().zip(images).zip(is_used) {
-        kept.push(image.filter(|_| is_used).map(|image| {
+    for (((plane, image), is_used), seam) in layout.edges.iter().zip(images).zip(is_used).zip(seams) {
+        kept.push(image.filter(|_| is_used && seam.is_none()).map(|image| {
             let vertices = plane.ends.map(|node| numbers.number(node));
             places.resize(numbers.count, None);
             let [start, end] = image.ends();
@@ -161,9 +196,16 @@ fn assemble(
     let mut surfaces = vec![None; parts.len()];
     let mut faces = Vec::with_capacity(layout.faces.len());
     for face in layout.faces {
-        let coedge = |side: &Side| {
-            let (edge, pcurve) = edges[side.edge].as_ref()?;
-            Some(Coedge { edge: *edge, is_forward: side.is_forward, pcurve: Some(pcurve.clone()) })
+        let coedge = |side: &Side| match &seams[side.edge] {
+            None => {
+                let (edge, pcurve) = edges[side.edge].as_ref()?;
+                Some(Coedge { edge: *edge, is_forward: side.is_forward, pcurve: Some(pcurve.clone()) })
+            }
+            Some(seam) => {
+                let (edge, pcurve) = edges[seam.partner].as_ref()?;
+                let pcurve = seam.across(pcurve);
+                Some(Coedge { edge: *edge, is_forward: !side.is_forward, pcurve: Some(pcurve) })
+            }
         };
         let bounds = face.bounds.iter().map(|bound| bound.iter().filter_map(coedge).collect::<Vec<_>>());
         let bounds: Vec<_> = bounds.filter(|bound| !bound.is_empty()).collect();
@@ -181,6 +223,71 @@ fn assemble(
     builder.finish()
 }
 
+/// An edge on the low side of the domain that is one in space with its partner on the high side, which runs against it:
+/// there the surface closes on itself, as a tube does.
+#[derive(Debug, Clone, Copy)]
+struct Seam {
+    partner: usize,
+    /// The direction that closes.
+    axis: usize,
+    /// Its least parameter.
+    start: f64,
+}
+
+impl Seam {
+    /// The preimage of the partner on this side.
+    fn across(&self, pcurve: &Curve) -> Curve {
+        let mut points = pcurve.control_points().to_vec();
+        points.iter_mut().skip(self.axis).step_by(2).for_each(|coordinate| *coordinate = self.start);
+        let knots = pcurve.knots().clone();
+        Curve::new(2, knots, points).expect("other coordinates are as many and as finite")
+    }
+}
+
+/// Which edges are seams: their images differ by less than curves may be off the surface.
+fn seams(
+    parts: &[TensorSurface],
+    edges: &[PlaneEdge],
+    images: &[Option<Image>],
+    domain: &Domain,
+    tolerance: f64,
+) -> Vec<Option<Seam>> {
+    /// Places at which both sides of an edge are compared.
+    const SAMPLES: usize = 33;
+    let lies_at = |edge: &PlaneEdge, axis: usize, at: f64| edge.polyline.iter().all(|p| p[axis] == at);
+    let is_against = |edge: &PlaneEdge, other: &PlaneEdge, along: usize| {
+        let pairs = edge.polyline.iter().zip(other.polyline.iter().rev());
+        edge.polyline.len() == other.polyline.len() && pairs.into_iter().all(|(p, q)| p[along] == q[along])
+    };
+    let are_one = |edge: &PlaneEdge, other: &PlaneEdge| {
+        let places = |edge: &PlaneEdge| -> Vec<DVec2> {
+            let sides = edge.polyline.windows(2);
+            sides
+                .flat_map(|s| (0..=SAMPLES).map(move |k| s[0].lerp(s[1], k as f64 / SAMPLES as f64)))
+                .collect()
+        };
+        let here = points(&parts[edge.left], &places(edge));
+        let there = points(&parts[other.left], &places(other));
+        here.iter().zip(there.iter().rev()).all(|(a, b)| a.distance(*b) <= SEAM_SHARE * tolerance)
+    };
+    let seam = |(edge, image): (&PlaneEdge, &Option<Image>)| {
+        image.as_ref()?;
+        (0..2).find_map(|axis| {
+            let (start, end) = (domain.min[axis], domain.max[axis]);
+            if !lies_at(edge, axis, start) {
+                return None;
+            }
+            let is_partner = |other: &PlaneEdge| {
+                lies_at(other, axis, end) && is_against(edge, other, 1 - axis) && are_one(edge, other)
+            };
+            let partner =
+                edges.iter().zip(images).position(|(other, image)| image.is_some() && is_partner(other));
+            partner.map(|partner| Seam { partner, axis, start })
+        })
+    };
+    edges.iter().zip(images).map(seam).collect()
+}
+
 /// Vertices for the ends of edges, one for all ends that are joined by edges without length.
 struct Vertices {
     /// An end nearer to the one that stands for all.
@@ -190,12 +297,20 @@ struct Vertices {
 }
 
 impl Vertices {
-    fn new(edges: &[PlaneEdge], images: &[Option<Image>]) -> Self {
+    fn new(edges: &[PlaneEdge], images: &[Option<Image>], seams: &[Option<Seam>]) -> Self {
         let count = edges.iter().flat_map(|edge| edge.ends).max().map_or(0, |last| last + 1);
         let mut vertices = Self { parent: (0..count).collect(), number: vec![None; count], count: 0 };
         for (edge, _) in edges.iter().zip(images).filter(|(_, image)| image.is_none()) {
             let [a, b] = edge.ends.map(|end| vertices.root(end));
             vertices.parent[b] = a;
+        }
+        for (edge, seam) in edges.iter().zip(seams) {
+            let Some(seam) = seam else { continue };
+            let [end, start] = edges[seam.partner].ends;
+            for (here, there) in edge.ends.into_iter().zip([start, end]) {
+                let (here, there) = (vertices.root(here), vertices.root(there));
+                vertices.parent[here] = there;
+            }
         }
         vertices
     }
