@@ -3,7 +3,7 @@
 use crate::input::{MeshInput, threads};
 use crate::output::{self, Table};
 use crate::step::Step;
-use crate::{Failure, Outcome};
+use crate::{Failure, Given, Outcome};
 use clap::{Args, ValueEnum};
 use planish::Control;
 use planish::export::step::StepOptions;
@@ -66,15 +66,19 @@ enum SharpName {
     Additive,
 }
 
-pub fn run(arguments: &D1rcArguments) -> Result<Outcome, Failure> {
+pub fn run(arguments: &D1rcArguments, given: &Given) -> Result<Outcome, Failure> {
     output::check_names(&arguments.out)?;
+    given.refuse("sharp", arguments.sharp_angle.is_some(), "is used with --sharp-angle only")?;
     let (mut mesh, repairs) = arguments.input.read(&arguments.mesh)?;
     if let Some(piece) = mesh.without_unused_nodes() {
         mesh = piece.mesh; // a control point that no face needs moves nothing
     }
+    let has_parameters = mesh.parameters().is_some();
+    given.refuse("ignore-parameters", has_parameters, "does nothing for a mesh that has none")?;
     if arguments.ignore_parameters {
         mesh.clear_parameters();
     }
+    given.refuse("threads", mesh.parameters().is_none(), "does nothing for a mesh that has parameters")?;
     if mesh.parameters().is_none() {
         let mut control = Control::new(arguments.threads);
         let map = parameterize(&mesh, &ParameterizeOptions::default(), &mut control)?;

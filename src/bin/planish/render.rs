@@ -3,7 +3,7 @@
 use crate::output::{self, write_png};
 use crate::picture::View;
 use crate::picture::{RenderOptions, render, render_model};
-use crate::{Failure, Outcome};
+use crate::{Failure, Given, Outcome};
 use clap::Args;
 use planish::Control;
 use planish::export::native::{self, Saved};
@@ -40,9 +40,12 @@ pub struct RenderArguments {
     from: Option<String>,
 }
 
-pub fn run(arguments: &RenderArguments) -> Result<Outcome, Failure> {
+pub fn run(arguments: &RenderArguments, given: &Given) -> Result<Outcome, Failure> {
     output::check_name(&arguments.out, output::PICTURES)?;
     let saved = native::load_any_file(&arguments.surface)?;
+    let is_model = matches!(saved, Saved::Model(_));
+    given.refuse("net", !is_model, "is not used for a model: it has no control net of its own")?;
+    given.refuse("net", !arguments.plane, "is not used with --plane: a control net lies in space")?;
     let mesh = match &arguments.deviation {
         Some(path) => Some(read(path, &MeshOptions::default())?.0),
         None => None,

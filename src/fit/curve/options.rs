@@ -1,7 +1,9 @@
 //! What a fit of a curve may be asked for.
 
 use crate::fit::common::FitError;
-use crate::fit::common::checks::{check_buffer, check_grid, check_option, check_smoothing, check_tolerance};
+use crate::fit::common::checks::{
+    check_buffer, check_grid, check_option, check_smoothing, check_tolerance, check_unused,
+};
 use crate::fit::common::report::Tolerance;
 use crate::fit::common::uniform::{Ends, Method};
 use crate::options::with_fields;
@@ -60,6 +62,11 @@ impl<'a> CurveOptions<'a> {
         check_smoothing(self.smoothing, true)?;
         check_buffer(self.buffer)?;
         check_option(self.max_grid >= 2, "max_grid", self.max_grid as f64, "at least 2")?;
+        if self.method == Method::Ferguson {
+            const BY: &str = "the equations of Dannenhoffer and Haimes";
+            check_unused(self.ends == Ends::default(), "ends", BY)?;
+            check_unused(self.weights.is_none(), "weights", BY)?;
+        }
         check_grid(self.fixed_count)
     }
 }
