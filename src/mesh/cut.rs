@@ -190,6 +190,44 @@ impl Mesh {
         self.piece(triangles, nodes, numbers)
     }
 
+    /// The mesh of some triangles, opened along edges: triangles around a node hang together there only over common
+    /// edges that stay closed. Nodes and triangles keep their order.
+    pub(crate) fn cut_out(
+        &self,
+        triangles: &[u32],
+        is_cut: impl Fn(HalfEdge) -> bool,
+    ) -> Result<Piece, CutError> {
+        const NONE: u32 = u32::MAX;
+        let mut place = vec![NONE; self.triangles.len()];
+        (0..).zip(triangles).for_each(|(k, &triangle)| place[triangle as usize] = k);
+        // corners of triangles in sets that are one node
+        let mut sets: Vec<u32> = (0..3 * triangles.len() as u32).collect();
+        let corner = |place: u32, corner: usize| 3 * place + corner as u32;
+        for (k, &triangle) in (0..).zip(triangles) {
+            for edge in (0..3).map(|side| HalfEdge::new(triangle as usize, side)) {
+                let Some(twin) = self.topology.twin(edge).filter(|_| !is_cut(edge)) else { continue };
+                let other = place[twin.triangle()];
+                if other == NONE {
+                    continue;
+                }
+                let [from, to] = [edge.corner(), edge.next().corner()].map(|c| corner(k, c));
+                let [begin, end] = [twin.corner(), twin.next().corner()].map(|c| corner(other, c));
+                join(&mut sets, from, end);
+                join(&mut sets, to, begin);
+            }
+        }
+        let old = |corner: u32| self.triangles[triangles[corner as usize / 3] as usize][corner as usize % 3];
+        let roots: Vec<u32> = (0..sets.len() as u32).map(|corner| root(&mut sets, corner)).collect();
+        let mut nodes: Vec<[u32; 2]> =
+            (0..).zip(&roots).filter(|(k, r)| k == *r).map(|(k, _)| [old(k), k]).collect();
+        nodes.sort_unstable();
+        let mut number = vec![NONE; sets.len()];
+        (0..).zip(&nodes).for_each(|(node, &[_, root])| number[root as usize] = node);
+        let new = |k: usize| [0, 1, 2].map(|c| number[roots[3 * k + c] as usize]);
+        let new_triangles = (0..triangles.len()).map(new).collect();
+        self.piece(new_triangles, nodes.into_iter().map(|[old, _]| old).collect(), triangles.to_vec())
+    }
+
     /// The shortest path along edges, by length; of equally short ones always the same.
     pub fn shortest_path(&self, from: u32, to: u32) -> Result<Vec<u32>, CutError> {
         self.check_node(from)?;
@@ -276,6 +314,20 @@ impl Mesh {
         mesh.origins = Origins::new(nodes.clone(), numbers);
         Ok(Piece { mesh, nodes })
     }
+}
+
+/// The first of a set; the way to it becomes shorter.
+fn root(sets: &mut [u32], mut member: u32) -> u32 {
+    while sets[member as usize] != member {
+        sets[member as usize] = sets[sets[member as usize] as usize];
+        member = sets[member as usize];
+    }
+    member
+}
+
+fn join(sets: &mut [u32], a: u32, b: u32) {
+    let [a, b] = [a, b].map(|member| root(sets, member));
+    sets[a.max(b) as usize] = a.min(b);
 }
 
 /// A node in the queue of a shortest path.
