@@ -56,6 +56,8 @@ pub(super) struct TrianglePlace {
 /// A coarse triangulation of a surface with the map of the nodes of a middle level, and how the others come back.
 #[derive(Debug, Clone)]
 pub(super) struct Base {
+    /// By vertex: its node; none for one in the middle of an edge that was split.
+    pub nodes: Vec<Option<u32>>,
     /// Where the vertices are.
     pub points: Vec<DVec3>,
     /// By vertex: where it lies on the border, and the quads that it needs.
@@ -69,11 +71,20 @@ pub(super) struct Base {
 
 /// The nodes between a middle level and the mesh.
 #[derive(Debug, Clone)]
-pub(super) struct Fine {
+pub(in crate::layout) struct Fine {
     /// The mesh of the middle level.
     pub rings: Rings,
     /// The nodes that went before it was reached, in order.
     pub order: Vec<u32>,
+}
+
+/// Which nodes collapse.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Collapsing {
+    /// All but corners.
+    Any,
+    /// When so many are left only those of the border, until its corners alone are left.
+    ToCorners,
 }
 
 /// Collapses edges of a mesh closed by cones until `target` nodes are left, or none can go; nodes are tracked from a
@@ -82,13 +93,20 @@ pub(super) fn decimate(
     border: &Border,
     target: usize,
     tracked: usize,
+    collapsing: Collapsing,
     control: &mut Control,
 ) -> Result<Base, Cancelled> {
     let mut decimation = Decimation::new(border);
     let used = decimation.present().count();
     let mut left = used;
+    let mut target = target;
     loop {
         let before = left;
+        if collapsing == Collapsing::ToCorners && left <= target {
+            let loose = decimation.present().filter(|&node| decimation.is_loose(node)).count();
+            decimation.is_border_only = true;
+            target = left - loose;
+        }
         decimation.fill();
         while left > target {
             let Some((node, to)) = decimation.next() else { break };
@@ -104,8 +122,12 @@ pub(super) fn decimate(
             }
         }
         // what was refused may have become possible by changes two edges away
-        if left <= target || left == before {
-            return Ok(decimation.finish());
+        let is_done = collapsing == Collapsing::Any || decimation.is_border_only;
+        if left == before || (left <= target && is_done) {
+            if is_done {
+                return Ok(decimation.finish());
+            }
+            target = left;
         }
     }
 }
@@ -128,6 +150,8 @@ type Entry = Reverse<(u64, u32, u32)>;
 
 struct Decimation<'a> {
     border: &'a Border,
+    /// Whether only nodes of the border may go.
+    is_border_only: bool,
     /// By node: the neighbours along the border, which change as others go.
     chains: Vec<Option<[u32; 2]>>,
     /// Around the middle of the box, where quadrics keep their digits.
@@ -175,6 +199,7 @@ impl<'a> Decimation<'a> {
         }
         Self {
             border,
+            is_border_only: false,
             chains: border.nodes.iter().map(|node| node.map(|node| node.neighbours)).collect(),
             points,
             rings: Rings::new(mesh),
@@ -193,6 +218,11 @@ impl<'a> Decimation<'a> {
     fn present(&self) -> impl Iterator<Item = u32> + '_ {
         let nodes = 0..self.points.len() as u32;
         nodes.filter(|&node| !self.is_gone[node as usize] && self.rings.valence(node) > 0)
+    }
+
+    /// Whether a node is one of the border and no corner.
+    fn is_loose(&self, node: u32) -> bool {
+        self.border.node(node).is_some_and(|node| !node.is_corner)
     }
 
     fn fill(&mut self) {
@@ -228,7 +258,8 @@ impl<'a> Decimation<'a> {
         let mut best: Option<(f64, u32)> = None;
         let ring = self.rings.of(node);
         self.marks.mark(ring);
-        if self.border.is_tip(node) || self.border.node(node).is_some_and(|node| node.is_corner) {
+        let is_fixed = self.border.is_tip(node) || self.border.node(node).is_some_and(|node| node.is_corner);
+        if is_fixed || (self.is_border_only && !self.is_loose(node)) {
             return None;
         }
         for (k, &to) in ring.iter().enumerate() {
@@ -395,6 +426,7 @@ impl<'a> Decimation<'a> {
         }
         let of_border = |&node: &u32| self.border.node(node).map(|node| (node.along, node.need));
         Base {
+            nodes: vertices.iter().copied().map(Some).collect(),
             points: vertices.iter().map(|&node| self.border.closed.points()[node as usize]).collect(),
             border: vertices.iter().map(of_border).collect(),
             triangles,
@@ -410,6 +442,7 @@ impl Base {
     pub fn split(&mut self, [a, b]: [u32; 2], lengths: &[f64]) {
         let middle = self.points.len() as u32;
         self.points.push(self.points[a as usize].midpoint(self.points[b as usize]));
+        self.nodes.push(None);
         let at_edge: Vec<usize> = (0..self.triangles.len())
             .filter(|&t| [a, b].iter().all(|end| self.triangles[t].contains(end)))
             .collect();

@@ -8,6 +8,7 @@
 
 use crate::mesh::{Mesh, MeshError};
 use glam::DVec3;
+use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_4, PI};
 
 /// A border turns over this part of its length, so that jags are no corners.
@@ -16,6 +17,9 @@ const WINDOW: f64 = 0.02;
 const LEAST_TURN: f64 = FRAC_PI_4;
 /// Up to these angles one and two patches meet in a corner.
 const MOST_ANGLES: [f64; 2] = [150.0 / 180.0 * PI, 300.0 / 180.0 * PI];
+
+/// Quads at a node of the border that is no corner.
+const STRAIGHT_NEED: u32 = 2;
 
 /// A place on a loop of the border.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,6 +56,27 @@ pub(super) struct Border {
 
 impl Border {
     pub fn new(mesh: &Mesh) -> Result<Self, MeshError> {
+        let mut border = Self::closed(mesh)?;
+        for (index, nodes) in mesh.loops().iter().enumerate() {
+            border.add_loop(mesh, index, nodes);
+        }
+        Ok(border)
+    }
+
+    /// With these nodes as corners and no others, and the quads that each of them needs.
+    pub fn with_corners(mesh: &Mesh, needs: &BTreeMap<u32, u32>) -> Result<Self, MeshError> {
+        let mut border = Self::new(mesh)?;
+        for (node, found) in (0..).zip(&mut border.nodes) {
+            if let Some(found) = found {
+                found.is_corner = needs.contains_key(&node);
+                found.need = needs.get(&node).copied().unwrap_or(STRAIGHT_NEED);
+            }
+        }
+        Ok(border)
+    }
+
+    /// The mesh closed by cones, without what is known of its border.
+    fn closed(mesh: &Mesh) -> Result<Self, MeshError> {
         let first_tip = mesh.points().len() as u32;
         let (mut points, mut triangles) = (mesh.points().to_vec(), mesh.triangles().to_vec());
         for nodes in mesh.loops() {
@@ -60,16 +85,12 @@ impl Border {
             points.push(sum / nodes.len() as f64);
             triangles.extend(pairs(nodes).map(|[a, b]| [b, a, tip]));
         }
-        let mut border = Self {
+        Ok(Self {
             nodes: vec![None; points.len()],
             lengths: Vec::new(),
             closed: Mesh::new(points, triangles)?,
             first_tip,
-        };
-        for (index, nodes) in mesh.loops().iter().enumerate() {
-            border.add_loop(mesh, index, nodes);
-        }
-        Ok(border)
+        })
     }
 
     /// Nodes that collapses keep on every loop: its corners, and three at least.
@@ -117,7 +138,7 @@ impl Border {
                 along: Along { index, length: line.starts[k] },
                 neighbours: [nodes[(k + count - 1) % count], nodes[(k + 1) % count]],
                 is_corner,
-                need: if is_corner { need } else { 2 },
+                need: if is_corner { need } else { STRAIGHT_NEED },
             });
         }
         self.lengths.push(line.length());
@@ -130,7 +151,7 @@ fn pairs(nodes: &[u32]) -> impl Iterator<Item = [u32; 2]> + '_ {
 }
 
 /// The angles of the triangles at a node.
-fn inner_angle(mesh: &Mesh, node: u32) -> f64 {
+pub(in crate::layout) fn inner_angle(mesh: &Mesh, node: u32) -> f64 {
     let angle = |triangle: usize| {
         let [a, b, c] = mesh.triangles()[triangle];
         let others = if node == a {

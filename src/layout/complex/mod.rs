@@ -9,10 +9,11 @@
 //!    those of a middle level, then all, as they come back. Nodes of the border stay where their length along it says.
 
 mod base;
-mod border;
+pub(super) mod border;
 mod chart;
 mod doublets;
 mod flatten;
+mod halves;
 mod pairing;
 mod relax;
 mod search;
@@ -23,10 +24,14 @@ use super::of_mesh::{LayoutKind, MeshLayout, MeshLayoutError, MeshLayoutOptions,
 use super::{Layout, NodeMap, Place, Side};
 use crate::Control;
 use crate::mesh::Mesh;
-use base::{Base, TrianglePlace};
+use crate::mesh::rings::Rings;
+pub(super) use base::Fine;
+use base::{Base, Collapsing, TrianglePlace};
 use border::{Along, Border};
 use glam::DVec2;
+use halves::Halves;
 use pairing::Pairing;
+use search::Splitting;
 use std::collections::BTreeMap;
 
 /// Quads on their way to a layout, with the places of the nodes.
@@ -51,10 +56,10 @@ pub(super) fn make(
     let vertices = options.patches as i64 + mesh.euler_characteristic() + border.least_nodes() as i64 / 2;
     let target = vertices.max(LEAST_VERTICES) as usize + border.lengths.len();
     control.set_stage(0.0, 0.3);
-    let base = base::decimate(&border, target, TRACKED * options.patches, control)?;
+    let base = base::decimate(&border, target, TRACKED * options.patches, Collapsing::Any, control)?;
     let triangles = base.triangles.len();
-    let (base, pairing, splits) =
-        search::quads(base, &border.lengths, control)?.ok_or(MeshLayoutError::NoPairing { triangles })?;
+    let (base, pairing, splits) = search::quads(base, &border.lengths, Splitting::Any, control)?
+        .ok_or(MeshLayoutError::NoPairing { triangles })?;
     let mut patches = patches(&base, pairing);
     let doublets = doublets::remove(&mut patches).ok_or(MeshLayoutError::NoPairing { triangles })?;
     place_border(&border, &mut patches);
@@ -82,6 +87,103 @@ const TRACKED: usize = 60;
 
 /// Fewest vertices of a base complex: those of an octahedron.
 const LEAST_VERTICES: i64 = 6;
+
+/// How good the map of a surface is, and what it was before.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Relaxed {
+    pub energy: f64,
+    pub first_energy: f64,
+    pub folded: usize,
+    pub spread: usize,
+}
+
+/// Relaxes the places of all nodes of a surface but those of its border, in at most so many sweeps; nodes that `fine`
+/// brings back have none before.
+pub(super) fn relax_all(
+    mesh: &Mesh,
+    layout: &Layout,
+    places: &mut [Option<Place>],
+    fine: Option<Fine>,
+    sweeps: usize,
+    control: &mut Control,
+) -> Result<Relaxed, MeshLayoutError> {
+    let border = Border::new(mesh)?;
+    let all = || Fine { rings: Rings::new(&border.closed), order: Vec::new() };
+    let fine = fine.unwrap_or_else(all);
+    let (first, last) = relax::relax(&border, layout, places, fine, sweeps, control)?;
+    Ok(Relaxed { energy: last.energy, first_energy: first.energy, folded: last.folded, spread: last.spread })
+}
+
+/// Quads over a surface whose border is given.
+#[derive(Debug, Clone)]
+pub(super) struct Over {
+    pub corners: Vec<[u32; 4]>,
+    /// The number of each side's edge.
+    pub edges: Vec<[u32; 4]>,
+    /// By vertex: its node, where it has one; none for the last vertices.
+    pub nodes: Vec<Option<u32>>,
+    /// By node; none for those that `fine` brings back.
+    pub places: Vec<Option<Place>>,
+    pub fine: Fine,
+    /// Edges inside that were split, and vertices of two quads that were removed.
+    pub splits: usize,
+    pub doublets: usize,
+}
+
+/// The base complex of a surface whose border is given: its vertices are the nodes in `needs`, with the quads that each
+/// of them needs. It has about so many patches. None if there is no such complex: an odd border has none.
+pub(super) fn make_over(
+    mesh: &Mesh,
+    needs: &BTreeMap<u32, u32>,
+    patches: usize,
+    control: &mut Control,
+) -> Result<Option<Over>, MeshLayoutError> {
+    let Some((border, base)) = base_over(mesh, needs, patches, control)? else { return Ok(None) };
+    let found = search::quads(base, &border.lengths, Splitting::Inside, control)?;
+    let Some((base, pairing, splits)) = found.filter(|_| needs.len().is_multiple_of(2)) else {
+        return Ok(None);
+    };
+    let mut quads = self::patches(&base, pairing);
+    let Some(doublets) = doublets::remove(&mut quads) else { return Ok(None) };
+    let Patches { corners, edges, mut places, .. } = quads;
+    places.truncate(mesh.points().len());
+    Ok(Some(Over { corners, edges, nodes: base.nodes, places, fine: base.fine, splits, doublets }))
+}
+
+/// The same with one more vertex in the middle of each edge of the border, even or not; it has two to four times the
+/// patches. None if the border cannot be kept.
+pub(super) fn make_halved(
+    mesh: &Mesh,
+    needs: &BTreeMap<u32, u32>,
+    patches: usize,
+    control: &mut Control,
+) -> Result<Option<Over>, MeshLayoutError> {
+    let Some((_, base)) = base_over(mesh, needs, patches, control)? else { return Ok(None) };
+    let Some(mut pairing) = search::first(&base, control)? else { return Ok(None) };
+    halves::take_apart(&mut pairing);
+    let Halves { corners, edges, mut places } = halves::halved(&base, &pairing);
+    places.truncate(mesh.points().len());
+    let splits = base.triangles.len();
+    Ok(Some(Over { corners, edges, nodes: base.nodes, places, fine: base.fine, splits, doublets: 0 }))
+}
+
+/// The coarse triangles over a surface whose border is given; none if more nodes of the border are left.
+fn base_over(
+    mesh: &Mesh,
+    needs: &BTreeMap<u32, u32>,
+    patches: usize,
+    control: &mut Control,
+) -> Result<Option<(Border, Base)>, MeshLayoutError> {
+    let border = Border::with_corners(mesh, needs)?;
+    let vertices = patches as i64 + mesh.euler_characteristic() + needs.len() as i64 / 2;
+    let target = vertices.max(needs.len() as i64) as usize + border.lengths.len();
+    let base = base::decimate(&border, target, TRACKED * patches, Collapsing::ToCorners, control)?;
+    let is_given = |(along, node): (&Option<(Along, u32)>, &Option<u32>)| {
+        along.is_none() || node.is_some_and(|node| needs.contains_key(&node))
+    };
+    let is_kept = base.border.iter().zip(&base.nodes).all(is_given);
+    Ok(is_kept.then_some((border, base)))
+}
 
 /// The quads with the places of the nodes in them.
 fn patches(base: &Base, pairing: Pairing) -> Patches {

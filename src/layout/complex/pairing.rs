@@ -11,6 +11,8 @@
 //! ```
 //! Of an open surface some triangles may be left over, and vertices of the border need one to three quads.
 
+use crate::Control;
+use crate::control::Cancelled;
 use crate::samples::Random;
 use glam::DVec3;
 use mwmatching::{Matching, SENTINEL};
@@ -88,15 +90,18 @@ pub(super) fn paired(
     triangles: &[[u32; 3]],
     needs: &[u32],
     effort: Effort,
-) -> Option<Pairing> {
+    control: &mut Control,
+) -> Result<Option<Pairing>, Cancelled> {
     let mut best: Option<Pairing> = None;
     for seed in 0..effort.starts {
-        let pairing = priced(points, triangles, needs, effort.rounds, seed)?;
+        let Some(pairing) = priced(points, triangles, needs, effort.rounds, seed, control)? else {
+            return Ok(None);
+        };
         if best.as_ref().is_none_or(|best| pairing.rank() < best.rank()) {
             best = Some(pairing);
         }
     }
-    best
+    Ok(best)
 }
 
 /// Raises prices until no vertex is starved.
@@ -106,14 +111,16 @@ fn priced(
     needs: &[u32],
     rounds: usize,
     seed: u64,
-) -> Option<Pairing> {
+    control: &mut Control,
+) -> Result<Option<Pairing>, Cancelled> {
     let mut diagonals = diagonals(points, triangles);
     let mut valences = vec![0_u32; points.len()];
     triangles.iter().flatten().for_each(|&vertex| valences[vertex as usize] += 1);
     let mut random = Random::new(seed);
     let mut best: Option<Pairing> = None;
     for round in 0..rounds {
-        let chosen = matched(&diagonals, triangles.len())?;
+        control.report(1.0, f64::NAN)?;
+        let Some(chosen) = matched(&diagonals, triangles.len()) else { return Ok(None) };
         let mut left = valences.clone();
         chosen.iter().flat_map(|&k| diagonals[k].ends()).for_each(|vertex| left[vertex as usize] -= 1);
         let is_starved = |vertex: u32| left[vertex as usize] < needs[vertex as usize];
@@ -135,7 +142,7 @@ fn priced(
             }
         }
     }
-    best
+    Ok(best)
 }
 
 fn diagonals(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Diagonal> {
@@ -206,7 +213,10 @@ mod tests {
         let points = [DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z];
         let triangles =
             [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [1, 0, 5], [2, 1, 5], [3, 2, 5], [0, 3, 5]];
-        let pairing = paired(&points, &triangles, &[3; 6], Effort { starts: 8, rounds: 120 }).unwrap();
+        let pairing =
+            paired(&points, &triangles, &[3; 6], Effort { starts: 8, rounds: 120 }, &mut Control::new(1))
+                .unwrap()
+                .unwrap();
         assert_eq!(pairing.quads.len(), 4);
         assert!(!pairing.starved.is_empty());
         for (triangle, &quad) in triangles.iter().zip(&pairing.quad_of) {

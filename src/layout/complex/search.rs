@@ -17,29 +17,46 @@ const CANDIDATES: usize = 5;
 const FIRST: Effort = Effort { starts: 8, rounds: 120 };
 /// For each edge that is tried.
 const TRIAL: Effort = Effort { starts: 1, rounds: 20 };
+/// Up to so many triangles all that is made; a matching takes about the square of their number, and the effort shrinks
+/// as that grows, so that no search takes longer than that of so many.
+const FULL_EFFORT: usize = 160;
 /// Quads around a vertex inside.
 const INNER_NEED: u32 = 3;
+
+/// Which edges may be split.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Splitting {
+    /// All.
+    Any,
+    /// Those inside alone: the border is given, and even.
+    Inside,
+}
 
 /// Quads over all triangles, and how many edges were split for them; none if there are no such quads.
 pub(super) fn quads(
     mut base: Base,
     lengths: &[f64],
+    splitting: Splitting,
     control: &mut Control,
 ) -> Result<Option<(Base, Pairing, usize)>, Cancelled> {
-    make_even(&mut base, lengths);
-    let Some(mut pairing) = pairing(&base, FIRST) else { return Ok(None) };
+    if splitting == Splitting::Any {
+        make_even(&mut base, lengths);
+    }
+    let Some(mut pairing) = pairing(&base, FIRST, control)? else { return Ok(None) };
     let vertex_count = base.points.len();
     for _ in 0..MOST_SPLITS {
         if left_over(&base, &pairing) == 0 {
             break;
         }
         let mut best: Option<(usize, Base, Pairing)> = None;
-        for edge in candidates(&base, &pairing) {
+        for edge in candidates(&base, &pairing, splitting) {
             control.report(1.0, f64::NAN)?;
             let mut trial = base.clone();
             trial.split(edge, lengths);
-            make_even(&mut trial, lengths);
-            let Some(found) = self::pairing(&trial, TRIAL) else { continue };
+            if splitting == Splitting::Any {
+                make_even(&mut trial, lengths);
+            }
+            let Some(found) = self::pairing(&trial, TRIAL, control)? else { continue };
             let left = left_over(&trial, &found);
             if best.as_ref().is_none_or(|(least, ..)| left < *least) {
                 best = Some((left, trial, found));
@@ -52,10 +69,18 @@ pub(super) fn quads(
     Ok((left_over(&base, &pairing) == 0).then_some((base, pairing, splits)))
 }
 
-fn pairing(base: &Base, effort: Effort) -> Option<Pairing> {
+/// The first pairing of all triangles that can be paired.
+pub(super) fn first(base: &Base, control: &mut Control) -> Result<Option<Pairing>, Cancelled> {
+    pairing(base, FIRST, control)
+}
+
+fn pairing(base: &Base, effort: Effort, control: &mut Control) -> Result<Option<Pairing>, Cancelled> {
     let needs: Vec<u32> =
         base.border.iter().map(|border| border.map_or(INNER_NEED, |(_, need)| need)).collect();
-    paired(&base.points, &base.triangles, &needs, effort)
+    let share = (FULL_EFFORT as f64 / base.triangles.len() as f64).powi(2).min(1.0);
+    let starts = (effort.starts as f64 * share.sqrt()).ceil() as u64;
+    let rounds = (effort.rounds as f64 * share.sqrt()).ceil() as usize;
+    paired(&base.points, &base.triangles, &needs, Effort { starts, rounds }, control)
 }
 
 /// Triangles without a quad, and nodes of the border without enough; vertices inside with two quads go as doublets.
@@ -70,14 +95,17 @@ fn make_even(base: &mut Base, lengths: &[f64]) {
         return;
     }
     let edges = base.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
-    let is_border = |&[a, b]: &[u32; 2]| {
-        let at_edge = base.triangles.iter().filter(|triangle| triangle.contains(&a) && triangle.contains(&b));
-        at_edge.count() == 1
-    };
-    let longest = edges.filter(is_border).max_by(|p, q| length(base, p).total_cmp(&length(base, q)));
+    let longest = edges
+        .filter(|&edge| is_border(base, edge))
+        .max_by(|p, q| length(base, p).total_cmp(&length(base, q)));
     if let Some(edge) = longest {
         base.split(edge, lengths);
     }
+}
+
+fn is_border(base: &Base, [a, b]: [u32; 2]) -> bool {
+    let at_edge = base.triangles.iter().filter(|triangle| triangle.contains(&a) && triangle.contains(&b));
+    at_edge.count() == 1
 }
 
 fn length(base: &Base, &[a, b]: &[u32; 2]) -> f64 {
@@ -85,7 +113,7 @@ fn length(base: &Base, &[a, b]: &[u32; 2]) -> f64 {
 }
 
 /// The longest edges of triangles without a quad, and of those at starved nodes of the border.
-fn candidates(base: &Base, pairing: &Pairing) -> Vec<[u32; 2]> {
+fn candidates(base: &Base, pairing: &Pairing, splitting: Splitting) -> Vec<[u32; 2]> {
     let is_bad = |(t, triangle): &(usize, &[u32; 3])| {
         let is_starved =
             |vertex: &u32| base.border[*vertex as usize].is_some() && pairing.starved.contains(vertex);
@@ -94,6 +122,9 @@ fn candidates(base: &Base, pairing: &Pairing) -> Vec<[u32; 2]> {
     let bad = base.triangles.iter().enumerate().filter(is_bad);
     let sides = bad.flat_map(|(_, &[a, b, c])| [[a, b], [b, c], [c, a]]);
     let mut edges: Vec<[u32; 2]> = sides.map(|[a, b]| [a.min(b), a.max(b)]).collect();
+    if splitting == Splitting::Inside {
+        edges.retain(|&edge| !is_border(base, edge));
+    }
     edges.sort_unstable();
     edges.dedup();
     edges.sort_by(|p, q| length(base, q).total_cmp(&length(base, p)));
