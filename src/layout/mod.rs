@@ -10,10 +10,12 @@
 //! Around a vertex the corners lie in sectors, counterclockwise: one that closes inside, and else from sharp edge to
 //! sharp edge; borders and [`Creases`] are sharp. Edges have numbers, because two quads may share more than one.
 
+mod bilinear;
 mod complex;
 mod cube;
 mod error;
 mod node_map;
+pub mod of_features;
 pub mod of_mesh;
 mod sectors;
 #[cfg(test)]
