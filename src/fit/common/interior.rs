@@ -2,7 +2,7 @@
 
 use super::errors::data_errors;
 use super::neighbours::triangles_between;
-use crate::control::Pool;
+use crate::control::{Pool, Watch};
 use crate::geometry::Domain;
 use crate::mesh::{HalfEdge, Mesh};
 use crate::surface::{Surface, normal};
@@ -63,8 +63,8 @@ impl Between {
     }
 
     /// Between scattered data, of which neighbours in (u,v) make triangles.
-    pub fn scattered(uv: &[DVec2], values: &[f64], dim: usize, data: &Domain) -> Self {
-        let triangles = triangles_between(uv, data);
+    pub fn scattered(uv: &[DVec2], values: &[f64], dim: usize, data: &Domain, watch: &Watch) -> Self {
+        let triangles = triangles_between(uv, data, watch);
         let (places, rows) = interior_samples(&triangles, uv, values, dim);
         let explained = Sagittas::smooth(triangle_spreads(&triangles, values, dim));
         Self { uv: places, values: rows, explained, is_shape: false }

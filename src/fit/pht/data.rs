@@ -6,6 +6,7 @@
 use crate::control::Pool;
 use crate::fit::common::Frame;
 use crate::fit::common::interior::{MeshData, Sagittas, heights_over, triangle_sagittas};
+use crate::fit::common::neighbours::z_order;
 use crate::fit::common::samples::bulge;
 use crate::geometry::{Bounds, Domain};
 use crate::mesh::Mesh;
@@ -147,24 +148,4 @@ fn flat_middles(mesh: &Mesh, data: &Data) -> Vec<f64> {
     let middle =
         |&[a, b, c]: &[u32; 3]| (0..data.dim).map(move |k| (row(a)[k] + row(b)[k] + row(c)[k]) / 3.0);
     mesh.triangles().iter().flat_map(middle).collect()
-}
-
-/// Numbers of places along a Z curve (G. Morton, "A computer oriented geodetic data base", 1966) of 2^16 cells a
-/// side; equal cells in the order given.
-fn z_order(uv: &[DVec2]) -> Vec<u32> {
-    let domain = Domain::around(uv.iter().copied());
-    let spread = |x: f64| {
-        let mut bits = u64::from((x * 65535.0) as u32);
-        bits = (bits | bits << 8) & 0x00ff_00ff;
-        bits = (bits | bits << 4) & 0x0f0f_0f0f;
-        bits = (bits | bits << 2) & 0x3333_3333;
-        (bits | bits << 1) & 0x5555_5555
-    };
-    let code = |uv: DVec2| {
-        let at = (uv - domain.min) / domain.size();
-        spread(at.x) << 1 | spread(at.y)
-    };
-    let mut order: Vec<(u64, u32)> = uv.iter().zip(0..).map(|(&uv, k)| (code(uv), k)).collect();
-    order.sort_unstable();
-    order.into_iter().map(|(_, k)| k).collect()
 }

@@ -1,7 +1,7 @@
 //! What a grid is measured with, and what is fitted beside the nodes.
 
 use super::Problem;
-use crate::control::Pool;
+use crate::control::{Pool, Watch};
 use crate::fit::common::interior::{Between, InteriorErrors, MeshData};
 use crate::fit::common::samples::{bulge, places_in_cells};
 use crate::surface::Trims;
@@ -11,14 +11,14 @@ use glam::{DVec2, DVec3};
 impl Problem<'_> {
     /// Measures a surface between the nodes.
     pub fn interior_errors(&self, surface: &TensorSurface, pool: &Pool) -> InteriorErrors {
-        self.between().measure(surface, pool)
+        self.between(pool.watch()).measure(surface, pool)
     }
 
     /// What is known between the data.
-    pub fn between(&self) -> Between {
+    pub fn between(&self, watch: &Watch) -> Between {
         match self.mesh_data() {
             Some(data) => Between::nodes(&data, self.dim),
-            None => Between::scattered(&self.uv, self.values, self.dim, &self.data_box),
+            None => Between::scattered(&self.uv, self.values, self.dim, &self.data_box, watch),
         }
     }
 

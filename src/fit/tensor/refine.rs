@@ -55,7 +55,9 @@ impl Rounds for Problem<'_> {
         let candidate = self.correct(candidate, control)?;
         let mut round = Round { candidate, uv: self.uv.clone(), excess: 0.0 };
         if round.merit() < self.least {
-            round.excess = self.interior_errors(&round.candidate.surface, control.pool()).max_smooth_excess;
+            let surface = &round.candidate.surface;
+            let errors = control.watch(|pool, _| self.interior_errors(surface, pool))?;
+            round.excess = errors.max_smooth_excess;
             self.least = self.least.min(round.merit());
         }
         Ok(round)

@@ -81,7 +81,7 @@ impl Problem<'_> {
 
     /// Fits over free knots.
     fn fit_freely(&self, control: &mut Control) -> Result<Freed, FitError> {
-        let mut fitter = NetFitter::new(self);
+        let mut fitter = control.watch(|_, watch| NetFitter::new(self, watch))?;
         let Growth { mut net, stop, mut rounds } = self.grow_best(&fitter, control)?;
         if stop != StopReason::ToleranceMet {
             if fitter.withholds() {

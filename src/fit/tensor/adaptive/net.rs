@@ -108,7 +108,7 @@ pub struct NetEquations {
 }
 
 impl<'a> NetFitter<'a> {
-    pub fn new(problem: &'a Problem<'a>) -> Self {
+    pub fn new(problem: &'a Problem<'a>, watch: &Watch) -> Self {
         let count = problem.uv.len();
         let withholds = problem.mesh.is_none() && count >= LEAST_TO_WITHHOLD;
         let is_withheld = |datum: usize| withholds && scramble(datum).is_multiple_of(WITHHOLD_EVERY);
@@ -123,7 +123,7 @@ impl<'a> NetFitter<'a> {
             sorted.sort_by(f64::total_cmp);
             sorted
         };
-        let between = (!withholds).then(|| problem.between());
+        let between = (!withholds).then(|| problem.between(watch));
         Self {
             values: problem.frame.inward(problem.values),
             weight_sum: weights.iter().sum(),
