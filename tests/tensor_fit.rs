@@ -306,7 +306,8 @@ const REAL: [(&str, usize, Result<usize, f64>); 8] = [
     ("maxface_disk_4k.off", 240, Ok(2400)),
     ("camelhead_disk_11k.off", 1300, Err(3.5e-3)),
     ("igea_disk_43k.ply", 720, Err(1.6e-3)),
-    ("neon_side_holes_16k.off", 150, Ok(4500)),
+    // 108 coefficients meet 1e-2 too, but leave the part by half its diagonal beyond the border and in the door openings
+    ("neon_side_holes_16k.off", 240, Ok(4500)),
     ("blow_shell_displacement.ply", 16, Ok(81)),
     ("mannequin_disk_13k.off", 2600, Err(5.5e-3)),
 ];

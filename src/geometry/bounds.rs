@@ -31,4 +31,11 @@ impl Bounds {
     pub fn diagonal(&self) -> f64 {
         self.sides().fold(0.0, |length: f64, side| length.hypot(side))
     }
+
+    /// How far a row lies outside the box; 0 inside.
+    pub fn distance(&self, row: &[f64]) -> f64 {
+        let limits = self.min.iter().zip(&self.max);
+        let beyond = row.iter().zip(limits).map(|(x, (min, max))| (min - x).max(x - max).max(0.0));
+        beyond.fold(0.0, |length: f64, side| length.hypot(side))
+    }
 }

@@ -57,35 +57,38 @@ impl CellSums {
         }
     }
 
-    /// The matrix with `weight` times the plate energy.
-    pub fn with_energy(&self, weight: f64) -> CellMatrix {
+    /// The matrix with `plate` times the energy of a plate and `membrane` times that of a membrane.
+    pub fn with_energy(&self, plate: f64, membrane: f64) -> CellMatrix {
         let mut matrix = self.matrix;
-        for (row, energy) in matrix.iter_mut().zip(PLATE.iter()) {
-            row.iter_mut().zip(energy).for_each(|(sum, e)| *sum += weight * e);
+        for (weight, energy) in [(plate, &PLATE), (membrane, &MEMBRANE)] {
+            for (row, energy) in matrix.iter_mut().zip(energy.iter()).filter(|_| weight > 0.0) {
+                row.iter_mut().zip(energy).for_each(|(sum, e)| *sum += weight * e);
+            }
         }
         matrix
     }
 }
 
 /// The integral of `f_xx^2 + 2 f_xy^2 + f_yy^2` over the unit cell.
-static PLATE: LazyLock<CellMatrix> = LazyLock::new(|| {
+static PLATE: LazyLock<CellMatrix> = LazyLock::new(|| energy(&[(1.0, 2, 0), (2.0, 1, 1), (1.0, 0, 2)]));
+
+/// The integral of `f_x^2 + f_y^2` over the unit cell.
+static MEMBRANE: LazyLock<CellMatrix> = LazyLock::new(|| energy(&[(1.0, 1, 0), (1.0, 0, 1)]));
+
+/// The integral of weighed squares of derivatives of some orders over the unit cell.
+fn energy(terms: &[(f64, usize, usize)]) -> CellMatrix {
     let gram = [0, 1, 2].map(gram);
     // the place of unknown k of a line: value and slope at its begin, then at its end
-    let mut energy = [[0.0; COUNT]; COUNT];
     let parts = |unknown: usize| {
         let (corner, row) = (unknown / 4, unknown % 4);
         (2 * (corner / 2) + row % 2, 2 * (corner % 2) + row / 2)
     };
-    for i in 0..COUNT {
-        for j in 0..COUNT {
-            let ((a, b), (c, d)) = (parts(i), parts(j));
-            energy[i][j] = gram[2][a][c] * gram[0][b][d]
-                + 2.0 * gram[1][a][c] * gram[1][b][d]
-                + gram[0][a][c] * gram[2][b][d];
-        }
-    }
-    energy
-});
+    let entry = |i: usize, j: usize| {
+        let ((a, b), (c, d)) = (parts(i), parts(j));
+        terms.iter().map(|&(weight, p, q)| weight * gram[p][a][c] * gram[q][b][d]).sum()
+    };
+    std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
+}
 
 /// Integrals over the unit interval of products of derivatives of the cubics that have value or slope 1 at one
 /// end: value and slope at 0, value and slope at 1.
@@ -139,5 +142,10 @@ mod tests {
             // 256 terms of at most 12 * 3 * 3
             assert!((measured - energy).abs() <= 256.0 * 108.0 * f64::EPSILON, "{p} {q}: {measured}");
         }
+        // (x y)_x^2 + (x y)_y^2 = x^2 + y^2
+        let x = unknowns(1, 1);
+        let pairs = (0..COUNT).flat_map(|i| (0..COUNT).map(move |j| (i, j)));
+        let membrane: f64 = pairs.map(|(i, j)| x[i] * MEMBRANE[i][j] * x[j]).sum();
+        assert!((membrane - 2.0 / 3.0).abs() <= 256.0 * f64::EPSILON, "{membrane}");
     }
 }

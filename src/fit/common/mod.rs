@@ -17,6 +17,7 @@ pub(in crate::fit) mod rounds;
 pub(in crate::fit) mod samples;
 pub mod uniform;
 mod unused;
+pub(in crate::fit) mod tame;
 
 pub use error::FitError;
 pub(in crate::fit) use frame::Frame;

@@ -163,7 +163,7 @@ impl<'s, 'l> System<'s, 'l> {
                 }
             },
         );
-        let (matrix, map) = (sums.with_energy(smoothing), &self.maps[cell]);
+        let (matrix, map) = (sums.with_energy(smoothing, 0.0), &self.maps[cell]);
         let count = map.unknowns.len();
         let mut products = vec![[0.0; CELL]; count];
         for (product, factors) in products.iter_mut().zip(&map.factors) {

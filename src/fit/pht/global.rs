@@ -60,6 +60,15 @@ const MOST_KEPT: usize = 16_384;
 /// Leaves summed in one piece of work; what they add is kept at once.
 const PIECE: usize = 64;
 
+/// What weighs against the data.
+#[derive(Default)]
+pub struct Energy {
+    /// Of the plate in every cell.
+    pub plate: f64,
+    /// Of the membrane in each leaf; empty for none.
+    pub membrane: Vec<f64>,
+}
+
 type Block = [[f64; 4]; 4];
 
 /// The matrix of one mesh: what stays when samples move.
@@ -111,7 +120,7 @@ impl<'a> System<'a> {
         data: &Data,
         by_leaf: &ByLeaf,
         known: &mut KnownSums,
-        smoothing: f64,
+        energy: &Energy,
         pool: &Pool,
         watch: &Watch,
     ) -> Result<Vec<f64>, FitError> {
@@ -127,7 +136,7 @@ impl<'a> System<'a> {
                 let share = |&leaf: &usize| {
                     let before = known.sums.get(&self.cell(leaf));
                     let new = if before.is_none() { Some(self.sums(leaf, data, by_leaf)) } else { None };
-                    let share = before.or(new.as_ref()).map(|sums| self.share(leaf, sums, smoothing, dim));
+                    let share = before.or(new.as_ref()).map(|sums| self.share(leaf, sums, energy, dim));
                     (new, share.unwrap_or_default())
                 };
                 let pieces = batch.par_chunks(PIECE);
@@ -192,9 +201,10 @@ impl<'a> System<'a> {
         sums
     }
 
-    fn share(&self, leaf: usize, sums: &CellSums, smoothing: f64, dim: usize) -> Share {
+    fn share(&self, leaf: usize, sums: &CellSums, energy: &Energy, dim: usize) -> Share {
         let domain = self.mesh.cell_domain(self.cell(leaf));
-        self.expand(leaf, &sums.with_energy(smoothing), &sums.right, units(domain.size()), dim)
+        let membrane = energy.membrane.get(leaf).copied().unwrap_or(0.0);
+        self.expand(leaf, &sums.with_energy(energy.plate, membrane), &sums.right, units(domain.size()), dim)
     }
 
     /// From the unknowns of a cell to those of the basis vertices that its corners are made of.

@@ -16,6 +16,7 @@ mod global;
 mod local;
 mod options;
 mod refine;
+mod tame;
 #[cfg(test)]
 mod tests;
 

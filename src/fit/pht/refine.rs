@@ -1,7 +1,7 @@
 //! The outer loop: estimate, correct, measure, split.
 
 use super::data::Data;
-use super::global::{ByLeaf, KnownSums, System};
+use super::global::{ByLeaf, Energy, KnownSums, System};
 use super::{Estimator, PhtFit, PhtOptions, local};
 use crate::control::{Control, Pool, Watch};
 use crate::fit::common::FitError;
@@ -18,32 +18,32 @@ use glam::DVec2;
 
 /// A fit on its way.
 pub struct Refinement<'a> {
-    data: Data<'a>,
-    options: &'a PhtOptions<'a>,
-    mesh: TMesh,
+    pub(super) data: Data<'a>,
+    pub(super) options: &'a PhtOptions<'a>,
+    pub(super) mesh: TMesh,
     known: KnownSums,
     /// Weight of the energy: that of the options, less where cells cannot be split any more.
     smoothing: f64,
-    goal: Goal,
+    pub(super) goal: Goal,
     noise: NoiseTest,
 }
 
 /// A surface, measured, with the parameters it was made for.
 pub struct Round {
-    surface: PhtSurface,
-    errors: DataErrors,
-    uv: Vec<DVec2>,
+    pub surface: PhtSurface,
+    pub errors: DataErrors,
+    pub uv: Vec<DVec2>,
     /// The leaves in which an error exceeds the tolerance.
-    rough: Vec<Rough>,
-    smoothing: f64,
+    pub rough: Vec<Rough>,
+    pub smoothing: f64,
 }
 
 /// A leaf that misses the tolerance.
-struct Rough {
+pub struct Rough {
     cell: Cell,
     samples: usize,
     /// The largest error in it.
-    error: f64,
+    pub error: f64,
 }
 
 /// Where no cell can be split the energy is lowered by this factor,
@@ -134,6 +134,7 @@ impl<'a> Refinement<'a> {
 
     pub fn run(mut self, control: &mut Control) -> Result<PhtFit, FitError> {
         let mut outcome = rounds::run(&mut self, control)?;
+        outcome.best = self.tamed(outcome.best, control)?;
         outcome.best.rough.retain(|rough| !(rough.error <= self.goal.tolerance));
         Ok(self.finish(outcome, control))
     }
@@ -146,10 +147,11 @@ impl<'a> Refinement<'a> {
             _ => None,
         };
         let (options, smoothing) = (self.options, self.smoothing);
+        let energy = Energy { plate: smoothing, membrane: Vec::new() };
         let mut estimate = |data: &Data, by_leaf: &ByLeaf| -> Result<PhtSurface, FitError> {
             watch.check()?;
             let jets = match &system {
-                Some(system) => system.solve(data, by_leaf, &mut self.known, smoothing, pool, watch)?,
+                Some(system) => system.solve(data, by_leaf, &mut self.known, &energy, pool, watch)?,
                 None if options.estimator == Estimator::LocalCubic => {
                     local::cubic(data, &mesh, &topology, pool)
                 }
@@ -173,14 +175,14 @@ impl<'a> Refinement<'a> {
     }
 
     /// The leaves that miss the tolerance at a datum, or inside a triangle by more than its sagitta.
-    fn rough_leaves(
+    pub(super) fn rough_leaves(
         &self,
         surface: &PhtSurface,
         errors: &DataErrors,
         by_leaf: &ByLeaf,
         pool: &Pool,
     ) -> Vec<Rough> {
-        let (topology, count) = (surface.topology(), self.data.uv.len());
+        let (mesh, topology, count) = (surface.mesh(), surface.topology(), self.data.uv.len());
         let excesses = self.data.excesses(surface, &by_leaf.uv, pool);
         let miss = |sample: usize| match sample.checked_sub(count) {
             None => errors.each[sample],
@@ -188,9 +190,9 @@ impl<'a> Refinement<'a> {
         };
         let is_scattered = self.data.mesh.is_none();
         let rough = |(leaf, &node): (usize, &NodeId)| {
-            let (cell, samples) = (self.mesh.cell(node), by_leaf.of(leaf));
+            let (cell, samples) = (mesh.cell(node), by_leaf.of(leaf));
             let error = samples.iter().map(|&sample| miss(sample as usize)).fold(0.0, f64::max);
-            let unknowns = unknowns_of(&self.mesh, cell);
+            let unknowns = unknowns_of(mesh, cell);
             let between = if is_scattered { error * left_out_factor(unknowns, samples.len()) } else { error };
             (!(between <= self.goal.tolerance)).then_some(Rough { cell, samples: samples.len(), error })
         };
@@ -341,7 +343,7 @@ impl NoiseTest {
 }
 
 /// The surface with jets in the frame of the data.
-fn outward(data: &Data, mesh: &TMesh, mut jets: Vec<f64>) -> Result<PhtSurface, FitError> {
+pub(super) fn outward(data: &Data, mesh: &TMesh, mut jets: Vec<f64>) -> Result<PhtSurface, FitError> {
     for jet in jets.chunks_exact_mut(4 * data.dim) {
         let (value, slopes) = jet.split_at_mut(data.dim);
         data.frame.outward(value);

@@ -16,6 +16,7 @@ mod measure;
 mod options;
 mod refine;
 mod single_grid;
+mod tame;
 
 pub use super::common::uniform::{Ends, Energy, Method, SMOOTHING_LADDER};
 pub use options::{Knots, TensorOptions};

@@ -96,7 +96,8 @@ impl Problem<'_> {
     pub fn run(mut self, control: &mut Control) -> Result<TensorFit, FitError> {
         let outcome = rounds::run(&mut self, control)?;
         self.uv = outcome.best.uv;
-        Ok(self.finish(outcome.best.candidate.into(), outcome.stop, outcome.passes, control))
+        let tame = self.tamed(outcome.best.candidate, control)?;
+        Ok(self.finish(tame.into(), outcome.stop, outcome.passes, control))
     }
 
     /// The grids to try next, or why there are none.
@@ -107,17 +108,22 @@ impl Problem<'_> {
         if stagnant >= 2 {
             next = vec![[double(u), double(v)]];
         }
-        let options = self.options;
-        let fits_limit = |counts: &[usize; 2]| {
-            counts.iter().all(|&count| count <= options.max_grid)
-                && self.coefficient_count(*counts) <= options.max_coefficients
-        };
-        next.retain(fits_limit);
+        next.retain(|&counts| self.is_within_limits(counts));
         if next.is_empty() {
             return Err(StopReason::Limit);
         }
-        next.retain(|&counts| self.coefficient_count(counts) <= self.uv.len());
+        next.retain(|&counts| self.allows(counts));
         if next.is_empty() { Err(StopReason::DataExhausted) } else { Ok(next) }
+    }
+
+    fn is_within_limits(&self, counts: [usize; 2]) -> bool {
+        counts.iter().all(|&count| count <= self.options.max_grid)
+            && self.coefficient_count(counts) <= self.options.max_coefficients
+    }
+
+    /// Whether a grid is within the limits and has no more unknowns than there are data.
+    pub fn allows(&self, counts: [usize; 2]) -> bool {
+        self.is_within_limits(counts) && self.coefficient_count(counts) <= self.uv.len()
     }
 
     /// Fits all of `next` side by side and keeps the one that meets the tolerance, then the one with the

@@ -1,9 +1,11 @@
 //! The fit on one grid: least squares at a fixed smoothing, the ladder of smoothings, the measure.
 
+use super::tame::{CutCells, Emptiness};
 use super::{Ends, FitError, Method, Problem, SMOOTHING_LADDER};
 use crate::control::{Pool, Watch};
 use crate::fit::common::errors::{DataErrors, data_errors};
 use crate::fit::common::samples::{in_cells, interior_weight};
+use crate::fit::common::tame::TENSE_WITHIN;
 use crate::fit::common::uniform::energy::EnergyTerm;
 use crate::fit::common::uniform::ferguson;
 use crate::fit::common::uniform::grid::{Direction, UniformBasis, UniformGrid};
@@ -69,6 +71,27 @@ impl Problem<'_> {
         }
     }
 
+    /// The fit on one grid with a smoothing once more, with so many times the tension that makes a membrane of the
+    /// cells without data.
+    pub fn fit_tense(
+        &self,
+        counts: [usize; 2],
+        cut: CutCells,
+        [smoothing, tension]: [f64; 2],
+        pool: &Pool,
+        watch: &Watch,
+    ) -> Result<Candidate, FitError> {
+        let squares = LeastSquares::new(self, counts, pool, watch)?;
+        let breaks = squares.grid().map(|grid| (0..grid.count).map(|k| grid.knot(k)).collect::<Vec<f64>>());
+        let cells = counts.map(|count| TENSE_WITHIN * (count - 1) as f64);
+        let Emptiness { parts, is_empty } = self.emptiness([&breaks[0], &breaks[1]], cut, &self.trims());
+        let tension = Tension {
+            equations: NormalEquations::tension(squares.basis, self.dim, &parts, &is_empty),
+            weight: tension / (cells[0] * cells[1]),
+        };
+        squares.fit(smoothing, Some(&tension))
+    }
+
     fn fit_ferguson(&self, counts: [usize; 2], pool: &Pool, watch: &Watch) -> Result<Candidate, FitError> {
         let grid = self.grid(counts);
         let smoothing =
@@ -114,6 +137,13 @@ struct LeastSquares<'a> {
     symbolic: SymbolicCholesky,
 }
 
+/// Tension over the cells without data.
+struct Tension {
+    equations: NormalEquations,
+    /// Against the energy.
+    weight: f64,
+}
+
 impl<'a> LeastSquares<'a> {
     fn new(
         problem: &'a Problem<'a>,
@@ -138,6 +168,10 @@ impl<'a> LeastSquares<'a> {
         Ok(Self { problem, pool, watch, basis, nodes, interior, energy, symbolic })
     }
 
+    fn grid(&self) -> [UniformGrid; 2] {
+        [self.basis.u.grid, self.basis.v.grid]
+    }
+
     /// The calmest fit that meets the tolerance, or the closest one if none does.
     ///
     /// The closest is tried first: where it misses by more than the others could make good, they are not
@@ -145,10 +179,10 @@ impl<'a> LeastSquares<'a> {
     fn fit_ladder(&self) -> Result<Candidate, FitError> {
         let asked = self.problem.options.smoothing;
         if asked > 0.0 {
-            return self.fit(asked);
+            return self.fit(asked, None);
         }
         let (closest, calmer) = SMOOTHING_LADDER.split_last().expect("the ladder has steps");
-        let closest = self.fit(*closest)?;
+        let closest = self.fit(*closest, None)?;
         let tolerance = self.problem.goal.tolerance;
         // more smoothing lowers a maximum now and then, by a little
         const WORTH_TRYING: f64 = 1.1;
@@ -156,7 +190,7 @@ impl<'a> LeastSquares<'a> {
             return Ok(closest);
         }
         for &smoothing in calmer {
-            let candidate = self.fit(smoothing)?;
+            let candidate = self.fit(smoothing, None)?;
             if candidate.errors.max <= tolerance {
                 return Ok(candidate);
             }
@@ -164,17 +198,20 @@ impl<'a> LeastSquares<'a> {
         Ok(closest)
     }
 
-    fn fit(&self, smoothing: f64) -> Result<Candidate, FitError> {
+    fn fit(&self, smoothing: f64, tension: Option<&Tension>) -> Result<Candidate, FitError> {
         let problem = self.problem;
         self.watch.check()?;
-        let equations = match &self.interior {
+        let mut equations = match &self.interior {
             None => Cow::Borrowed(&self.nodes),
             Some(interior) => Cow::Owned(self.nodes.plus(interior, interior_weight(smoothing))),
         };
+        if let Some(tension) = tension {
+            equations = Cow::Owned(equations.plus(&tension.equations, smoothing / 12.0 * tension.weight));
+        }
         let solved = equations.solve(&self.symbolic, smoothing / 12.0, &self.energy);
         let unknowns = solved.map_err(|_| FitError::Singular)?;
         self.watch.check()?;
-        let grid = [self.basis.u.grid, self.basis.v.grid];
+        let grid = self.grid();
         let mut control_points = control_points(&self.basis, &unknowns, problem.dim);
         problem.frame.outward(&mut control_points);
         let surface = problem.surface(&grid, control_points)?;

@@ -95,8 +95,22 @@ pub trait Direction: Sync {
 
     /// The squares of these windows, weighed, sum up to the integral of `x^(order) x^(order) ds` over a cell.
     fn squares(&self, cell: usize, order: usize) -> [(Window, f64); 4] {
-        GAUSS.map(|(s, weight)| (self.window(cell, s, order), weight))
+        self.squares_in(&Part { cell, from: 0.0, to: 1.0 }, order)
     }
+
+    /// The same over a part of one.
+    fn squares_in(&self, part: &Part, order: usize) -> [(Window, f64); 4] {
+        let length = part.to - part.from;
+        GAUSS.map(|(s, weight)| (self.window(part.cell, part.from + length * s, order), length * weight))
+    }
+}
+
+/// A part of a cell: the fractions of it where it begins and ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Part {
+    pub cell: usize,
+    pub from: f64,
+    pub to: f64,
 }
 
 /// Four Gauss points on [0, 1] and their weights: they integrate degree 7, the square of a cubic has 6.

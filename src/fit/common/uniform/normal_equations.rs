@@ -4,7 +4,7 @@
 //! triangle keeps `a = 0, b = 0..=3` and `a = 1..=3, b = -3..=3`.
 
 use super::energy::EnergyTerm;
-use super::grid::{Direction, UniformBasis};
+use super::grid::{Direction, Part, UniformBasis};
 use crate::control::Pool;
 use crate::linalg::dissection::grid_order;
 use crate::linalg::{Cholesky, NotPositiveDefinite, SymbolicCholesky};
@@ -114,16 +114,15 @@ impl<D: Direction + Clone> NormalEquations<D> {
         Self { basis, matrix, right, dim }
     }
 
-    /// The tension of a membrane, `integral of |x_u|^2 + |x_v|^2`, over the cells that `is_tense`: for `dim`
-    /// components, without data.
-    pub fn tension(basis: TensorBasis<D>, dim: usize, is_tense: &[bool]) -> Self {
+    /// The tension of a membrane, `integral of |x_u|^2 + |x_v|^2`, over those products of parts of cells that are
+    /// `is_tense`, row by row: for `dim` components, without data.
+    pub fn tension(basis: TensorBasis<D>, dim: usize, parts: &[Vec<Part>; 2], is_tense: &[bool]) -> Self {
         let (n, count_v) = (basis.len(), basis.v.len());
         let mut matrix = vec![0.0; n * STENCIL];
-        let cells_v = basis.v.cell_count();
-        let across: Vec<_> = (0..cells_v).map(|cell| LocalGrams::new(&basis.v, cell)).collect();
-        for cell_u in 0..basis.u.cell_count() {
-            let along = LocalGrams::new(&basis.u, cell_u);
-            for (across, _) in across.iter().zip(&is_tense[cell_u * cells_v..]).filter(|(_, tense)| **tense) {
+        let across: Vec<_> = parts[1].iter().map(|part| LocalGrams::new(&basis.v, part)).collect();
+        for (part, is_tense) in parts[0].iter().zip(is_tense.chunks_exact(across.len())) {
+            let along = LocalGrams::new(&basis.u, part);
+            for (across, _) in across.iter().zip(is_tense).filter(|(_, tense)| **tense) {
                 for (a, a2) in pairs().filter(|&(_, a2)| a2 < basis.u.width()) {
                     for b in 0..basis.v.width() {
                         for b2 in if a == a2 { b..basis.v.width() } else { 0..basis.v.width() } {
@@ -250,7 +249,7 @@ fn assemble_strip(
     strip
 }
 
-/// Integrals over one cell of the products of its window's functions and of their slopes.
+/// Integrals over a part of a cell of the products of its window's functions and of their slopes.
 struct LocalGrams {
     first: usize,
     values: [[f64; 4]; 4],
@@ -258,11 +257,11 @@ struct LocalGrams {
 }
 
 impl LocalGrams {
-    fn new(direction: &impl Direction, cell: usize) -> Self {
+    fn new(direction: &impl Direction, part: &Part) -> Self {
         let gram = |order: usize| {
-            let scale = direction.length(cell).powi(1 - 2 * order as i32);
+            let scale = direction.length(part.cell).powi(1 - 2 * order as i32);
             let mut gram = [[0.0; 4]; 4];
-            for (window, weight) in direction.squares(cell, order) {
+            for (window, weight) in direction.squares_in(part, order) {
                 for a in 0..4 {
                     for b in 0..4 {
                         gram[a][b] += scale * weight * window.weights[a] * window.weights[b];
@@ -271,7 +270,7 @@ impl LocalGrams {
             }
             gram
         };
-        Self { first: direction.first(cell), values: gram(0), slopes: gram(1) }
+        Self { first: direction.first(part.cell), values: gram(0), slopes: gram(1) }
     }
 }
 

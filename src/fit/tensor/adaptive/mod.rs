@@ -12,6 +12,7 @@ mod insert;
 mod net;
 mod predict;
 mod remove;
+mod tame;
 
 use super::lines::Lines;
 use super::single_grid::Fitted;
@@ -66,6 +67,7 @@ impl Problem<'_> {
         let is_met = plain.errors.max <= tolerance
             && self.interior_errors(&plain.surface, control.pool()).max_smooth_excess <= tolerance;
         if is_met {
+            let plain = self.tamed(plain, control)?;
             return Ok(self.finish(plain.into(), StopReason::ToleranceMet, 1, control));
         }
         let freed = self.fit_freely(control)?;
@@ -90,8 +92,9 @@ impl Problem<'_> {
             if self.options.smoothing == 0.0 {
                 net = fitter.best_predictor(net, control)?;
             }
-            return Ok(Freed { net, stop, rounds });
+            return Ok(Freed { net: fitter.tamed(net, control)?, stop, rounds });
         }
+        net = fitter.tamed(net, control)?;
         let (least, most, coefficients) = SOLVES;
         let most = (least + net.coefficient_count() / coefficients).min(most);
         let (mut thin, solves) = fitter.thin(net.clone(), most, None, control)?;
@@ -105,12 +108,12 @@ impl Problem<'_> {
         if fitter.withholds() {
             fitter.use_all_data();
             let mut whole = fitter.fit(thin.lines.clone(), thin.smoothing, control)?;
-            if fitter.meets(&mut whole, control.pool()) {
+            if fitter.meets(&mut whole, control.pool()) && !fitter.is_wild(&whole, control.pool()) {
                 thin = whole;
             }
         }
         // it was measured between some of the data only
-        if fitter.meets(&mut thin, control.pool()) {
+        if fitter.meets(&mut thin, control.pool()) && !fitter.is_wild(&thin, control.pool()) {
             net = thin;
         }
         Ok(Freed { net, stop, rounds })
@@ -123,7 +126,8 @@ impl Problem<'_> {
             |start: usize, limit: usize| (start + 3) * (start + 3) <= limit && start < self.options.max_grid;
         // a plain shape needs no more than one cell
         let mut best = fitter.try_one_cell(self.start(1)?, control)?;
-        if best.stop == StopReason::ToleranceMet || !fits(STARTS[0], limit) {
+        let is_plain = best.stop == StopReason::ToleranceMet && !fitter.is_wild(&best.net, control.pool());
+        if is_plain || !fits(STARTS[0], limit) {
             return Ok(best);
         }
         let mut rounds = best.rounds;

@@ -10,11 +10,12 @@
 //! ```
 
 use super::super::lines::Lines;
+use super::super::tame::{CutCells, Emptiness};
 use super::super::{FitError, Problem};
 use crate::control::{Control, Pool, Watch};
 use crate::fit::common::errors::{DataErrors, data_errors};
 use crate::fit::common::interior::Between;
-use crate::fit::common::trims;
+use crate::fit::common::tame::{TENSE_WITHIN, is_wild};
 use crate::fit::common::uniform::energy::EnergyTerm;
 use crate::fit::common::uniform::grid::Direction;
 use crate::fit::common::uniform::normal_equations::{NormalEquations, Samples, TensorBasis};
@@ -28,10 +29,6 @@ use std::borrow::Cow;
 /// Weight of a place inside a triangle against that of a node, where triangles are larger than cells: enough to
 /// keep the surface from swinging between nodes, too little to pull it off them.
 const INTERIOR_WEIGHT: f64 = 0.2;
-
-/// Where there are no data a plate becomes a membrane within this share of the range: a surface that ends steeply
-/// runs on for about as long.
-const TENSE_WITHIN: f64 = 0.03;
 
 /// Triangles between whose nodes a net is measured in each step of taking lines out; in all of them it is in the end.
 const SPARSE_TRIANGLES: usize = 8192;
@@ -56,6 +53,10 @@ pub struct NetFitter<'a> {
     sparse: Option<Between>,
     /// The coordinates of the data in each direction, in their order.
     sorted: [Vec<f64>; 2],
+    /// Of nets where there are no data.
+    pub tension: Tension,
+    /// Whether nets may leave the box of the data as far as they like.
+    pub may_be_wild: bool,
 }
 
 /// Columns of signs that a trace is estimated with.
@@ -69,6 +70,15 @@ struct Rows<'a> {
     are_own: bool,
 }
 
+/// The tension where there are no data.
+#[derive(Clone, Copy)]
+pub struct Tension {
+    /// As a multiple of what makes a plate a membrane within [`TENSE_WITHIN`].
+    pub multiple: f64,
+    /// Whether it is in parts of cells too.
+    pub cut: CutCells,
+}
+
 /// A surface over a net of knot lines, measured.
 #[derive(Clone)]
 pub struct Net {
@@ -78,6 +88,8 @@ pub struct Net {
     /// Errors between the data beyond what is explained, where they have been asked for.
     pub excess: Vec<f64>,
     pub smoothing: f64,
+    /// What it has where there are no data.
+    pub tension: Tension,
 }
 
 impl Net {
@@ -131,7 +143,9 @@ impl<'a> NetFitter<'a> {
             sparse: between.as_ref().map(|between| between.thinned(SPARSE_TRIANGLES)),
             between,
             sorted: [sort(|uv| uv.x), sort(|uv| uv.y)],
-            trims: trims(problem.mesh, &problem.uv, &problem.data_box),
+            tension: Tension { multiple: 1.0, cut: CutCells::No },
+            may_be_wild: false,
+            trims: problem.trims(),
             problem,
         }
     }
@@ -234,29 +248,13 @@ impl<'a> NetFitter<'a> {
             nodes.plus(&NormalEquations::assemble(basis.clone(), &inner, pool), INTERIOR_WEIGHT)
         };
         watch.check()?;
-        let is_empty = self.empty_cells(&lines);
-        let tension = is_empty.contains(&true).then(|| NormalEquations::tension(basis, dim, &is_empty));
+        let breaks = [lines[0].breaks(), lines[1].breaks()];
+        let Emptiness { parts, is_empty } = problem.emptiness(breaks, self.tension.cut, &self.trims);
+        let tension =
+            is_empty.contains(&true).then(|| NormalEquations::tension(basis, dim, &parts, &is_empty));
         let symbolic = equations.analyse();
         let energy = plate(&lines);
         Ok(NetEquations { lines, equations, tension, energy, symbolic })
-    }
-
-    /// Which cells have no data and are no part of the mesh.
-    fn empty_cells(&self, lines: &[Lines; 2]) -> Vec<bool> {
-        let cells_v = lines[1].cell_count();
-        let mut is_empty = vec![true; lines[0].cell_count() * cells_v];
-        for uv in &self.problem.uv {
-            is_empty[lines[0].locate(uv.x).0 * cells_v + lines[1].locate(uv.y).0] = false;
-        }
-        let middle = |axis: usize, cell: usize| {
-            let breaks = lines[axis].breaks();
-            (breaks[cell] + breaks[cell + 1]) / 2.0
-        };
-        for (cell, is_empty) in is_empty.iter_mut().enumerate().filter(|(_, is_empty)| **is_empty) {
-            let uv = DVec2::new(middle(0, cell / cells_v), middle(1, cell % cells_v));
-            *is_empty = self.trims.is_empty() || !self.trims.contains(uv);
-        }
-        is_empty
     }
 
     /// Solves and measures at the data.
@@ -284,6 +282,7 @@ impl<'a> NetFitter<'a> {
             surface,
             excess: Vec::new(),
             smoothing,
+            tension: self.tension,
         })
     }
 
@@ -297,9 +296,10 @@ impl<'a> NetFitter<'a> {
     ) -> Result<TensorSurface, FitError> {
         watch.check()?;
         let weight = smoothing * self.weight_sum;
+        let tension_weight = self.tension.multiple * weight / TENSE_WITHIN.powi(2);
         let equations = match &net.tension {
             None => Cow::Borrowed(&net.equations),
-            Some(tension) => Cow::Owned(net.equations.plus(tension, weight / TENSE_WITHIN.powi(2))),
+            Some(tension) => Cow::Owned(net.equations.plus(tension, tension_weight)),
         };
         let solved = equations.solve(&net.symbolic, weight, &net.energy);
         let unknowns = solved.map_err(|_| FitError::Singular)?;
@@ -316,7 +316,7 @@ impl<'a> NetFitter<'a> {
     }
 
     /// The tolerance, less a little: the finished surface is measured once more, with other roundings.
-    fn bound(&self) -> f64 {
+    pub fn bound(&self) -> f64 {
         (1.0 - 1e-9) * self.problem.goal.tolerance
     }
 
@@ -330,11 +330,18 @@ impl<'a> NetFitter<'a> {
         net.merit() <= self.bound()
     }
 
+    /// Whether a net leaves the box of the data too far.
+    pub fn is_wild(&self, net: &Net, pool: &Pool) -> bool {
+        !self.may_be_wild && is_wild(self.problem.excursion(&net.surface, pool))
+    }
+
     /// The same as far as a part of what is between the data tells.
     pub fn seems_to_meet(&self, net: &Net, pool: &Pool) -> bool {
         let tolerance = self.bound();
         let between = || self.sparse.as_ref().map(|between| between.excess(&net.surface, pool));
-        net.errors.max <= tolerance && between().is_none_or(|excess| excess.iter().all(|&e| e <= tolerance))
+        net.errors.max <= tolerance
+            && between().is_none_or(|excess| excess.iter().all(|&e| e <= tolerance))
+            && !self.is_wild(net, pool)
     }
 
     /// Measures between the data.

@@ -1,0 +1,133 @@
+//! Where there are no data and the surface runs wild, cells are put under tension, and split where they are too large for
+//! that.
+
+use super::Estimator;
+use super::global::{ByLeaf, Energy, KnownSums, System};
+use super::refine::{Refinement, Round, outward};
+use crate::control::{Control, Pool, Watch};
+use crate::fit::common::FitError;
+use crate::fit::common::errors::data_errors;
+use crate::fit::common::tame::{Standing, TENSE_WITHIN, excursion, is_wild, tamed};
+use crate::fit::common::trims;
+use crate::surface::pht::PhtSurface;
+use crate::surface::{Domain, Trims};
+use crate::tmesh::{MAX_LEVEL, NodeId, TMesh, Topology};
+use glam::DVec2;
+
+/// How often cells are split that are too large for their emptiness.
+const SPLITS: usize = 3;
+/// Rows and columns of places at which a cell is looked at.
+const PARTS: usize = 4;
+
+impl Refinement<'_> {
+    /// A round, or one over the same cells or more that stays nearer to the box of the data where there are none.
+    pub fn tamed(&mut self, round: Round, control: &mut Control) -> Result<Round, FitError> {
+        if self.options.estimator != Estimator::Global {
+            return Ok(round);
+        }
+        self.mesh = round.surface.mesh().clone();
+        self.data.uv.clone_from(&round.uv);
+        let this = &*self;
+        if !is_wild(this.excursion(&round.surface, control.pool())) {
+            return Ok(round);
+        }
+        let trims = trims(this.data.mesh, &this.data.uv, &this.data.data_box);
+        let wild = this.wild_cells(&round.surface, control.pool());
+        let first = this.with_split(&this.mesh, |cell| has_border(cell, &trims) || wild.contains(cell));
+        let finer = |mesh: &TMesh| this.with_split(mesh, |cell| has_border(cell, &trims));
+        let finer = std::iter::successors(first, finer).take(SPLITS);
+        let meshes: Vec<TMesh> = [this.mesh.clone()].into_iter().chain(finer).collect();
+        let judge = |round: &Round, pool: &Pool| Standing {
+            excursion: this.excursion(&round.surface, pool),
+            error: round.errors.max,
+            between: round.rough.iter().map(|rough| rough.error).fold(0.0, f64::max),
+        };
+        let smoothing = round.smoothing;
+        let refit = |mesh: &TMesh, tension, control: &mut Control| {
+            control.watch(|pool, watch| this.tense(mesh, &trims, [smoothing, tension], pool, watch))?
+        };
+        let round = tamed(round, this.goal.tolerance, &meshes, judge, refit, control)?;
+        self.mesh = round.surface.mesh().clone();
+        Ok(round)
+    }
+
+    fn excursion(&self, surface: &PhtSurface, pool: &Pool) -> f64 {
+        let (mesh, topology) = (surface.mesh(), surface.topology());
+        let cells: Vec<Domain> =
+            topology.leaves.iter().map(|&leaf| mesh.cell_domain(mesh.cell(leaf))).collect();
+        excursion(surface, &cells, &self.data.bounds, pool)
+    }
+
+    /// The cells over which a surface leaves the box of the data too far.
+    fn wild_cells(&self, surface: &PhtSurface, pool: &Pool) -> Vec<Domain> {
+        let (mesh, topology) = (surface.mesh(), surface.topology());
+        let cells = topology.leaves.iter().map(|&leaf| mesh.cell_domain(mesh.cell(leaf)));
+        cells.filter(|&cell| is_wild(excursion(surface, &[cell], &self.data.bounds, pool))).collect()
+    }
+
+    /// The fit over some cells with the present parameters, a smoothing, and so many times the tension that makes a
+    /// membrane where there are no data.
+    fn tense(
+        &self,
+        mesh: &TMesh,
+        trims: &Trims,
+        [smoothing, tension]: [f64; 2],
+        pool: &Pool,
+        watch: &Watch,
+    ) -> Result<Round, FitError> {
+        let (data, topology) = (&self.data, Topology::new(mesh));
+        let by_leaf = ByLeaf::sort(mesh, &topology, data, pool);
+        let membrane = |(leaf, &node): (usize, &NodeId)| {
+            let domain = mesh.cell_domain(mesh.cell(node));
+            let share = domain.size() / data.data_box.size() / TENSE_WITHIN;
+            let weight = smoothing * tension * share.x * share.y;
+            if self.is_empty(&domain, by_leaf.of(leaf), trims) { weight } else { 0.0 }
+        };
+        let membrane = topology.leaves.iter().enumerate().map(membrane).collect();
+        let energy = Energy { plate: smoothing, membrane };
+        let system = System::new(mesh, &topology);
+        let jets = system.solve(data, &by_leaf, &mut KnownSums::default(), &energy, pool, watch)?;
+        let surface = outward(data, mesh, jets)?;
+        let errors = data_errors(&surface, &data.uv, &data.values, pool);
+        watch.check()?;
+        let rough = self.rough_leaves(&surface, &errors, &by_leaf, pool);
+        Ok(Round { surface, errors, uv: data.uv.clone(), rough, smoothing })
+    }
+
+    /// Whether a cell has no samples and is no part of the mesh.
+    fn is_empty(&self, cell: &Domain, samples: &[u32], trims: &Trims) -> bool {
+        samples.is_empty() && (trims.is_empty() || !trims.contains((cell.min + cell.max) / 2.0))
+    }
+
+    /// With some cells split; None if there are none that may be.
+    fn with_split(&self, mesh: &TMesh, is_too_large: impl Fn(&Domain) -> bool) -> Option<TMesh> {
+        let options = self.options;
+        let grade = if options.grade == 0 { MAX_LEVEL } else { options.grade };
+        let mut finer = mesh.clone();
+        for leaf in mesh.leaves().filter(|&leaf| is_too_large(&mesh.cell_domain(mesh.cell(leaf)))) {
+            // a neighbour may have split it
+            if let Some(node) = finer.find(mesh.cell(leaf)).filter(|&node| finer.is_leaf(node)) {
+                let mut allow = |mesh: &TMesh, leaf: NodeId| {
+                    let fits = mesh.cell(leaf).level < options.max_level
+                        && mesh.leaf_count() + 3 <= options.max_cells;
+                    if fits { Ok(()) } else { Err(()) }
+                };
+                // where one may not be split the others still may
+                let _ = finer.split_graded(node, grade, &mut allow);
+            }
+        }
+        (finer.leaf_count() > mesh.leaf_count()).then_some(finer)
+    }
+}
+
+/// Whether some parts of a cell are inside the trims and others are not.
+fn has_border(cell: &Domain, trims: &Trims) -> bool {
+    if trims.is_empty() {
+        return false;
+    }
+    let middle = |k: usize| (k as f64 + 0.5) / PARTS as f64;
+    let places = (0..PARTS * PARTS).map(|k| DVec2::new(middle(k / PARTS), middle(k % PARTS)));
+    let mut are_inside = places.map(|share| trims.contains(cell.min + share * cell.size()));
+    let first = are_inside.next();
+    are_inside.any(|is_inside| Some(is_inside) != first)
+}
