@@ -10,7 +10,9 @@ use crate::mesh::Mesh;
 use glam::{DVec2, DVec3};
 
 /// A triangle that is steeper over the plane keeps too little of its area there: 84 degrees.
-const LEAST_COSINE: f64 = 0.1;
+pub const LEAST_COSINE: f64 = 0.1;
+/// The same where what a fit costs decides: 89.4 degrees. What is steeper stands upright but for rounding of its places.
+const LEAST_COSINE_OF_CANDIDATES: f64 = 0.01;
 /// The middle of the cap is found to a few hundredths of its radius, near enough for a choice of a plane.
 const STEPS: usize = 64;
 /// Cosines that differ by less are the same but for rounding.
@@ -18,11 +20,11 @@ const SAME: f64 = 1e-9;
 
 /// The nodes in the plane across the best direction, turned and scaled as an unrolled map is; None if the mesh is no
 /// height field over it: a triangle is too steep or turned over, or the border covers itself.
-pub fn flatten(mesh: &Mesh) -> Option<Vec<DVec2>> {
+pub fn flatten(mesh: &Mesh, least_cosine: f64) -> Option<Vec<DVec2>> {
     let direction = best_direction(mesh)?;
     let is_steep = |t: &[u32; 3]| {
         let area = area_vector(mesh, t);
-        !(area.dot(direction) >= LEAST_COSINE * area.length())
+        !(area.dot(direction) >= least_cosine * area.length())
     };
     if mesh.triangles().iter().any(is_steep) {
         return None;
@@ -32,6 +34,16 @@ pub fn flatten(mesh: &Mesh) -> Option<Vec<DVec2>> {
     let uv = in_unit_square(mesh, &flat);
     let is_positive = |t: &[u32; 3]| super::triangle_orientation(&uv, t) == Orientation::Positive;
     (mesh.triangles().iter().all(is_positive) && !boundary_crosses(mesh, &uv)).then_some(uv)
+}
+
+/// The coordinates of a mesh in the plane that it is a height field over, however steep, in the unit square; None if it is
+/// no height field, or not one piece. Compared to a map of less stretch they are as smooth as the shape.
+pub fn plane_coordinates(mesh: &Mesh) -> Option<Vec<DVec2>> {
+    super::patch::check_disk(mesh).ok()?;
+    let (mesh, _) = mesh.at_safe_scale();
+    let mut uv = flatten(&mesh, LEAST_COSINE_OF_CANDIDATES)?;
+    super::place_unused_nodes(&mesh, &mut uv);
+    Some(uv)
 }
 
 /// The direction from which the steepest triangle looks least steep: the middle of the smallest cap around all
@@ -64,7 +76,7 @@ mod tests {
     #[test]
     fn a_terrain_is_flattened_and_a_deep_shape_is_not() {
         let (terrain, _) = samples::bumps([30, 30], 12, 4).unwrap();
-        let uv = flatten(&terrain).unwrap();
+        let uv = flatten(&terrain, LEAST_COSINE).unwrap();
         // seen from the best direction instead of from above, lengths change by the cosine of its tilt at most, and
         // heights of up to a fifth add the sine
         let z = best_direction(&terrain).unwrap().z;
@@ -77,6 +89,7 @@ mod tests {
             assert!((least / most..=most / least).contains(&(ratio / scale)), "{ratio} is not {scale}");
         }
         let ball = samples::sphere_with_holes(2000, 1).unwrap();
-        assert!(flatten(&ball).is_none());
+        assert!(flatten(&ball, LEAST_COSINE).is_none());
+        assert!(plane_coordinates(&samples::ball(300, 1).unwrap()).is_none());
     }
 }

@@ -30,6 +30,7 @@ mod weights;
 
 pub(crate) use crossings::crossing_nodes;
 pub use error::ParameterizeError;
+pub use height_field::plane_coordinates;
 pub use options::{Border, Method, ParameterizeOptions};
 pub use regularize::{
     Boundary, Regularization, RegularizeOptions, RegularizeReport, RegularizeWhen, regularize,
@@ -220,7 +221,7 @@ fn unroll(
 
 /// Takes the plane's own coordinates if the mesh is a height field that they do not stretch much more.
 fn flatten(mesh: &Mesh, uv: &mut Vec<DVec2>, report: &mut ParameterizeReport) {
-    let Some(flat) = height_field::flatten(mesh) else { return };
+    let Some(flat) = height_field::flatten(mesh, height_field::LEAST_COSINE) else { return };
     let measure = stretch(mesh.points(), mesh.triangles(), &flat);
     if measure.l2 <= MOST_FLATTENED * report.stretch.l2 {
         *uv = flat;

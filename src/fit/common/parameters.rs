@@ -1,12 +1,14 @@
 //! Where the nodes of a mesh get their (u,v) from.
 
 use super::error::FitError;
+use super::plane::prefer_plane;
 use super::report::Remarks;
 use crate::control::Control;
 use crate::geometry::Domain;
 use crate::mesh::Mesh;
 use crate::parameterize::{
-    ParameterizeError, ParameterizeOptions, ParameterizeReport, RegularizeOptions, parameterize, regularize,
+    Border, ParameterizeError, ParameterizeOptions, ParameterizeReport, RegularizeOptions, parameterize,
+    regularize,
 };
 use crate::surface::Trims;
 use glam::DVec2;
@@ -41,7 +43,9 @@ pub(in crate::fit) fn node_parameters(
         let map = control.without_error(|control| parameterize(mesh, options, control))?;
         remarks.add_if(true, Remarks::PARAMETERIZED);
         remarks.add_if(has_high_stretch(&map.report), Remarks::SEGMENTATION_ADVISED);
-        return Ok(NodeParameters { uv: map.uv, remarks });
+        let map = NodeParameters { uv: map.uv, remarks };
+        let is_choice = options.border == Border::Auto && options.unroll;
+        return if is_choice { prefer_plane(mesh, map, control) } else { Ok(map) };
     };
     let choice = match when {
         Regularize::Never => return Ok(NodeParameters { uv: given.to_vec(), remarks }),

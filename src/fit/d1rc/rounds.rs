@@ -10,10 +10,10 @@ use crate::fit::common::foot_points::{LONGEST_STEP, foot_points, hold_back};
 use crate::fit::common::interior::MeshData;
 use crate::fit::common::report::{FitReport, Goal, Remarks, StopReason};
 use crate::fit::common::rounds::{self, Next, Outcome, Rounds, Standing};
-use crate::fit::common::{FitError, Frame, node_parameters};
+use crate::fit::common::{FitError, Frame, node_parameters, prefer_plane};
 use crate::geometry::Bounds;
 use crate::mesh::{DecimateOptions, Mesh};
-use crate::parameterize::parameterize;
+use crate::parameterize::{ParameterizeOptions, parameterize};
 use crate::surface::Surface;
 use crate::surface::d1rc::D1rcSurface;
 use glam::DVec2;
@@ -52,15 +52,21 @@ impl Source {
         if let Some(given) = options.control_mesh {
             let mut coarse = given.clone();
             if given.parameters().is_none() {
-                let map =
-                    control.without_error(|control| parameterize(given, &options.parameterize, control));
+                // a control mesh is coarse, and its map is no start for anything: the least stretch is best
+                let is_usual = options.parameterize == D1rcFitOptions::default().parameterize;
+                let map_options =
+                    if is_usual { ParameterizeOptions::default() } else { options.parameterize };
+                let map = control.without_error(|control| parameterize(given, &map_options, control));
                 let uv = map.map_err(D1rcFitError::ControlMesh)?.uv;
                 coarse.set_parameters(uv).map_err(|_| FitError::Singular)?;
             }
             let sharp_edges = sharp_edges_of(given);
             return Ok(Self::Given { coarse, sharp_edges });
         }
-        let map = node_parameters(mesh, &options.parameterize, options.regularize, control)?;
+        let mut map = node_parameters(mesh, &options.parameterize, options.regularize, control)?;
+        if mesh.parameters().is_none() && options.parameterize == D1rcFitOptions::default().parameterize {
+            map = prefer_plane(mesh, map, control)?;
+        }
         check_parameters(&map.uv)?;
         let mut fine = mesh.clone();
         fine.set_parameters(map.uv).map_err(|_| FitError::Singular)?;

@@ -24,7 +24,7 @@ pub use options::{Estimator, PhtOptions};
 
 use super::common::checks::{check_parameters, check_values};
 use super::common::report::{FitReport, Remarks};
-use super::common::{FitError, NodeParameters, Used, node_parameters};
+use super::common::{FitError, NodeParameters, Used, node_parameters, prefer_plane};
 use crate::control::Control;
 use crate::mesh::Mesh;
 use crate::parameterize::{Border, ParameterizeOptions};
@@ -134,8 +134,9 @@ fn map(mesh: &Mesh, options: &PhtOptions, control: &mut Control) -> Result<NodeP
         if crate::parameterize::stretch(mesh.points(), mesh.triangles(), &map.uv).max <= EVEN_STRETCH {
             // what one step would mend is no reason to cut the mesh
             map.remarks.remove(Remarks::SEGMENTATION_ADVISED);
-            return Ok(map);
+            return prefer_plane(mesh, map, control);
         }
     }
-    node_parameters(mesh, &asked, options.regularize, control)
+    let map = node_parameters(mesh, &asked, options.regularize, control)?;
+    if is_choice { prefer_plane(mesh, map, control) } else { Ok(map) }
 }

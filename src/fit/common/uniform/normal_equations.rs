@@ -48,6 +48,22 @@ impl<D: Direction> TensorBasis<D> {
         [self.u.cell_count(), self.v.cell_count()]
     }
 
+    /// The square of the distance between a value and the spline with some unknowns, which are in columns.
+    pub fn error_sq(&self, uv: DVec2, value: &[f64], unknowns: &[f64]) -> f64 {
+        let ((cell_u, s), (cell_v, t)) = (self.u.locate(uv.x), self.v.locate(uv.y));
+        let (u, v) = (self.u.window(cell_u, s, 0), self.v.window(cell_v, t, 0));
+        let n = self.len();
+        let at = |component: usize| -> f64 {
+            let column = &unknowns[component * n..][..n];
+            let row = |a: usize| {
+                let row = &column[(u.first + a) * self.v.len() + v.first..];
+                row.iter().zip(&v.weights[..self.v.width()]).map(|(x, weight)| x * weight).sum::<f64>()
+            };
+            (0..self.u.width()).map(|a| u.weights[a] * row(a)).sum()
+        };
+        value.iter().enumerate().map(|(component, x)| (x - at(component)).powi(2)).sum()
+    }
+
     fn cell(&self, uv: DVec2) -> usize {
         self.u.locate(uv.x).0 * self.cells()[1] + self.v.locate(uv.y).0
     }
