@@ -218,6 +218,11 @@ module planish_records
   integer(c_int32_t), parameter, public :: PLANISH_TOLERANCE_SCALE_RELATIVE = 0
   integer(c_int32_t), parameter, public :: PLANISH_TOLERANCE_SCALE_ABSOLUTE = 1 !! Model units
 
+  !> What the values of points and fields mean that are NaN.
+  integer(c_int32_t), parameter, public :: PLANISH_MISSING_REFUSED = 0 !! A mistake: PLANISH_STATUS_NOT_FINITE
+  !> There is none: the datum is passed over, and its error is NaN
+  integer(c_int32_t), parameter, public :: PLANISH_MISSING_SKIPPED = 1
+
   !> Where the knot lines of a tensor fit stand.
   !> Where the error asks for them: lines are inserted and taken out one by one
   integer(c_int32_t), parameter, public :: PLANISH_KNOTS_ADAPTIVE = 0
@@ -708,7 +713,7 @@ module planish_records
 
   !> Options of tensor fits.
   type, bind(c), public :: planish_tensor_options
-    integer(c_size_t) :: struct_size = 10 * word + 72
+    integer(c_size_t) :: struct_size = 10 * word + 80
     !> The largest error allowed at the data, positive, measured in tolerance_scale
     real(c_double) :: tolerance = 1e-3_c_double
     !> Weight of the bending energy; 0 (default) finds one: of uniform knots the largest of 1e-3, 1e-4, 1e-5, 1e-6
@@ -747,6 +752,9 @@ module planish_records
     integer(c_int32_t) :: measure_distance = 0 !! 1 measures the closest-point distance of the nodes for the report
     integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 (default) for all cores
     integer(c_int32_t) :: knots = PLANISH_KNOTS_ADAPTIVE !! A planish_knots
+    !> A planish_missing: what values of points and fields mean that are NaN
+    integer(c_int32_t) :: missing = PLANISH_MISSING_REFUSED
+    integer(c_int32_t) :: reserved = 0
   end type
 
   !> How fields are fitted.
@@ -1284,7 +1292,7 @@ module planish_records
 
   !> Options of PHT fits.
   type, bind(c), public :: planish_pht_options
-    integer(c_size_t) :: struct_size = 10 * word + 64
+    integer(c_size_t) :: struct_size = 10 * word + 72
     !> The largest error allowed at the data, positive, measured in tolerance_scale
     real(c_double) :: tolerance = 1e-3_c_double
     !> Weight of the bending energy of each cell, mapped to the unit cell; lowered where cells cannot be split any
@@ -1317,6 +1325,9 @@ module planish_records
     integer(c_int32_t) :: measure_distance = 0 !! 1 measures the closest-point distance of the nodes for the report
     integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 (default) for all cores
     integer(c_int32_t) :: reserved = 0
+    !> A planish_missing: what values of points and fields mean that are NaN
+    integer(c_int32_t) :: missing = PLANISH_MISSING_REFUSED
+    integer(c_int32_t) :: reserved_end = 0 !! 0
   end type
 
   !> How a PHT-spline is simplified.

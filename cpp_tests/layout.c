@@ -259,7 +259,9 @@ FOLLOWS(planish_tensor_options, grid_v, correction_sweeps);
 FOLLOWS(planish_tensor_options, correction_sweeps, measure_distance);
 FOLLOWS(planish_tensor_options, measure_distance, thread_count);
 FOLLOWS(planish_tensor_options, thread_count, knots);
-LAST(planish_tensor_options, knots);
+FOLLOWS(planish_tensor_options, knots, missing);
+FOLLOWS(planish_tensor_options, missing, reserved);
+LAST(planish_tensor_options, reserved);
 
 FIRST(planish_field_options);
 FOLLOWS(planish_field_options, struct_size, tolerance);
@@ -647,7 +649,9 @@ FOLLOWS(planish_pht_options, grade, correction_sweeps);
 FOLLOWS(planish_pht_options, correction_sweeps, measure_distance);
 FOLLOWS(planish_pht_options, measure_distance, thread_count);
 FOLLOWS(planish_pht_options, thread_count, reserved);
-LAST(planish_pht_options, reserved);
+FOLLOWS(planish_pht_options, reserved, missing);
+FOLLOWS(planish_pht_options, missing, reserved_end);
+LAST(planish_pht_options, reserved_end);
 
 FIRST(planish_pht_simplify_options);
 FOLLOWS(planish_pht_simplify_options, struct_size, progress);

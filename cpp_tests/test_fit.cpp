@@ -347,6 +347,41 @@ TEST(TensorFitField, FitsValuesOnNodes) {
               "out_surface");
 }
 
+// Values may be missing, and may stand for triangles.
+TEST(TensorFitField, PassesOverWhatIsMissing) {
+  const arrays all = shapes::graph(30, 30, 0.2, 20);
+  const Mesh mesh = make(all, true);
+  const std::size_t count = all.point_count();
+  std::vector<double> values, errors(count), uv(2 * count);
+  for (std::size_t n = 0; n < count; ++n) values.push_back(n % 5 == 2 ? nan_ : std::sin(all.uv[2 * n]));
+  planish_tensor_options options = tensor_options();
+  options.missing = PLANISH_MISSING_SKIPPED;
+  options.out_errors = errors.data();
+  options.out_parameters = uv.data();
+  planish_surface *raw = nullptr;
+  CHECK_EQUAL(planish_tensor_fit_field(mesh.get(), values.data(), count, 1, &options, &raw, nullptr),
+              PLANISH_STATUS_OK);
+  const Surface surface(raw);
+  CHECK_EQUAL(planish_surface_trim_count(surface.get()), planish_mesh_loop_count(mesh.get()));
+  for (std::size_t n = 0; n < count; ++n) CHECK_EQUAL(std::isnan(errors[n]), n % 5 == 2);
+  options.missing = 7;
+  CHECK_FAILS(planish_tensor_fit_field(mesh.get(), values.data(), count, 1, &options, &raw, nullptr),
+              PLANISH_STATUS_INVALID_ARGUMENT, -1, "missing");
+  options = tensor_options();
+  options.missing = PLANISH_MISSING_SKIPPED;
+  CHECK_FAILS(planish_tensor_fit(mesh.get(), &options, &raw, nullptr), PLANISH_STATUS_INVALID_ARGUMENT, -1, "missing");
+
+  const std::vector<double> constant(all.triangle_count(), 3.0);
+  planish_surface *on_triangles = nullptr;
+  CHECK_EQUAL(planish_tensor_fit_field(mesh.get(), constant.data(), constant.size(), 1, nullptr, &on_triangles, nullptr),
+              PLANISH_STATUS_OK);
+  const Surface flat(on_triangles);
+  double value = 0;
+  const double place[2] = {0.5, 0.5};
+  CHECK_EQUAL(planish_surface_eval(flat.get(), place, 1, nullptr, &value), PLANISH_STATUS_OK);
+  CHECK_NEAR(value, 3.0, 1e-9);
+}
+
 namespace {
 struct Listener {
   double stop_at = 2.0; // cancels once so much is done: never

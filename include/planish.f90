@@ -1676,7 +1676,7 @@ contains
     type(c_ptr) :: handle
     integer(c_int) :: status
     if (present(options)) call_options = options
-    if (refuse_data(call_options, map, user, mesh%point_count(), parameterize, weights, parameters, errors, progress, &
+    if (refuse_data(call_options, map, user, size(values, 2, c_size_t), parameterize, weights, parameters, errors, progress, &
         stat, errmsg)) return
     status = c_tensor_fit_field( &
         mesh%get(), values, size(values, 2, c_size_t), size(values, 1, c_size_t), call_options, handle, report)
@@ -3405,7 +3405,7 @@ contains
     type(c_ptr) :: handle
     integer(c_int) :: status
     if (present(options)) call_options = options
-    if (refuse_data(data, map, user, mesh%point_count(), parameterize, weights, parameters, errors, progress, &
+    if (refuse_data(data, map, user, size(values, 2, c_size_t), parameterize, weights, parameters, errors, progress, &
         stat, errmsg)) return
     call lead(call_options, data)
     status = c_pht_fit_field( &

@@ -553,6 +553,20 @@ typedef enum planish_tolerance_scale {
 } planish_tolerance_scale;
 
 /**
+ * What the values of points and fields mean that are NaN.
+ */
+typedef enum planish_missing {
+    /**
+     * A mistake: PLANISH_STATUS_NOT_FINITE.
+     */
+    PLANISH_MISSING_REFUSED = 0,
+    /**
+     * There is none: the datum is passed over, and its error is NaN.
+     */
+    PLANISH_MISSING_SKIPPED = 1,
+} planish_missing;
+
+/**
  * Where the knot lines of a tensor fit stand.
  */
 typedef enum planish_knots {
@@ -1945,6 +1959,15 @@ typedef struct planish_tensor_options {
      * PLANISH_TENSOR_METHOD_FERGUSON, are uniform always.
      */
     uint32_t knots;
+    /**
+     * A planish_missing: what values of points and fields mean that are NaN. Default PLANISH_MISSING_REFUSED. Not
+     * used for the shape of a mesh.
+     */
+    uint32_t missing;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
 } planish_tensor_options;
 
 /**
@@ -3647,6 +3670,15 @@ typedef struct planish_pht_options {
      * 0.
      */
     uint32_t reserved;
+    /**
+     * A planish_missing: what values of points and fields mean that are NaN. Default PLANISH_MISSING_REFUSED. Not
+     * used for the shape of a mesh.
+     */
+    uint32_t missing;
+    /**
+     * 0.
+     */
+    uint32_t reserved_end;
 } planish_pht_options;
 
 /**
@@ -5063,7 +5095,8 @@ enum planish_status planish_tensor_fit_points(const double *uv,
  *
  * mesh:        not NULL.
  * values:      count rows of dim numbers.
- * count:       planish_mesh_point_count().
+ * count:       planish_mesh_point_count(), or planish_mesh_triangle_count() for values that are taken at the centroids of
+ *              the triangles; a datum is then a triangle.
  * dim:         numbers of a value, at least 1.
  * options:     NULL for the defaults.
  * out_surface: receives a new surface; destroy with planish_surface_free().
@@ -7040,7 +7073,8 @@ enum planish_status planish_pht_fit_points(const double *uv,
  *
  * mesh:        not NULL.
  * values:      count rows of dim numbers.
- * count:       planish_mesh_point_count().
+ * count:       planish_mesh_point_count(), or planish_mesh_triangle_count() for values that are taken at the centroids of
+ *              the triangles; a datum is then a triangle.
  * dim:         numbers of a value, at least 1.
  * options:     NULL for the defaults; correction_sweeps is not used, and refused unless it is at its
  *              default.

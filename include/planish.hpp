@@ -1490,13 +1490,25 @@ inline fitted tensor_fit_points(const rows<double, 2> &uv, const values<double> 
   });
 }
 
-/// Fits a bicubic surface to rows of `dim` numbers on the nodes of a mesh.
+namespace detail {
+
+// Rows of a field of so many numbers: one a node, or one a triangle.
+inline std::size_t field_rows(const mesh &mesh, std::size_t value_count, std::size_t dim) {
+  const std::size_t nodes = mesh.point_count(), triangles = mesh.triangle_count();
+  if (value_count != nodes * dim && value_count == triangles * dim) return triangles;
+  check_rows(value_count, nodes, dim);
+  return nodes;
+}
+
+} // namespace detail
+
+/// Fits a bicubic surface to rows of `dim` numbers on the nodes of a mesh, or at the centroids of its triangles.
 inline fitted tensor_fit_field(const mesh &mesh, const values<double> &values, std::size_t dim,
                                const planish_tensor_options &options = defaults<planish_tensor_options>(),
                                const progress &hear = {}) {
-  detail::check_rows(values.count(), mesh.point_count(), dim);
+  const std::size_t count = detail::field_rows(mesh, values.count(), dim);
   return detail::fit(options, hear, [&](const planish_tensor_options *given, auto out, auto report) {
-    return planish_tensor_fit_field(mesh.get(), values.data(), mesh.point_count(), dim, given, out, report);
+    return planish_tensor_fit_field(mesh.get(), values.data(), count, dim, given, out, report);
   });
 }
 
@@ -1564,13 +1576,13 @@ inline fitted pht_fit_points(const rows<double, 2> &uv, const values<double> &va
   });
 }
 
-/// Fits a PHT-spline to rows of `dim` numbers on the nodes of a mesh.
+/// Fits a PHT-spline to rows of `dim` numbers on the nodes of a mesh, or at the centroids of its triangles.
 inline fitted pht_fit_field(const mesh &mesh, const values<double> &values, std::size_t dim,
                             const planish_pht_options &options = defaults<planish_pht_options>(),
                             const progress &hear = {}) {
-  detail::check_rows(values.count(), mesh.point_count(), dim);
+  const std::size_t count = detail::field_rows(mesh, values.count(), dim);
   return detail::fit(options, hear, [&](const planish_pht_options *given, auto out, auto report) {
-    return planish_pht_fit_field(mesh.get(), values.data(), mesh.point_count(), dim, given, out, report);
+    return planish_pht_fit_field(mesh.get(), values.data(), count, dim, given, out, report);
   });
 }
 

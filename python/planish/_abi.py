@@ -141,6 +141,10 @@ ENUMERATIONS = {
         "relative": 0,
         "absolute": 1,
     },
+    "planish_missing": {
+        "refused": 0,
+        "skipped": 1,
+    },
     "planish_knots": {
         "adaptive": 0,
         "uniform": 1,
@@ -678,6 +682,8 @@ class planish_tensor_options(Structure):
         ("measure_distance", c_uint32),
         ("thread_count", c_uint32),
         ("knots", c_uint32),
+        ("missing", c_uint32),
+        ("reserved", c_uint32),
     ]
     choices = {
         "out_stage": "planish_stage",
@@ -687,6 +693,7 @@ class planish_tensor_options(Structure):
         "energy": "planish_energy",
         "regularize": "planish_regularize",
         "knots": "planish_knots",
+        "missing": "planish_missing",
     }
     elements = {
         "weights": c_double,
@@ -1347,12 +1354,15 @@ class planish_pht_options(Structure):
         ("measure_distance", c_uint32),
         ("thread_count", c_uint32),
         ("reserved", c_uint32),
+        ("missing", c_uint32),
+        ("reserved_end", c_uint32),
     ]
     choices = {
         "out_stage": "planish_stage",
         "tolerance_scale": "planish_tolerance_scale",
         "estimator": "planish_pht_estimator",
         "regularize": "planish_regularize",
+        "missing": "planish_missing",
     }
     elements = {
         "weights": c_double,
@@ -1507,7 +1517,7 @@ SIZES = {
     planish_eval_options: 40,
     planish_patch: 72,
     planish_convert_options: 48,
-    planish_tensor_options: 152,
+    planish_tensor_options: 160,
     planish_field_options: 128,
     planish_gradient_options: 24,
     planish_transfer_options: 32,
@@ -1533,7 +1543,7 @@ SIZES = {
     planish_interpolate_options: 24,
     planish_skin_report: 112,
     planish_skin_options: 168,
-    planish_pht_options: 144,
+    planish_pht_options: 152,
     planish_pht_simplify_options: 40,
     planish_pht_convert_options: 64,
     planish_pht_patches_options: 48,

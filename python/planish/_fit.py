@@ -99,8 +99,13 @@ def fit_field(
     progress: ProgressCallback | None = None,
     **fit_options: Any,
 ) -> Surface:
-    """A smooth field of values (n,) or (n, dim) on the nodes of a mesh; the tolerance is relative to their box."""
-    values, dim = _values(values, mesh.n_points)
+    """A smooth field of values (n,) or (n, dim) on the nodes of a mesh; the tolerance is relative to their box.
+
+    As many rows as the mesh has triangles are taken at their centroids.
+    """
+    rows = np.shape(values)[:1]
+    is_on_triangles = rows == (mesh.n_triangles,) != (mesh.n_points,)
+    values, dim = _values(values, mesh.n_triangles if is_on_triangles else mesh.n_points)
     data = (mesh, pointer(values), len(values), dim)
     function, record = f"planish_{_gridded(family)}_fit_field", f"{family}_options"
     return _run(function, record, data, len(values), tolerance, absolute, progress, fit_options)

@@ -9,6 +9,7 @@ use super::mesh::planish_mesh;
 use super::progress::with_control;
 use super::report::{FitOutputs, planish_fit_report};
 use super::surface::planish_surface;
+use super::tensor::{check_field_count, missing};
 use super::{planish_parameterize_options, planish_progress, planish_status};
 use crate::Control;
 use crate::control::Stage;
@@ -93,6 +94,11 @@ record! {
         pub thread_count: u32,
         /// 0.
         pub reserved: u32,
+        /// A planish_missing: what values of points and fields mean that are NaN. Default PLANISH_MISSING_REFUSED. Not
+        /// used for the shape of a mesh.
+        pub missing: u32,
+        /// 0.
+        pub reserved_end: u32,
     }
 }
 
@@ -106,8 +112,8 @@ impl planish_pht_options {
     /// # Safety
     /// The pointers are NULL or as the header says, for `count` data, until the options are no longer used.
     unsafe fn to_core<'a>(self, count: usize) -> Result<PhtOptions<'a>, ArgumentError> {
-        if self.reserved != 0 {
-            return Err(ArgumentError::Reserved { record: "planish_pht_options", given: self.reserved });
+        if let Some(given) = [self.reserved, self.reserved_end].into_iter().find(|&given| given != 0) {
+            return Err(ArgumentError::Reserved { record: "planish_pht_options", given });
         }
         let scales = [ToleranceScale::Relative, ToleranceScale::Absolute];
         let scale = choice(self.tolerance_scale, &scales, "tolerance_scale")?;
@@ -143,6 +149,7 @@ impl planish_pht_options {
             parameterize,
             weights,
             measure_distance: flag(self.measure_distance, "measure_distance")?,
+            missing: missing(self.missing)?,
         })
     }
 }
@@ -193,6 +200,8 @@ pub unsafe extern "C" fn planish_pht_fit(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
+        let usual = planish_pht_options::default();
+        unused(self::options(options)?.missing == usual.missing, "missing", "planish_pht_fit")?;
         let mesh = &deref(mesh, "mesh")?.0;
         let count = mesh.points().len();
         fit(count, options, out_surface, out_report, |options, control| fit_mesh(mesh, options, control))
@@ -241,7 +250,8 @@ pub unsafe extern "C" fn planish_pht_fit_points(
 ///
 /// mesh:        not NULL.
 /// values:      count rows of dim numbers.
-/// count:       planish_mesh_point_count().
+/// count:       planish_mesh_point_count(), or planish_mesh_triangle_count() for values that are taken at the centroids of
+///              the triangles; a datum is then a triangle.
 /// dim:         numbers of a value, at least 1.
 /// options:     NULL for the defaults; correction_sweeps is not used, and refused unless it is at its
 ///              default.
@@ -265,10 +275,7 @@ pub unsafe extern "C" fn planish_pht_fit_field(
     guard(|| unsafe {
         self::options(options)?.refuse_correction("planish_pht_fit_field")?;
         let mesh = &deref(mesh, "mesh")?.0;
-        let expected = mesh.points().len();
-        if count != expected {
-            return Err(FitError::Count { what: "the nodes", count, expected }.into());
-        }
+        check_field_count(mesh, count)?;
         let values = slice(values, array_len::<f64>(count, dim, "values")?, "values")?;
         fit(count, options, out_surface, out_report, |options, control| {
             fit_field(mesh, values, dim, options, control)

@@ -11,12 +11,13 @@ use super::report::{FitOutputs, planish_fit_report};
 use super::surface::{planish_surface, query_surface};
 use super::{planish_parameterize_options, planish_progress, planish_status};
 use crate::Control;
-use crate::fit::common::{FitError, Regularize};
+use crate::fit::common::{FitError, Missing, Regularize};
 use crate::fit::report::{Tolerance, ToleranceScale};
 use crate::fit::tensor::{
     Ends, Energy, Knots, Method, TensorFit, TensorOptions, fit_field, fit_mesh, fit_points,
 };
 use crate::knots::KnotVector;
+use crate::mesh::Mesh;
 use crate::surface::tensor::{Axis, TensorError, TensorSurface};
 use glam::DVec2;
 use libc::c_void;
@@ -39,6 +40,16 @@ pub enum planish_tolerance_scale {
     Relative = 0,
     /// Model units.
     Absolute = 1,
+}
+
+/// What the values of points and fields mean that are NaN.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum planish_missing {
+    /// A mistake: PLANISH_STATUS_NOT_FINITE.
+    Refused = 0,
+    /// There is none: the datum is passed over, and its error is NaN.
+    Skipped = 1,
 }
 
 /// Where the knot lines of a tensor fit stand.
@@ -159,7 +170,26 @@ record! {
         /// A planish_knots. Default PLANISH_KNOTS_ADAPTIVE. Knots given by grid_u and grid_v, and those of
         /// PLANISH_TENSOR_METHOD_FERGUSON, are uniform always.
         pub knots: u32 = planish_knots::Adaptive as u32,
+        /// A planish_missing: what values of points and fields mean that are NaN. Default PLANISH_MISSING_REFUSED. Not
+        /// used for the shape of a mesh.
+        pub missing: u32 = planish_missing::Refused as u32,
+        /// 0.
+        pub reserved: u32,
     }
+}
+
+/// What a value means that is NaN.
+pub(super) fn missing(given: u32) -> Result<Missing, ArgumentError> {
+    choice(given, &[Missing::Refused, Missing::Skipped], "missing")
+}
+
+/// How many rows the values of a field on a mesh have: one a node, or one a triangle.
+pub(super) fn check_field_count(mesh: &Mesh, count: usize) -> Result<(), FitError> {
+    let expected = mesh.points().len();
+    if count == expected || count == mesh.triangles().len() {
+        return Ok(());
+    }
+    Err(FitError::Count { what: "the nodes", count, expected })
 }
 
 impl planish_tensor_options {
@@ -173,6 +203,9 @@ impl planish_tensor_options {
     /// # Safety
     /// The pointers are NULL or as the header says, for `count` data, until the options are no longer used.
     pub(super) unsafe fn to_core<'a>(self, count: usize) -> Result<TensorOptions<'a>, ArgumentError> {
+        if self.reserved != 0 {
+            return Err(ArgumentError::Reserved { record: "planish_tensor_options", given: self.reserved });
+        }
         let scales = [ToleranceScale::Relative, ToleranceScale::Absolute];
         let scale = choice(self.tolerance_scale, &scales, "tolerance_scale")?;
         // SAFETY: the caller's promise.
@@ -208,6 +241,7 @@ impl planish_tensor_options {
             parameterize: parameterize.to_core()?,
             weights,
             measure_distance: flag(self.measure_distance, "measure_distance")?,
+            missing: missing(self.missing)?,
         })
     }
 }
@@ -257,6 +291,8 @@ pub unsafe extern "C" fn planish_tensor_fit(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
+        let usual = planish_tensor_options::default();
+        unused(self::options(options)?.missing == usual.missing, "missing", "planish_tensor_fit")?;
         let mesh = &deref(mesh, "mesh")?.0;
         let count = mesh.points().len();
         fit(count, options, out_surface, out_report, |options, control| fit_mesh(mesh, options, control))
@@ -302,7 +338,8 @@ pub unsafe extern "C" fn planish_tensor_fit_points(
 ///
 /// mesh:        not NULL.
 /// values:      count rows of dim numbers.
-/// count:       planish_mesh_point_count().
+/// count:       planish_mesh_point_count(), or planish_mesh_triangle_count() for values that are taken at the centroids of
+///              the triangles; a datum is then a triangle.
 /// dim:         numbers of a value, at least 1.
 /// options:     NULL for the defaults.
 /// out_surface: receives a new surface; destroy with planish_surface_free().
@@ -324,10 +361,7 @@ pub unsafe extern "C" fn planish_tensor_fit_field(
     // SAFETY: the caller's promises.
     guard(|| unsafe {
         let mesh = &deref(mesh, "mesh")?.0;
-        let expected = mesh.points().len();
-        if count != expected {
-            return Err(FitError::Count { what: "the nodes", count, expected }.into());
-        }
+        check_field_count(mesh, count)?;
         let values = slice(values, array_len::<f64>(count, dim, "values")?, "values")?;
         fit(count, options, out_surface, out_report, |options, control| {
             fit_field(mesh, values, dim, options, control)

@@ -149,10 +149,10 @@ fn options_without_a_size_are_refused() {
 fn reserved_fields_must_be_zero() {
     let sheet = Sheet::new(4);
     let mesh = sheet.mesh_with_parameters();
-    let newer = planish_pht_options { reserved: 3, ..record() };
+    let newer = planish_tensor_options { reserved: 3, ..record() };
     let mut out = canary();
     // SAFETY: handles and records of this test.
-    let status = unsafe { planish_pht_fit(mesh.0, &newer, &mut out, null_mut()) };
+    let status = unsafe { planish_tensor_fit(mesh.0, &newer, &mut out, null_mut()) };
     refused(status, planish_status::Version, -1, &["reserved", "3"]);
     assert_untouched(&out);
 }

@@ -23,11 +23,13 @@ mod tests;
 pub use options::{Estimator, PhtOptions};
 
 use super::common::checks::{check_parameters, check_values};
+use super::common::partial::{is_on_triangles, is_partial, places_of_values};
 use super::common::report::{FitReport, Remarks};
-use super::common::{FitError, NodeParameters, Used, node_parameters, prefer_plane};
+use super::common::{FitError, NodeParameters, Partial, Used, node_parameters, prefer_plane, trims};
 use crate::control::Control;
 use crate::mesh::Mesh;
 use crate::parameterize::{Border, ParameterizeOptions};
+use crate::surface::Surface;
 use crate::surface::pht::PhtSurface;
 use data::Data;
 use glam::DVec2;
@@ -53,7 +55,8 @@ pub fn fit_mesh(mesh: &Mesh, options: &PhtOptions, control: &mut Control) -> Res
     fit_on_mesh(mesh, &values, 3, true, options, control)
 }
 
-/// Fits values on the nodes of a mesh, `dim` numbers a node, over the same parameters as its shape.
+/// Fits values on the nodes of a mesh, `dim` numbers a node, over the same parameters as its shape; as many rows as the
+/// mesh has triangles are taken at their centroids.
 pub fn fit_field(
     mesh: &Mesh,
     values: &[f64],
@@ -61,6 +64,9 @@ pub fn fit_field(
     options: &PhtOptions,
     control: &mut Control,
 ) -> Result<PhtFit, FitError> {
+    if dim > 0 && (is_partial(values, options.missing) || is_on_triangles(mesh, values.len() / dim)) {
+        return fit_partial_field(mesh, values, dim, options, control);
+    }
     fit_on_mesh(mesh, values, dim, false, options, control)
 }
 
@@ -74,11 +80,63 @@ pub fn fit_points(
 ) -> Result<PhtFit, FitError> {
     let start = Instant::now();
     options.check()?;
+    if dim > 0 && is_partial(values, options.missing) {
+        let places: Vec<Option<DVec2>> = uv.iter().copied().map(Some).collect();
+        let mut fit = fit_partial(&places, values, dim, options, control)?;
+        fit.report.seconds = start.elapsed().as_secs_f64();
+        return Ok(fit);
+    }
     check_values(uv.len(), values, dim, options.weights)?;
     check_parameters(uv)?;
     let data = Data::of_points(uv, values, dim, options.weights);
     let mut fit = Refinement::new(data, options)?.run(control)?;
     fit.report.seconds = start.elapsed().as_secs_f64();
+    Ok(fit)
+}
+
+/// Fits values that some nodes do not have, or triangles have, as scattered ones over all of the mesh.
+fn fit_partial_field(
+    mesh: &Mesh,
+    values: &[f64],
+    dim: usize,
+    options: &PhtOptions,
+    control: &mut Control,
+) -> Result<PhtFit, FitError> {
+    let start = Instant::now();
+    options.check()?;
+    control.set_stage(0.0, 0.3);
+    let map = map(mesh, options, control)?;
+    let parameterize_seconds = start.elapsed().as_secs_f64();
+    let places = places_of_values(mesh, &map.uv, values.len() / dim);
+    control.set_stage(0.3, 1.0);
+    let mut fit = fit_partial(&places, values, dim, options, control)?;
+    fit.surface.region_mut().trims = trims(Some(mesh), &map.uv, &fit.surface.domain());
+    fit.report.parameterize_seconds = parameterize_seconds;
+    fit.report.remarks.0 |= map.remarks.0;
+    fit.report.measure_map(mesh, &map.uv);
+    fit.report.seconds = start.elapsed().as_secs_f64();
+    Ok(fit)
+}
+
+/// Fits those values that there are, over the box of all.
+fn fit_partial(
+    places: &[Option<DVec2>],
+    values: &[f64],
+    dim: usize,
+    options: &PhtOptions,
+    control: &mut Control,
+) -> Result<PhtFit, FitError> {
+    let partial = Partial::of(places, values, dim, options.weights, options.missing)?;
+    let options = PhtOptions { weights: partial.weights(), ..*options };
+    let fit = check_values(partial.uv.len(), &partial.values, dim, options.weights)
+        .and_then(|()| check_parameters(&partial.uv))
+        .and_then(|()| {
+            let mut data = Data::of_points(&partial.uv, &partial.values, dim, options.weights);
+            data.data_box = partial.data_box;
+            Refinement::new(data, &options)?.run(control)
+        });
+    let mut fit = fit.map_err(|error| partial.told(error))?;
+    partial.spread(&mut fit.report, &mut fit.parameters, &mut fit.errors);
     Ok(fit)
 }
 

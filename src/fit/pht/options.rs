@@ -2,7 +2,7 @@
 
 use crate::fit::common::checks::{check_option, check_smoothing, check_tolerance};
 use crate::fit::common::report::Tolerance;
-use crate::fit::common::{FitError, Regularize};
+use crate::fit::common::{FitError, Missing, Regularize};
 use crate::options::with_fields;
 use crate::parameterize::ParameterizeOptions;
 use crate::tmesh::{MAX_GRID, MAX_LEVEL};
@@ -51,6 +51,8 @@ pub struct PhtOptions<'a> {
     pub weights: Option<&'a [f64]>,
     /// Whether to measure the closest-point distance of the nodes.
     pub measure_distance: bool,
+    /// What values of points and fields mean that are NaN.
+    pub missing: Missing,
 }
 
 impl Default for PhtOptions<'_> {
@@ -69,6 +71,7 @@ impl Default for PhtOptions<'_> {
             parameterize: None,
             weights: None,
             measure_distance: false,
+            missing: Missing::default(),
         }
     }
 }
@@ -88,6 +91,7 @@ impl<'a> PhtOptions<'a> {
         with_parameterize parameterize: Option<ParameterizeOptions>,
         with_weights weights: Option<&'a [f64]>,
         with_measure_distance measure_distance: bool,
+        with_missing missing: Missing,
     }
 
     pub(super) fn check(&self) -> Result<(), FitError> {

@@ -22,13 +22,14 @@ pub use super::common::uniform::{Ends, Energy, Method, SMOOTHING_LADDER};
 pub use options::{Knots, TensorOptions};
 
 use super::common::checks::{check_parameters, check_values};
+use super::common::partial::{is_on_triangles, is_partial, places_of_values};
 use super::common::report::{FitReport, Goal};
-use super::common::{FitError, Frame, Used, node_parameters};
+use super::common::{FitError, Frame, Partial, Used, node_parameters, trims};
 use crate::control::Control;
 use crate::geometry::Bounds;
 use crate::mesh::Mesh;
 use crate::surface::tensor::TensorSurface;
-use crate::surface::{Domain, Region};
+use crate::surface::{Domain, Region, Surface};
 use glam::DVec2;
 use std::time::Instant;
 
@@ -51,7 +52,8 @@ pub fn fit_mesh(mesh: &Mesh, options: &TensorOptions, control: &mut Control) -> 
     fit_on_mesh(mesh, &values, 3, true, options, control)
 }
 
-/// Fits values on the nodes of a mesh, `dim` numbers a node, over the same parameters as its shape.
+/// Fits values on the nodes of a mesh, `dim` numbers a node, over the same parameters as its shape; as many rows as the
+/// mesh has triangles are taken at their centroids.
 pub fn fit_field(
     mesh: &Mesh,
     values: &[f64],
@@ -59,6 +61,9 @@ pub fn fit_field(
     options: &TensorOptions,
     control: &mut Control,
 ) -> Result<TensorFit, FitError> {
+    if dim > 0 && (is_partial(values, options.missing) || is_on_triangles(mesh, values.len() / dim)) {
+        return fit_partial_field(mesh, values, dim, options, control);
+    }
     fit_on_mesh(mesh, values, dim, false, options, control)
 }
 
@@ -71,10 +76,59 @@ pub fn fit_points(
     control: &mut Control,
 ) -> Result<TensorFit, FitError> {
     let start = Instant::now();
+    if dim > 0 && is_partial(values, options.missing) {
+        let places: Vec<Option<DVec2>> = uv.iter().copied().map(Some).collect();
+        let mut fit = fit_partial(&places, values, dim, options, control)?;
+        fit.report.seconds = start.elapsed().as_secs_f64();
+        return Ok(fit);
+    }
     check(uv, values, dim, options)?;
     let problem = Problem::new(uv.to_vec(), values, dim, None, options)?;
     let mut fit = problem.fit_any(control)?;
     fit.report.seconds = start.elapsed().as_secs_f64();
+    Ok(fit)
+}
+
+/// Fits values that some nodes do not have, or triangles have, as scattered ones over all of the mesh.
+fn fit_partial_field(
+    mesh: &Mesh,
+    values: &[f64],
+    dim: usize,
+    options: &TensorOptions,
+    control: &mut Control,
+) -> Result<TensorFit, FitError> {
+    let start = Instant::now();
+    options.check()?;
+    control.set_stage(0.0, 0.3);
+    let map = node_parameters(mesh, &options.parameterize, options.regularize, control)?;
+    let parameterize_seconds = start.elapsed().as_secs_f64();
+    let places = places_of_values(mesh, &map.uv, values.len() / dim);
+    control.set_stage(0.3, 1.0);
+    let mut fit = fit_partial(&places, values, dim, options, control)?;
+    fit.surface.region_mut().trims = trims(Some(mesh), &map.uv, &fit.surface.domain());
+    fit.report.parameterize_seconds = parameterize_seconds;
+    fit.report.remarks.0 |= map.remarks.0;
+    fit.report.measure_map(mesh, &map.uv);
+    fit.report.seconds = start.elapsed().as_secs_f64();
+    Ok(fit)
+}
+
+/// Fits those values that there are, over the box of all.
+fn fit_partial(
+    places: &[Option<DVec2>],
+    values: &[f64],
+    dim: usize,
+    options: &TensorOptions,
+    control: &mut Control,
+) -> Result<TensorFit, FitError> {
+    let partial = Partial::of(places, values, dim, options.weights, options.missing)?;
+    let options = TensorOptions { weights: partial.weights(), ..*options };
+    let fit = check(&partial.uv, &partial.values, dim, &options).and_then(|()| {
+        let problem = Problem::new(partial.uv.clone(), &partial.values, dim, None, &options)?;
+        Problem { data_box: partial.data_box, ..problem }.fit_any(control)
+    });
+    let mut fit = fit.map_err(|error| partial.told(error))?;
+    partial.spread(&mut fit.report, &mut fit.parameters, &mut fit.errors);
     Ok(fit)
 }
 

@@ -5,7 +5,7 @@ use crate::fit::common::checks::{
     check_buffer, check_grid, check_option, check_smoothing, check_tolerance, check_unused,
 };
 use crate::fit::common::report::Tolerance;
-use crate::fit::common::{FitError, Regularize};
+use crate::fit::common::{FitError, Missing, Regularize};
 use crate::options::with_fields;
 use crate::parameterize::ParameterizeOptions;
 
@@ -56,6 +56,8 @@ pub struct TensorOptions<'a> {
     pub weights: Option<&'a [f64]>,
     /// Whether to measure the closest-point distance of the nodes.
     pub measure_distance: bool,
+    /// What values of points and fields mean that are NaN.
+    pub missing: Missing,
 }
 
 impl Default for TensorOptions<'_> {
@@ -76,6 +78,7 @@ impl Default for TensorOptions<'_> {
             parameterize: ParameterizeOptions::TENSOR,
             weights: None,
             measure_distance: false,
+            missing: Missing::default(),
         }
     }
 }
@@ -97,6 +100,7 @@ impl<'a> TensorOptions<'a> {
         with_parameterize parameterize: ParameterizeOptions,
         with_weights weights: Option<&'a [f64]>,
         with_measure_distance measure_distance: bool,
+        with_missing missing: Missing,
     }
 
     pub(super) fn check(&self) -> Result<(), FitError> {

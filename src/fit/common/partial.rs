@@ -1,0 +1,114 @@
+//! Fields without values at some nodes, and fields with one value on each triangle.
+//!
+//! Such values are scattered data over the parameters of the nodes, or of the middles of the triangles; the surface is
+//! one over all of the mesh, with its loops as trims, all the same.
+
+use super::checks::{check_count, check_weights};
+use super::error::FitError;
+use super::report::FitReport;
+use crate::geometry::Domain;
+use crate::mesh::Mesh;
+use glam::DVec2;
+
+/// What a value means that is NaN.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Missing {
+    /// A mistake: the fit is refused.
+    #[default]
+    Refused,
+    /// There is none: the datum is passed over, and has no error.
+    Skipped,
+}
+
+/// The parameters at which the values of a field on a mesh are: those of its nodes, or, where there are as many rows as
+/// triangles and not as nodes, those of the triangles' centroids. Nodes that no triangle needs have no place.
+pub(in crate::fit) fn places_of_values(mesh: &Mesh, uv: &[DVec2], rows: usize) -> Vec<Option<DVec2>> {
+    if is_on_triangles(mesh, rows) {
+        let middle = |nodes: &[u32; 3]| nodes.iter().map(|&node| uv[node as usize]).sum::<DVec2>() / 3.0;
+        return mesh.triangles().iter().map(|nodes| Some(middle(nodes))).collect();
+    }
+    (0..uv.len()).map(|node| mesh.is_used(node as u32).then_some(uv[node])).collect()
+}
+
+/// Whether so many rows are the values of triangles.
+pub(in crate::fit) fn is_on_triangles(mesh: &Mesh, rows: usize) -> bool {
+    rows == mesh.triangles().len() && rows != mesh.points().len()
+}
+
+/// Whether some value is missing, and may be.
+pub(in crate::fit) fn is_partial(values: &[f64], missing: Missing) -> bool {
+    missing == Missing::Skipped && values.iter().any(|x| x.is_nan())
+}
+
+/// The data that have values, of all that might.
+pub(in crate::fit) struct Partial {
+    /// Parameters of those that have.
+    pub uv: Vec<DVec2>,
+    /// Their rows.
+    pub values: Vec<f64>,
+    weights: Option<Vec<f64>>,
+    /// Their numbers among all.
+    given: Vec<usize>,
+    /// Of all, with the place of the first that has a value for those without a place.
+    all_uv: Vec<DVec2>,
+    /// The box of all.
+    pub data_box: Domain,
+}
+
+impl Partial {
+    /// `values`: rows of `dim` numbers; a row with a NaN is missing if that is allowed.
+    pub fn of(
+        places: &[Option<DVec2>],
+        values: &[f64],
+        dim: usize,
+        weights: Option<&[f64]>,
+        missing: Missing,
+    ) -> Result<Self, FitError> {
+        let expected = places.len().saturating_mul(dim);
+        if values.len() != expected {
+            return Err(FitError::Count { what: "the values", count: values.len(), expected });
+        }
+        check_weights(places.len(), weights)?;
+        let row = |datum: usize| &values[datum * dim..][..dim];
+        let is_missing = |datum: usize| missing == Missing::Skipped && row(datum).iter().any(|x| x.is_nan());
+        let all = places.iter().enumerate().filter_map(|(datum, place)| Some((datum, (*place)?)));
+        let (given, uv): (Vec<usize>, Vec<DVec2>) =
+            all.clone().filter(|&(datum, _)| !is_missing(datum)).unzip();
+        check_count(given.len())?;
+        let some_place = uv[0];
+        Ok(Self {
+            values: given.iter().flat_map(|&datum| row(datum)).copied().collect(),
+            weights: weights.map(|weights| given.iter().map(|&datum| weights[datum]).collect()),
+            all_uv: places.iter().map(|place| place.unwrap_or(some_place)).collect(),
+            data_box: Domain::around(all.map(|(_, place)| place)),
+            uv,
+            given,
+        })
+    }
+
+    pub fn weights(&self) -> Option<&[f64]> {
+        self.weights.as_deref()
+    }
+
+    /// An error of the fit in the numbers of all data.
+    pub fn told(&self, mut error: FitError) -> FitError {
+        if let FitError::ParametersNotFinite { index }
+        | FitError::ValuesNotFinite { index }
+        | FitError::Weight { index, .. } = &mut error
+        {
+            *index = self.given.get(*index).copied().unwrap_or(*index);
+        }
+        error
+    }
+
+    /// Gives what the fit found to all data: one without a value has no error.
+    pub fn spread(self, report: &mut FitReport, parameters: &mut Vec<DVec2>, errors: &mut Vec<f64>) {
+        let mut all_uv = self.all_uv;
+        let mut all_errors = vec![f64::NAN; all_uv.len()];
+        for (place, &datum) in self.given.iter().enumerate() {
+            (all_uv[datum], all_errors[datum]) = (parameters[place], errors[place]);
+        }
+        report.worst_index = self.given[report.worst_index];
+        (*parameters, *errors) = (all_uv, all_errors);
+    }
+}
