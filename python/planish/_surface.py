@@ -11,7 +11,21 @@ import numpy as np
 
 from . import _abi
 from ._calls import LongCall, ProgressCallback
-from ._library import OUT, Handle, InvalidError, array, call, lib, made, output, path_of, pointer, read_only, text_of
+from ._library import (
+    OUT,
+    Handle,
+    InvalidError,
+    argument,
+    array,
+    call,
+    lib,
+    made,
+    output,
+    path_of,
+    pointer,
+    read_only,
+    text_of,
+)
 from ._mesh import Mesh
 from ._records import Report, by_reference, options, report_record
 
@@ -46,6 +60,8 @@ class Surface(Handle):
 
     _free = "planish_surface_free"
     report: Report | None = None
+    #: Kept for `eval`, once it is known: it never changes.
+    _dim = 0
     #: The class of each family.
     _families: dict[str, type[Surface]] = {}
 
@@ -68,7 +84,8 @@ class Surface(Handle):
     @property
     def dim(self) -> int:
         """Components of a value: 3 for a shape, 1 for a scalar field."""
-        return lib.planish_surface_dim(self)
+        self._dim = lib.planish_surface_dim(self)
+        return self._dim
 
     @property
     def n_control_points(self) -> int:
@@ -150,12 +167,10 @@ class Surface(Handle):
         shape = uv.shape
         if not shape or shape[-1] != 2:
             raise InvalidError(f"uv needs rows of 2 numbers, its shape is {shape}")
-        if out is None:
-            out = np.empty(shape[:-1] + (self.dim,))
-        else:
-            out = output(out, shape[:-1] + (self.dim,))
+        dim = self._dim or self.dim
+        out = np.empty(shape[:-1] + (dim,)) if out is None else output(out, shape[:-1] + (dim,))
         record = by_reference(options("eval_options", eval_options)) if eval_options else None
-        call("planish_surface_eval", self, pointer(uv), uv.size // 2, record, pointer(out))
+        call("planish_surface_eval", self, argument(uv), uv.size // 2, record, argument(out))
         return out
 
     def ev(self, u: Any, v: Any, du: int = 0, dv: int = 0, **eval_options: Any) -> np.ndarray:
