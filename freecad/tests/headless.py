@@ -87,6 +87,64 @@ def afterwards(face):
     return failed
 
 
+def smooth_borders(document):
+    """A jagged border moves by no more than asked for, and its face is valid with edges as long as the border."""
+    source = mesh_object(document, shapes.jagged(), "Jagged")
+    face = made(document, "FitSurface", Source=source, Tolerance=0.1, SmoothBorder=2.0)
+    assert face.Shape.isValid() and len(face.Shape.Edges) <= 8, (face.Shape.isValid(), len(face.Shape.Edges))
+    border = max(face.Shape.Wires, key=lambda wire: wire.Length)
+    rim = [node for node in source.Mesh.Points if math.hypot(node.x, node.y) > 44]
+    farthest = max(border.distToShape(Part.Vertex(node.Vector))[0] for node in rim[::5])
+    assert farthest <= 2.0 + 0.1 + 1.7, farthest  # the border, the fit, and a cell of the grid that lies inside
+    assert face.Shape.makeOffsetShape(1.0, 0.01).isValid()
+    return face
+
+
+def structured_points(document):
+    """Rows and columns of points have triangles; what the scanner did not see has none."""
+    import Points
+
+    rows, columns = 20, 30
+    points = [FreeCAD.Vector(x, y, 0.01 * x * y) for y in range(rows) for x in range(columns)]
+    points[0] = FreeCAD.Vector(float("nan"), 0, 0)
+    source = document.addObject("Points::Structured", "Rows")
+    source.Width, source.Height = columns, rows
+    source.Points = Points.Points(points)
+    face = made(document, "FitSurface", Source=source, Tolerance=0.05)
+    assert face.Shape.isValid() and face.MaxError.Value <= 0.05, (face.State, face.MaxError)
+    loose = document.addObject("Points::Feature", "Loose")
+    loose.Points = Points.Points(points[1:])
+    refused = made(document, "FitSurface", Source=loose, Tolerance=0.05)
+    assert "Invalid" in refused.State
+
+
+def fillets(face, solid, dome):
+    """Fillets of one edge each, on three shapes: what the kernel says, for the page's limits."""
+
+    def upright(shape):
+        return [edge for edge in shape.Edges if abs(edge.tangentAt(edge.FirstParameter).z) > 0.99][:1]
+
+    def rim(shape):
+        return [max(shape.Edges, key=lambda edge: edge.Length)]
+
+    block, pillar = (thing.Shape.extrude(FreeCAD.Vector(0, 0, 30)) for thing in (face, dome))
+    cut = solid.Shape.cut(Part.makeBox(60, 60, 40, FreeCAD.Vector(-30, -30, 5)))
+    lid = max(cut.Faces, key=lambda flat: flat.CenterOfMass.z)
+    tries = {
+        "an upright edge of the extruded sheet": (block, upright(block)),
+        "the rim of the extruded dome": (pillar, rim(pillar)),
+        "an edge between patches of the ball": (solid.Shape, solid.Shape.Edges[:1]),
+        "the rim of the ball cut flat": (cut, lid.Edges),
+    }
+    said = {}
+    for name, (shape, edges) in tries.items():
+        try:
+            said[name] = "valid" if shape.makeFillet(1.0, edges).isValid() else "not valid"
+        except Exception as error:
+            said[name] = str(error)
+    return said
+
+
 def solid_from_mesh(document):
     if "SolidFromMesh" not in features.KINDS:
         return None
@@ -157,6 +215,12 @@ def main():
         source, face = fit_surface(document)
         print("afterwards, failed:", afterwards(face) or "nothing")
         solid = solid_from_mesh(document)
+        dome = smooth_borders(document)
+        structured_points(document)
+        said = fillets(face, solid, dome)
+        for name, outcome in said.items():
+            print(f"fillet of {name}: {outcome}")
+        assert said["an upright edge of the extruded sheet"] == said["the rim of the ball cut flat"] == "valid"
         skin(document)
         decimated = made(document, "Decimate", Source=source, Nodes=150)
         assert decimated.Mesh.CountPoints == 150

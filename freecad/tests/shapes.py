@@ -18,6 +18,17 @@ def sheet(n=30, m=20):
     return of_arrays(points, np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)]))
 
 
+def jagged(n=60):
+    """A dome of 90 mm whose border follows the edges of a grid, as borders of scans do."""
+    x, y = np.meshgrid(np.linspace(-50, 50, n), np.linspace(-50, 50, n), indexing="ij")
+    points = np.stack([x, y, 8 * np.cos(x / 25) * np.cos(y / 33)], axis=-1).reshape(-1, 3)
+    node = np.arange(n * n).reshape(n, n)
+    a, b, c, d = (part.ravel() for part in (node[:-1, :-1], node[1:, :-1], node[1:, 1:], node[:-1, 1:]))
+    triangles = np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
+    inside = np.hypot(*points[triangles].mean(axis=1)[:, :2].T) < 45
+    return of_arrays(points, triangles[inside])
+
+
 def ball():
     """A closed ball, radius 20 mm."""
     return Mesh.createSphere(20.0, 40)

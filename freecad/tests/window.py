@@ -122,10 +122,63 @@ def main():
     say("panel, undo, redo and save pass")
 
 
+def gallery():
+    """One picture of each kind of object, as the documentation shows them."""
+    import Part
+    import shapes
+
+    from freecad.Planish import features
+
+    def shown(name, *objects):
+        """The objects alone, from the front above. What a picture shows is not one colour."""
+        FreeCAD.ActiveDocument.recompute()
+        for obj in FreeCAD.ActiveDocument.Objects:
+            obj.ViewObject.Visibility = obj in objects
+        view = FreeCADGui.activeDocument().activeView()
+        view.viewAxonometric()
+        view.fitAll()
+        wait(200)
+        path = os.path.join(PICTURES, f"freecad-{name}.png")
+        view.saveImage(path, 640, 400, "White")
+        colours = subprocess.run(["identify", "-format", "%k", path], capture_output=True, text=True, check=True).stdout
+        assert int(colours) > 50, f"{name}: {colours} colours"
+
+    document = FreeCAD.newDocument("gallery")
+    scan = document.addObject("Mesh::Feature", "Scan")
+    scan.Mesh = shapes.jagged(40)
+    ball = document.addObject("Mesh::Feature", "Ball")
+    ball.Mesh = shapes.ball()
+    face = features.make("FitSurface", Source=scan, Tolerance=0.2, SmoothBorder=2.0)
+    solid = features.make("SolidFromMesh", Source=ball, Tolerance=0.2)
+    document.recompute()
+    scan.ViewObject.DisplayMode = "Wireframe"
+    shown("fit-surface", scan, face)
+    shown("solid-from-mesh", solid)
+    sections = []
+    for number in range(6):
+        section = document.addObject("Part::Feature", "Section")
+        circle = Part.makeCircle(12 + 4 * np.sin(number), FreeCAD.Vector(0, 0, 9 * number))
+        points = Part.Wire(circle).discretize(Number=13 + 4 * number)
+        section.Shape = Part.makePolygon(points)
+        sections.append(section)
+    shown("skin", features.make("Skin", Sections=sections, Tolerance=0.05), *sections)
+    control = document.addObject("Mesh::Feature", "Control")
+    control.Mesh = shapes.open_box()
+    control.ViewObject.DisplayMode = "Wireframe"
+    shown("smooth-creased", features.make("SmoothCreased", Source=control, SharpAngle=100), control)
+    coarse = features.make("Decimate", Source=scan, Nodes=120)
+    document.recompute()
+    coarse.ViewObject.DisplayMode = "Flat Lines"
+    shown("decimate", coarse)
+    shown("deviation", features.make("Deviation", Fitted=face, Limit=0.2))
+    say("gallery passes")
+
+
 def run():
     code = 0
     try:
         main()
+        gallery()
     except BaseException:
         code = 1
         traceback.print_exc(file=log)

@@ -3,12 +3,13 @@
 import FreeCAD
 import FreeCADGui
 
-from . import features, icon, preferences
+from . import convert, features, icon, preferences
 from . import translate as tr
 
 
-def _selected(kind):
-    return [obj for obj in FreeCADGui.Selection.getSelection() if obj.isDerivedFrom(kind)]
+def _selected():
+    """What is selected and has triangles."""
+    return [obj for obj in FreeCADGui.Selection.getSelection() if convert.is_source(obj)]
 
 
 def _fitted():
@@ -17,7 +18,7 @@ def _fitted():
 
 
 def _one_mesh():
-    return len(_selected("Mesh::Feature")) == 1
+    return len(_selected()) == 1
 
 
 class Command:
@@ -42,7 +43,7 @@ def _with_panel(kind):
 
     def run():
         FreeCAD.ActiveDocument.openTransaction(tr("Fit"))
-        obj = features.make(kind, Source=_selected("Mesh::Feature")[0])
+        obj = features.make(kind, Source=_selected()[0])
         obj.Tolerance = preferences.default_tolerance()
         FreeCADGui.ActiveDocument.setEdit(obj.Name)
 
@@ -71,15 +72,15 @@ def _skin():
 
 
 def _decimate():
-    features.make("Decimate", Source=_selected("Mesh::Feature")[0])
+    features.make("Decimate", Source=_selected()[0])
 
 
 def _creased():
-    features.make("SmoothCreased", Source=_selected("Mesh::Feature")[0])
+    features.make("SmoothCreased", Source=_selected()[0])
 
 
 def _deviation():
-    meshes = _selected("Mesh::Feature")
+    meshes = _selected()
     for obj in _fitted():
         features.make("Deviation", Fitted=obj, Source=meshes[0] if meshes else None)
 
@@ -100,7 +101,7 @@ def _several():
 
 COMMANDS = (
     Command(
-        "Planish_FitSurface", "Fit surface", "A smooth trimmed face over the selected open mesh", "fit",
+        "Planish_FitSurface", "Fit surface", "A smooth trimmed face over the selected open mesh or rows of points", "fit",
         _one_mesh, _with_panel("FitSurface"),
     ),
     Command(

@@ -151,7 +151,8 @@ class FitSurface(Fitted):
     FAMILIES = ["auto", "tensor", "pht", "d1rc"]
 
     def add_properties(self, obj):
-        add(obj, "Link", "Source", "Fit", "The mesh")
+        add(obj, "Link", "Source", "Fit", "The mesh, or points in rows and columns")
+        add(obj, "Length", "SmoothBorder", "Fit", "How far a jagged border may move to become smooth; 0 leaves it")
         tip = "auto chooses; tensor: one grid; pht: refined where the shape asks; d1rc: keeps sharp edges"
         add(obj, "Enumeration", "Family", "Fit", tip)
         if not obj.getEnumerationsOfProperty("Family"):
@@ -163,7 +164,8 @@ class FitSurface(Fitted):
     def job(self, obj):
         if not obj.Source:
             return None
-        points, triangles = convert.points_and_triangles(obj.Source.Mesh)
+        points, triangles = convert.nodes_of(obj.Source)
+        border = float(obj.SmoothBorder)
         keywords = dict(_tolerance(obj), family=obj.Family)
         if obj.Family == "d1rc":
             keywords["sharp_angle"] = math.radians(float(obj.SharpAngle))
@@ -171,9 +173,12 @@ class FitSurface(Fitted):
             keywords["smoothing"] = float(obj.Smoothing)
 
         def work(progress=None):
-            return planish.fit(planish.Mesh(points, triangles, orient=True), progress=progress, **keywords)
+            surface = planish.fit(planish.Mesh(points, triangles, orient=True), progress=progress, **keywords)
+            if border > 0 and not convert.smooth_border(surface, border):
+                surface.report.remarks |= {"border_not_smoothed"}
+            return surface
 
-        return _key(points, triangles, sorted(keywords.items())), work
+        return _key(points, triangles, border, sorted(keywords.items())), work
 
 
 class SolidFromMesh(Fitted):
@@ -187,7 +192,7 @@ class SolidFromMesh(Fitted):
     def job(self, obj):
         if not obj.Source:
             return None
-        points, triangles = convert.points_and_triangles(obj.Source.Mesh)
+        points, triangles = convert.nodes_of(obj.Source)
         keywords = _tolerance(obj)
         if obj.Patches > 0:
             keywords["patches"] = int(obj.Patches)
@@ -235,7 +240,7 @@ class Decimate(Proxy):
             return
         angle = math.radians(float(obj.SharpAngle))
         try:
-            obj.Mesh = convert.to_mesh(convert.mesh_of(obj.Source.Mesh).decimate(obj.Nodes, sharp_angle=angle))
+            obj.Mesh = convert.to_mesh(convert.mesh_of(obj.Source).decimate(obj.Nodes, sharp_angle=angle))
         except planish.Error as error:
             raise RuntimeError(f"{obj.Label}: {error}") from None
 
@@ -254,7 +259,7 @@ class SmoothCreased(Proxy):
     def execute(self, obj):
         if not obj.Source:
             return
-        points, triangles = convert.points_and_triangles(obj.Source.Mesh)
+        points, triangles = convert.nodes_of(obj.Source)
         try:
             self._follow(points, triangles, math.radians(float(obj.SharpAngle)))
             chord = float(obj.Chord)
@@ -320,7 +325,7 @@ class Deviation(Proxy):
         proxy = obj.Fitted.Proxy
         if proxy.result is None:  # after reopening: shapes are saved, fits are not
             proxy.execute(obj.Fitted)
-        points, _ = convert.points_and_triangles(source.Mesh)
+        points, _ = convert.nodes_of(source)
         try:
             distances = convert.signed_distances(proxy.result, points)
         except planish.Error as error:

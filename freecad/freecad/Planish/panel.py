@@ -86,7 +86,12 @@ class Panel:
     def _options(self):
         """(property, label, whether it stands behind the fold) of this kind of object."""
         if hasattr(self.obj, "Family"):
-            return (("Family", "Family", False), ("SharpAngle", "Sharp angle", True), ("Smoothing", "Smoothing", True))
+            return (
+                ("Family", "Family", False),
+                ("SmoothBorder", "Smooth border", True),
+                ("SharpAngle", "Sharp angle", True),
+                ("Smoothing", "Smoothing", True),
+            )
         return (("Patches", "Patches", True),)
 
     # what the buttons do
@@ -100,7 +105,7 @@ class Panel:
             value.store(self.obj, name)
         try:
             self.key, work = self.obj.Proxy.job(self.obj)  # here: it reads the document; the worker does not
-        except (planish.Error, TypeError) as error:
+        except (planish.Error, TypeError, ValueError) as error:
             self._tell_failure(error)
             return
         self.stop = False

@@ -117,7 +117,7 @@ class DeviationView(View):
         source = obj.Proxy.source(obj) if getattr(obj, "Fitted", None) else None
         if source is None or not obj.Distances:
             return
-        points, triangles = convert.points_and_triangles(source.Mesh)
+        points, triangles = convert.nodes_of(source)
         if len(points) != len(obj.Distances):
             return  # the mesh has changed; the next recompute measures it
         limit = obj.Proxy.limit(obj)
