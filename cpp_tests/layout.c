@@ -468,7 +468,10 @@ FOLLOWS(planish_face_info, coedge_count, carrier);
 FOLLOWS(planish_face_info, carrier, label);
 FOLLOWS(planish_face_info, label, shell);
 FOLLOWS(planish_face_info, shell, is_forward);
-LAST(planish_face_info, is_forward);
+FOLLOWS(planish_face_info, is_forward, max_error);
+FOLLOWS(planish_face_info, max_error, rms_error);
+FOLLOWS(planish_face_info, rms_error, node_count);
+LAST(planish_face_info, node_count);
 
 FIRST(planish_shell_info);
 FOLLOWS(planish_shell_info, struct_size, face_count);

@@ -2,8 +2,10 @@
 #ifndef PLANISH_SHAPES_HPP
 #define PLANISH_SHAPES_HPP
 
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 namespace shapes {
@@ -84,6 +86,41 @@ inline arrays graph(std::size_t count_u, std::size_t count_v, double jitter, std
   for (std::size_t n = 0; n < all.point_count(); ++n) {
     const double u = uv[2 * n], v = uv[2 * n + 1];
     all.points.insert(all.points.end(), {u, v, height(u, v)});
+  }
+  return all;
+}
+
+// The unit sphere: n by n cells on each face of the cube around it, evenly spread; (u,v) are zeros.
+inline arrays ball(std::uint32_t n) {
+  arrays all;
+  std::map<std::array<int, 3>, std::uint32_t> numbers;
+  const auto node = [&](int face, std::uint32_t i, std::uint32_t j) {
+    const int axis = face / 2, sign = face % 2 == 0 ? -1 : 1, size = static_cast<int>(n);
+    std::array<int, 3> at{};
+    at[axis] = sign * size;
+    // counter-clockwise as seen from outside
+    at[(axis + 1) % 3] = sign * (2 * static_cast<int>(i) - size);
+    at[(axis + 2) % 3] = 2 * static_cast<int>(j) - size;
+    const auto known = numbers.emplace(at, static_cast<std::uint32_t>(all.point_count()));
+    if (known.second) {
+      double point[3], length = 0;
+      for (int c = 0; c < 3; ++c) {
+        point[c] = std::tan(std::atan(1.0) * at[c] / size);
+        length += point[c] * point[c];
+      }
+      for (const double x : point) all.points.push_back(x / std::sqrt(length));
+      all.uv.insert(all.uv.end(), {0, 0});
+    }
+    return known.first->second;
+  };
+  for (int face = 0; face < 6; ++face) {
+    for (std::uint32_t i = 0; i < n; ++i) {
+      for (std::uint32_t j = 0; j < n; ++j) {
+        const std::uint32_t a = node(face, i, j), b = node(face, i + 1, j), c = node(face, i + 1, j + 1),
+                            d = node(face, i, j + 1);
+        all.triangles.insert(all.triangles.end(), {a, b, c, a, c, d});
+      }
+    }
   }
   return all;
 }

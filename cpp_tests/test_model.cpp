@@ -107,8 +107,36 @@ TEST(Model, AnswersAsItsSurfaceDoes) {
   std::remove("test_model.vtu");
 }
 
+TEST(Model, KnowsWhereNodesWent) {
+  const shapes::arrays ball = shapes::ball(8);
+  const planish::mesh mesh(ball.points, ball.triangles);
+  const planish::model model = planish::model_fit(mesh).model;
+  const auto places = model.locate_nodes();
+  CHECK_EQUAL(places.faces.size(), mesh.point_count());
+  const std::vector<double> on_model = model.eval(places.faces, places.uv);
+  const auto points = mesh.points();
+  double largest = 0, told = 0;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    double sum = 0;
+    for (int c = 0; c < 3; ++c) sum += std::pow(on_model[3 * k + c] - points[k][c], 2);
+    largest = std::max(largest, std::sqrt(sum));
+  }
+  for (std::size_t face = 0; face < model.face_count(); ++face) {
+    const planish_face_info info = model.face_info(face);
+    count += info.node_count;
+    if (info.node_count > 0) told = std::max(told, info.max_error);
+  }
+  CHECK_EQUAL(count, points.size());
+  CHECK_NEAR(told, largest, 1e-14);
+}
+
 TEST(Model, RefusesByName) {
   const Model model = model_of(wave(false));
+  std::uint32_t of_node = 7;
+  CHECK_FAILS(planish_model_locate_nodes(model.get(), &of_node, nullptr, 1), PLANISH_STATUS_WRONG_KIND, -1, "no fit");
+  CHECK_EQUAL(of_node, 7u);
+  CHECK_EQUAL(planish_model_node_count(nullptr), 0u);
   planish_surface *surface = sentinel<planish_surface>();
   CHECK_FAILS(planish_model_copy_face(model.get(), 1, &surface), PLANISH_STATUS_INDEX, 1, "face 1");
   CHECK(surface == sentinel<planish_surface>());

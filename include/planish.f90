@@ -258,6 +258,8 @@ module planish_types
     procedure :: copy_loops => model_copy_loops
     procedure :: copy_pcurve => model_copy_pcurve
     procedure :: copy_vertices => model_copy_vertices
+    procedure :: node_count => model_node_count
+    procedure :: locate_nodes => model_locate_nodes
     procedure :: copy_shell => model_copy_shell
     procedure :: eval => model_eval
     procedure :: normals => model_normals
@@ -2333,6 +2335,33 @@ contains
     character(*), intent(inout), optional :: errmsg
     if (refuse_extent(size(points, 1, c_size_t), 3_c_size_t, "the first extent of points", stat, errmsg)) return
     call conclude(c_model_copy_vertices(self%get(), points, size(points, 2, c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> Number of nodes of the mesh that the model was fitted to.
+  integer(c_size_t) function model_node_count(self)
+    class(planish_model_t), intent(in) :: self
+    model_node_count = c_model_node_count(self%get())
+  end function
+
+  !> Where each node of the mesh lies that the model was fitted to: faces(n), 0 for a node without triangles, and
+  !> uv(2,n), n being node_count().
+  subroutine model_locate_nodes(self, faces, uv, stat, errmsg)
+    class(planish_model_t), intent(in) :: self
+    integer, intent(inout) :: faces(:)
+    real(c_double), intent(inout), contiguous :: uv(:, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t), allocatable :: found(:)
+    integer(c_size_t) :: count
+    integer(c_int) :: status
+    count = self%node_count()
+    if (refuse_extent(size(uv, 1, c_size_t), 2_c_size_t, "the first extent of uv", stat, errmsg)) return
+    if (refuse_short(size(uv, 2, c_size_t), count, "uv", stat, errmsg)) return
+    if (refuse_short(size(faces, kind=c_size_t), count, "faces", stat, errmsg)) return
+    allocate (found(count))
+    status = c_model_locate_nodes(self%get(), found, uv, count)
+    if (status >= 0) faces(:count) = found + 1
+    call conclude(status, stat, errmsg)
   end subroutine
 
   !> What a shell is, and its faces; info%void_in counts from 1, 0 stands for none.

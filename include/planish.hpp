@@ -1262,6 +1262,22 @@ class model {
     return points;
   }
 
+  /// Where the nodes of a mesh lie.
+  struct node_places {
+    /// Their faces; PLANISH_NONE for nodes without triangles.
+    std::vector<std::uint32_t> faces;
+    /// Their parameters; NaN for the same nodes.
+    std::vector<point2> uv;
+  };
+
+  /// Where each node of the mesh lies that the model was fitted to.
+  node_places locate_nodes() const {
+    const std::size_t count = planish_model_node_count(get());
+    node_places places{std::vector<std::uint32_t>(count), std::vector<point2>(count)};
+    detail::checked(planish_model_locate_nodes(get(), places.faces.data(), detail::flat(places.uv), count));
+    return places;
+  }
+
   /// What a shell is.
   planish_shell_info shell_info(std::size_t shell) const {
     auto info = detail::sized<planish_shell_info>();

@@ -25,6 +25,7 @@ class Face(NamedTuple):
     carrier: "spline", "plane" or "cylinder"; `origin`, `axis`, `x_axis` and `radius` say which.
     label: what the maker of the model calls it. is_forward: whether its front is where the surface's normal points.
     loops: the outer one first; each a list of (edge, is_forward) in order, the face on the left.
+    max_error, rms_error: of the `n_nodes` nodes of the fitted mesh on it; NaN without any.
     """
 
     carrier: str
@@ -36,6 +37,9 @@ class Face(NamedTuple):
     shell: int
     is_forward: bool
     loops: list[list[tuple[int, bool]]]
+    max_error: float
+    rms_error: float
+    n_nodes: int
 
 
 class Edge(NamedTuple):
@@ -127,7 +131,19 @@ class Model(Handle):
             _word("planish_carrier", info.carrier),
             *(tuple(info.origin), tuple(info.axis), tuple(info.x_axis), info.radius),
             *(info.label, info.shell, bool(info.is_forward), loops),
+            *(info.max_error, info.rms_error, info.node_count),
         )
+
+    @property
+    def n_nodes(self) -> int:
+        """Number of nodes of the mesh that the model was fitted to; 0 for a model that no fit made."""
+        return lib.planish_model_node_count(self)
+
+    def locate_nodes(self) -> tuple[np.ndarray, np.ndarray]:
+        """Where each node of the mesh that the model was fitted to lies: faces (n,) and parameters (n, 2)."""
+        faces, uv = np.empty(self.n_nodes, np.uint32), np.empty((self.n_nodes, 2))
+        call("planish_model_locate_nodes", self, pointer(faces), pointer(uv), len(faces))
+        return faces, uv
 
     def face_surface(self, index: int) -> Surface:
         """The surface under a face, its loops as trims; planes and cylinders become tensor surfaces."""

@@ -6,14 +6,19 @@ use super::arguments::{
 use super::curve::planish_curve;
 use super::guard::guard;
 use super::planish_status;
+use super::report::write_pairs;
 use super::status::query;
 use super::step::planish_step_options;
 use super::surface::planish_surface;
 use crate::Control;
 use crate::export::{native, step};
 use crate::fit::conversion::{ConversionOptions, to_model};
-use crate::model::{Carrier, EdgeId, Face, FaceId, Form, FormOptions, Measure, Model, Role, ShellId, Use};
+use crate::model::{
+    Carrier, EdgeId, Face, FaceId, Form, FormOptions, Measure, Model, ModelError, NodePlace, Role, ShellId,
+    Use,
+};
 use crate::surface::AnySurface;
+use glam::DVec2;
 use libc::{c_char, c_void};
 
 /// A model: faces, each a bounded part of a surface, that share edges and vertices. Made by
@@ -130,6 +135,12 @@ record! {
         pub shell: u32,
         /// 1 if its front is the side to which the normal of its surface points, else 0.
         pub is_forward: u32,
+        /// The largest distance between a node of the fitted mesh on the face and the model; NaN without such nodes.
+        pub max_error: f64,
+        /// Square root of the mean of its square; NaN without such nodes.
+        pub rms_error: f64,
+        /// Nodes of the fitted mesh on the face; 0 for a model that no fit made.
+        pub node_count: usize,
     }
 }
 
@@ -351,12 +362,16 @@ pub unsafe extern "C" fn planish_model_face_info(
         let model = model.core();
         let of_face = model.face(id);
         let shell = model.shells().iter().position(|shell| shell.faces.contains(&id));
+        let errors = model.face_errors(id);
         let mut filled = planish_face_info {
             loop_count: of_face.bounds.len(),
             coedge_count: coedge_count(of_face),
             label: of_face.label,
             shell: shell.map_or(PLANISH_NONE, |shell| shell as u32),
             is_forward: u32::from(of_face.is_forward),
+            max_error: errors.max,
+            rms_error: errors.rms,
+            node_count: errors.node_count,
             ..planish_face_info::default()
         };
         let (carrier, frame) = match model.carrier(id) {
@@ -551,6 +566,44 @@ pub unsafe extern "C" fn planish_model_copy_vertices(
         rows.chunks_exact_mut(3)
             .zip(vertices)
             .for_each(|(row, place)| row.copy_from_slice(&place.to_array()));
+        Ok(())
+    })
+}
+
+/// Number of nodes of the mesh that the model was fitted to; 0 for NULL and for a model that no fit made.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_model_node_count(model: *const planish_model) -> usize {
+    // SAFETY: the caller's promise.
+    unsafe { query_model(model, |model| Ok(model.core().origin().map_or(0, |origin| origin.nodes.len()))) }
+}
+
+/// Where each node of the mesh that a model was fitted to lies on the model. Copies and saved models know it too.
+///
+/// model:     not NULL, made by planish_model_fit().
+/// out_faces: receives the face of each node, PLANISH_NONE for a node without triangles; NULL for none.
+/// out_uv:    receives rows of u, v on the face's surface, NaN for such nodes; NULL for none.
+/// count:     nodes that both have room for, at least planish_model_node_count().
+/// Arrays: out_faces[model_node_count], out_uv[model_node_count, 2].
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND (no fit made the model) or
+/// PLANISH_STATUS_BUFFER_TOO_SMALL.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_model_locate_nodes(
+    model: *const planish_model,
+    out_faces: *mut u32,
+    out_uv: *mut f64,
+    count: usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let origin = deref(model, "model")?.core().origin().ok_or(ModelError::NotFitted)?;
+        let nodes = &origin.nodes;
+        let faces = rows_or_none(out_faces, count, nodes.len(), 1, "out_faces")?;
+        let uv = rows_or_none(out_uv, count, nodes.len(), 2, "out_uv")?;
+        let number = |node: &Option<NodePlace>| node.map_or(PLANISH_NONE, |node| node.face.index() as u32);
+        faces.into_iter().flatten().zip(nodes).for_each(|(to, node)| *to = number(node));
+        let places: Vec<DVec2> = nodes.iter().map(|node| node.map_or(DVec2::NAN, |node| node.uv)).collect();
+        uv.into_iter().for_each(|to| write_pairs(&places, to));
         Ok(())
     })
 }

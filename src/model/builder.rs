@@ -85,6 +85,8 @@ impl Builder {
             uses: Vec::new(),
             diagonal: 0.0,
             curve_deviation: 0.0,
+            origin: None,
+            face_errors: Vec::new(),
         };
         check_numbers(&model)?;
         check_ids(&model)?;

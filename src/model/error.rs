@@ -109,6 +109,9 @@ pub enum ModelError {
         /// The degree: so many are allowed.
         degree: usize,
     },
+    /// Nothing is known of where the model comes from.
+    #[error("no fit made the model, so it knows of no nodes")]
+    NotFitted,
     /// The face lies on a plane or cylinder.
     #[error("face {face} lies on no spline surface")]
     NoSpline {
@@ -177,7 +180,7 @@ impl Classify for ModelError {
             Self::Empty { .. } | Self::Collapsed { .. } | Self::Size { .. } => ErrorKind::Degenerate,
             // numbers overflow, or parameters are too close for double precision
             Self::Knots(_) | Self::Curve(_) | Self::Tensor(_) => ErrorKind::Degenerate,
-            Self::NoSpline { .. } => ErrorKind::WrongKind,
+            Self::NoSpline { .. } | Self::NotFitted => ErrorKind::WrongKind,
             Self::Trim(error) => error.kind(),
             Self::Convert(error) => error.kind(),
             _ => ErrorKind::Topology,

@@ -21,6 +21,7 @@ mod evaluate;
 mod measure;
 mod of_patches;
 mod of_surface;
+mod origin;
 mod project;
 #[cfg(test)]
 pub(crate) mod shapes;
@@ -36,6 +37,7 @@ pub use evaluate::{ModelEvalError, ModelValues};
 pub use measure::{Joint, Measure};
 pub use of_patches::{PatchModel, Patchwork, PlaneFace, Planes, Rim, RimVertex, of_patches};
 pub use of_surface::{CURVE_TOLERANCE, Form, FormOptions, of_parts, of_surface};
+pub use origin::{FaceErrors, NodePlace, Origin, PatchPiece};
 pub use project::{ModelFeet, ModelProjector};
 pub use tessellate::ModelTessellation;
 
@@ -43,6 +45,7 @@ use crate::curve::Curve;
 use crate::geometry::Domain;
 use crate::knots::KnotVector;
 use glam::{DVec2, DVec3};
+use std::sync::Arc;
 
 macro_rules! ids {
     ($($(#[$doc:meta])* $name:ident),+ $(,)?) => {$(
@@ -148,7 +151,7 @@ pub struct Use {
 }
 
 /// Faces, edges and vertices that are known to fit together.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Model {
     surfaces: Vec<Carrier>,
     vertices: Vec<DVec3>,
@@ -159,6 +162,23 @@ pub struct Model {
     uses: Vec<[Option<Use>; 2]>,
     diagonal: f64,
     curve_deviation: f64,
+    /// Where it comes from, if a fit made it.
+    origin: Option<Arc<Origin>>,
+    /// By face, if a fit made it.
+    face_errors: Vec<FaceErrors>,
+}
+
+/// What follows from the rest is not compared: errors of faces without nodes are NaN.
+impl PartialEq for Model {
+    fn eq(&self, other: &Self) -> bool {
+        self.surfaces == other.surfaces
+            && self.vertices == other.vertices
+            && self.edges == other.edges
+            && self.faces == other.faces
+            && self.shells == other.shells
+            && self.diagonal == other.diagonal
+            && self.origin == other.origin
+    }
 }
 
 impl Model {

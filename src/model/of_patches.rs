@@ -100,6 +100,17 @@ impl PatchModel {
         // places lie in [0,1]^2, which the rectangles cover
         faces.iter().find(holds).unwrap_or(&faces[0]).1
     }
+
+    /// For each face its piece and, in that, its quad.
+    pub fn patch_of_face(&self) -> Vec<Option<[u32; 2]>> {
+        let mut patches = vec![None; self.model.faces().len()];
+        for (piece, quads) in (0..).zip(&self.faces) {
+            for (quad, faces) in (0..).zip(quads) {
+                faces.iter().for_each(|&(_, face)| patches[face.index()] = Some([piece, quad]));
+            }
+        }
+        patches
+    }
 }
 
 /// The model of patches over layouts, a shell for each; cells of one face differ by at most `level_spread` levels.

@@ -15,16 +15,22 @@
 //!                       it, u64 1 if there is a p-curve, and then the p-curve as a curve
 //!                       for each shell: u64 0 open, 1 solid, 2 void, u64 the shell it is a void in (else 0), u64
 //!                       number of faces, the faces as u64
+//!                       for a model that a fit made, else nothing: u64 number of nodes; for each of them: u64 its
+//!                       face plus 1, or 0 for none, f64 x 3 u, v, error; u64 number of pieces of patches; for each of
+//!                       them: u64 number of quads; for each quad: u64 x 4 its corners, u64 x 4 the edges of its sides,
+//!                       u64 number of splits, u64 x 3 level, i, j of each cell that is split; and if there are pieces,
+//!                       for each face u64 x 2 its piece plus 1, or 0 for none, and quad
 //! ```
 
 use super::bytes::{Reader, Writer};
-use super::{LoadError, MODEL, Save, curve, tensor};
+use super::{LoadError, MODEL, Save, curve, pht, tensor};
 use crate::curve::Curve;
+use crate::layout::{Layout, Side};
 use crate::model::{
-    Builder, Carrier, Coedge, Cylinder, Edge, EdgeId, Face, FaceId, Frame, Loop, Model, Plane, Role, ShellId,
-    SurfaceId, VertexId,
+    Builder, Carrier, Coedge, Cylinder, Edge, EdgeId, Face, FaceId, Frame, Loop, Model, NodePlace, Origin,
+    PatchPiece, Plane, Role, ShellId, SurfaceId, VertexId,
 };
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 /// Bytes of a count, flag, number or double.
 const FIELD: usize = 8;
@@ -49,6 +55,7 @@ impl Save for Model {
             + self.edges().iter().map(|edge| 3 * FIELD + edge.curve.content_size()).sum::<usize>()
             + self.faces().iter().map(face).sum::<usize>()
             + self.shells().iter().map(|shell| (3 + shell.faces.len()) * FIELD).sum::<usize>()
+            + self.origin().map_or(0, origin_size)
     }
 
     fn write(&self, writer: &mut Writer) {
@@ -74,6 +81,43 @@ impl Save for Model {
             [role, solid, shell.faces.len()].into_iter().for_each(|number| writer.count(number));
             shell.faces.iter().for_each(|face| writer.count(face.index()));
         }
+        if let Some(origin) = self.origin() {
+            write_origin(origin, writer);
+        }
+    }
+}
+
+fn origin_size(origin: &Origin) -> usize {
+    let quads = |piece: &PatchPiece| piece.splits().iter().map(|splits| 9 + 3 * splits.len()).sum::<usize>();
+    let pieces = origin.pieces.iter().map(|piece| 1 + quads(piece)).sum::<usize>();
+    FIELD * (2 + 4 * origin.nodes.len() + pieces + 2 * origin.patch_of_face.len())
+}
+
+fn write_origin(origin: &Origin, writer: &mut Writer) {
+    writer.count(origin.nodes.len());
+    for node in &origin.nodes {
+        writer.count(node.map_or(0, |node| node.face.index() + 1));
+        writer.doubles(&node.map_or([0.0; 3], |node| [node.uv.x, node.uv.y, node.error]));
+    }
+    writer.count(origin.pieces.len());
+    for piece in &origin.pieces {
+        let layout = piece.layout();
+        writer.count(layout.quads().len());
+        for ((quad, corners), splits) in (0..).zip(layout.quads()).zip(piece.splits()) {
+            corners.iter().for_each(|&corner| writer.count(corner as usize));
+            (0..4).for_each(|side| writer.count(layout.edge_of(Side { quad, side }).edge as usize));
+            writer.count(splits.len());
+            for cell in splits {
+                [cell.level, cell.i, cell.j].into_iter().for_each(|number| writer.count(number as usize));
+            }
+        }
+    }
+    for patch in &origin.patch_of_face {
+        // 0 stands for none
+        patch
+            .map_or([0; 2], |[piece, quad]| [piece + 1, quad])
+            .iter()
+            .for_each(|&x| writer.count(x as usize));
     }
 }
 
@@ -150,7 +194,46 @@ pub(super) fn read(reader: &mut Reader) -> Result<Model, LoadError> {
         }
         builder.shell(faces, role);
     }
-    builder.finish().map_err(|error| reader.wrong(error.to_string()))
+    let model = builder.finish().map_err(|error| reader.wrong(error.to_string()))?;
+    if reader.end().is_ok() {
+        return Ok(model);
+    }
+    let origin = read_origin(reader, faces)?;
+    model.with_origin(origin).map_err(|error| reader.wrong(error.to_string()))
+}
+
+fn read_origin(reader: &mut Reader, face_count: usize) -> Result<Origin, LoadError> {
+    let (node_count, mut nodes) = (reader.count()?, Vec::new());
+    for _ in 0..node_count {
+        let face = reader.number()?.checked_sub(1).map(FaceId::new);
+        let [u, v, error] = [reader.double()?, reader.double()?, reader.double()?];
+        nodes.push(face.map(|face| NodePlace { face, uv: DVec2::new(u, v), error }));
+    }
+    let (piece_count, mut pieces) = (reader.count()?, Vec::new());
+    for _ in 0..piece_count {
+        pieces.push(read_patches(reader)?);
+    }
+    let mut patch_of_face = Vec::new();
+    for _ in 0..if pieces.is_empty() { 0 } else { face_count } {
+        let [piece, quad] = [reader.number()?, reader.number()?];
+        patch_of_face.push(piece.checked_sub(1).map(|piece| [piece, quad]));
+    }
+    Ok(Origin { nodes, pieces, patch_of_face })
+}
+
+fn read_patches(reader: &mut Reader) -> Result<PatchPiece, LoadError> {
+    let (count, mut quads, mut edges, mut splits) = (reader.count()?, Vec::new(), Vec::new(), Vec::new());
+    let four = |reader: &mut Reader| -> Result<[u32; 4], LoadError> {
+        Ok([reader.number()?, reader.number()?, reader.number()?, reader.number()?])
+    };
+    for _ in 0..count {
+        quads.push(four(reader)?);
+        edges.push(four(reader)?);
+        let count = reader.count()?;
+        splits.push(pht::read_splits(reader, count)?);
+    }
+    let layout = Layout::with_edges(&quads, &edges).map_err(|error| reader.wrong(error.to_string()))?;
+    PatchPiece::from_splits(layout, splits).map_err(|error| reader.wrong(error.to_string()))
 }
 
 fn read_place(reader: &mut Reader) -> Result<DVec3, LoadError> {

@@ -82,7 +82,7 @@ pub(super) fn read(reader: &mut Reader) -> Result<PhtSurface, LoadError> {
     Ok(surface)
 }
 
-fn read_splits(reader: &mut Reader, count: usize) -> Result<Vec<Cell>, LoadError> {
+pub(super) fn read_splits(reader: &mut Reader, count: usize) -> Result<Vec<Cell>, LoadError> {
     let mut splits = Vec::new();
     for _ in 0..count {
         let mut number = || {

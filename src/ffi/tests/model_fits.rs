@@ -69,7 +69,43 @@ fn a_ball_becomes_a_solid_and_every_node_finds_its_place() {
         ok(planish_mesh_copy_points(mesh.0, node.as_mut_ptr(), count));
         let miss: f64 = (0..3).map(|k| (point[k] - node[k]).powi(2)).sum::<f64>().sqrt();
         assert!((miss - errors[0]).abs() <= 1e-13, "{miss} {}", errors[0]);
+        check_origin(model, (&faces, &uv, &errors));
         planish_model_free(model);
+    }
+}
+
+/// A model, its copy, and what comes back from its bytes know where the nodes went, and how far they are off.
+unsafe fn check_origin(model: *const planish_model, (faces, uv, errors): (&[u32], &[f64], &[f64])) {
+    // SAFETY: a live model, arrays of the size of its mesh.
+    unsafe {
+        let (mut copy, mut loaded) = (null_mut(), null_mut());
+        ok(planish_model_clone(model, &mut copy));
+        let mut bytes = vec![0_u8; planish_model_save_size(model)];
+        ok(planish_model_save(model, bytes.as_mut_ptr().cast(), bytes.len()));
+        ok(planish_model_load(bytes.as_ptr().cast(), bytes.len(), &mut loaded));
+        for model in [model, copy, loaded] {
+            let count = planish_model_node_count(model);
+            assert_eq!(count, faces.len());
+            let (mut of_nodes, mut places) = (vec![0; count], vec![0.0; 2 * count]);
+            ok(planish_model_locate_nodes(model, of_nodes.as_mut_ptr(), places.as_mut_ptr(), count));
+            assert_eq!((of_nodes.as_slice(), places.as_slice()), (faces, uv));
+            let status = planish_model_locate_nodes(model, of_nodes.as_mut_ptr(), null_mut(), count - 1);
+            refused(status, planish_status::BufferTooSmall, -1, &["out_faces"]);
+            for face in 0..planish_model_face_count(model) {
+                let mut info = planish_face_info::default();
+                ok(planish_model_face_info(model, face, &mut info));
+                let of_face = || faces.iter().zip(errors).filter(|(at, _)| **at as usize == face);
+                assert_eq!(info.node_count, of_face().count());
+                let largest = of_face().map(|(_, &error)| error).fold(f64::NAN, f64::max);
+                assert_eq!(info.max_error.to_bits(), largest.to_bits());
+                assert!(!(info.rms_error > info.max_error));
+            }
+        }
+        let mut again = vec![0_u8; bytes.len()];
+        ok(planish_model_save(loaded, again.as_mut_ptr().cast(), again.len()));
+        assert!(again == bytes, "what is loaded is saved as it was");
+        planish_model_free(copy);
+        planish_model_free(loaded);
     }
 }
 

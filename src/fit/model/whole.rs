@@ -17,7 +17,10 @@ use crate::fit::pht::{self, PhtOptions};
 use crate::layout::Layout;
 use crate::layout::of_mesh::{LayoutKind, MeshLayout, MeshLayoutError, MeshLayoutOptions, layout_of_mesh};
 use crate::mesh::Mesh;
-use crate::model::{FaceId, Form, FormOptions, Model, PatchModel, Patchwork, of_patches, of_surface};
+use crate::model::{
+    FaceId, Form, FormOptions, Model, NodePlace, Origin, PatchModel, PatchPiece, Patchwork, of_patches,
+    of_surface,
+};
 use crate::parameterize::sphere::{SphereOptions, map_to_sphere};
 use crate::summary::summarize;
 use crate::surface::AnySurface;
@@ -90,6 +93,19 @@ pub struct Piece {
     pub layout: Layout,
     /// One for each quad.
     pub surfaces: Vec<PhtSurface>,
+}
+
+impl Piece {
+    /// What its smooth space is built over.
+    fn origin(&self) -> PatchPiece {
+        PatchPiece::new(self.layout.clone(), self.surfaces.iter().map(PhtSurface::mesh))
+    }
+}
+
+/// Where the nodes went, for the model to keep.
+fn origins(places: &[Option<(FaceId, DVec2)>], errors: &[f64]) -> Vec<Option<NodePlace>> {
+    let keep = |(place, &error): (&Option<_>, _)| place.map(|(face, uv)| NodePlace { face, uv, error });
+    places.iter().zip(errors).map(keep).collect()
 }
 
 /// A model with all that is known of it.
@@ -176,7 +192,13 @@ fn patches(
         }
     }
     let report = together(mesh, &components, &errors);
-    Ok(ModelFit { model: stitched.model, pieces, places, errors, components, report, seconds: 0.0 })
+    let origin = Origin {
+        nodes: origins(&places, &errors),
+        pieces: pieces.iter().map(Piece::origin).collect(),
+        patch_of_face: stitched.patch_of_face(),
+    };
+    let model = stitched.model.with_origin(origin)?;
+    Ok(ModelFit { model, pieces, places, errors, components, report, seconds: 0.0 })
 }
 
 type Component = (Piece, LayoutFit, ComponentReport);
@@ -338,7 +360,7 @@ fn chart(mesh: &Mesh, options: &MeshModelOptions, control: &mut Control) -> Resu
         let holds = |&face: &FaceId| model.carrier(face).domain().is_some_and(|domain| domain.contains(uv));
         model.face_ids().find(holds)
     };
-    let places = (0..mesh.points().len() as u32)
+    let places: Vec<Option<(FaceId, DVec2)>> = (0..mesh.points().len() as u32)
         .zip(&fit.parameters)
         .map(|(node, &uv)| Some((face_at(uv).filter(|_| mesh.is_used(node))?, uv)))
         .collect();
@@ -354,6 +376,8 @@ fn chart(mesh: &Mesh, options: &MeshModelOptions, control: &mut Control) -> Resu
         fit: report.clone(),
     };
     let components = vec![component];
+    let nodes = origins(&places, &fit.errors);
+    let model = model.with_origin(Origin { nodes, pieces: Vec::new(), patch_of_face: Vec::new() })?;
     Ok(ModelFit { model, pieces: Vec::new(), places, errors: fit.errors, components, report, seconds: 0.0 })
 }
 
