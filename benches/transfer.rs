@@ -6,7 +6,7 @@
 
 use glam::DVec2;
 use planish::Control;
-use planish::fit::field::transfer::{Transfer, TransferOptions};
+use planish::fit::field::transfer::{Carry, Transfer, TransferOptions};
 use planish::fit::field::{FieldGrid, FieldOptions};
 use planish::mesh::Mesh;
 use planish::samples::{cylinder_patch, franke};

@@ -209,7 +209,8 @@ module planish_types
     procedure :: new => curve_new
     procedure, private :: fit_rows => curve_fit_rows
     procedure, private :: fit_scalars => curve_fit_scalars
-    generic :: fit => fit_rows, fit_scalars
+    procedure, private :: fit_model_rows => field_fitter_fit_model
+    generic :: fit => fit_rows, fit_scalars, fit_model_rows
     procedure :: dim => curve_dim
     procedure :: degree => curve_degree
     procedure :: knot_count => curve_knot_count
@@ -246,6 +247,7 @@ module planish_types
     procedure :: get => model_get
     procedure :: take => model_take
     procedure :: from_surface => model_from_surface
+    procedure :: dim => model_dim
     procedure :: face_count => model_face_count
     procedure :: edge_count => model_edge_count
     procedure :: vertex_count => model_vertex_count
@@ -262,6 +264,7 @@ module planish_types
     procedure :: locate_nodes => model_locate_nodes
     procedure :: copy_shell => model_copy_shell
     procedure :: eval => model_eval
+    procedure :: field_gradient => model_field_gradient
     procedure :: normals => model_normals
     procedure :: curvatures => model_curvatures
     procedure :: project => model_project
@@ -286,7 +289,8 @@ module planish_types
   contains
     procedure, private :: new_mesh => field_fitter_new_mesh
     procedure, private :: new_points => field_fitter_new_points
-    generic :: new => new_mesh, new_points
+    procedure, private :: new_model => field_fitter_new_model
+    generic :: new => new_mesh, new_points, new_model
     procedure, private :: assign => field_fitter_assign
     generic :: assignment(=) => assign
     procedure :: free => field_fitter_free
@@ -309,7 +313,9 @@ module planish_types
     private
     class(transfer_owner), allocatable :: owner
   contains
-    procedure :: new => transfer_new
+    procedure, private :: new_mesh => transfer_new
+    procedure, private :: new_model => transfer_new_model
+    generic :: new => new_mesh, new_model
     procedure, private :: assign => transfer_assign
     generic :: assignment(=) => assign
     procedure :: free => transfer_free
@@ -2337,6 +2343,33 @@ contains
     call conclude(c_model_copy_vertices(self%get(), points, size(points, 2, c_size_t)), stat, errmsg)
   end subroutine
 
+  !> Numbers of a place: 3, or those of a value for a field over the faces of a model.
+  integer(c_size_t) function model_dim(self)
+    class(planish_model_t), intent(in) :: self
+    model_dim = c_model_dim(self%get())
+  end function
+
+  !> gradients(:,k,i): the gradient in space of component k of a field over the faces of this model, at uv(:,i) on
+  !> faces(i).
+  subroutine model_field_gradient(self, field, faces, uv, gradients, stat, errmsg)
+    class(planish_model_t), intent(in) :: self
+    class(planish_model_t), intent(in) :: field
+    integer, intent(in) :: faces(:)
+    real(c_double), intent(in), contiguous :: uv(:, :)
+    real(c_double), intent(inout), contiguous :: gradients(:, :, :)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_gradient_options) :: options
+    if (refuse_model_points(faces, uv, size(gradients, 3, c_size_t), stat, errmsg)) return
+    if (refuse_extent(size(gradients, 1, c_size_t), 3_c_size_t, "the first extent of gradients", stat, errmsg)) return
+    if (field%dim() > 0) then ! of no field the library says so
+      if (refuse_extent(size(gradients, 2, c_size_t), field%dim(), "the second extent of gradients", &
+          stat, errmsg)) return
+    end if
+    call conclude(c_model_field_gradient(self%get(), field%get(), int(faces, c_int32_t) - 1_c_int32_t, uv, &
+        size(uv, 2, c_size_t), options, gradients), stat, errmsg)
+  end subroutine
+
   !> Number of nodes of the mesh that the model was fitted to.
   integer(c_size_t) function model_node_count(self)
     class(planish_model_t), intent(in) :: self
@@ -4053,6 +4086,33 @@ contains
     call conclude(status, stat, errmsg)
   end subroutine
 
+  !> The same for fields on the nodes of the mesh that a model of patches was fitted to; fit() then gives a model of
+  !> dimension dim.
+  subroutine field_fitter_new_model( &
+      self, model, mesh, options, weights, mask, sample_values, progress, stat, errmsg)
+    class(planish_field_fitter_t), intent(inout) :: self
+    class(planish_model_t), intent(in) :: model
+    class(planish_mesh_t), intent(in) :: mesh
+    type(planish_field_options), intent(in), optional :: options
+    real(c_double), intent(in), optional, target, contiguous :: weights(:), sample_values(:, :)
+    logical, intent(in), optional :: mask(:)
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_field_options) :: call_options
+    type(planish_parameterize_options), target :: map
+    type(listener), target :: user
+    integer(c_int8_t), allocatable, target :: has_values(:)
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    if (present(options)) call_options = options
+    if (refuse_nodes(call_options, map, user, has_values, mesh%point_count(), weights=weights, mask=mask, &
+        sample_values=sample_values, progress=progress, stat=stat, errmsg=errmsg)) return
+    status = c_field_fitter_new_model(model%get(), mesh%get(), call_options, handle)
+    if (status >= 0) call self%take(handle)
+    call conclude(status, stat, errmsg)
+  end subroutine
+
   !> The same for fields at parameters uv(2,n).
   subroutine field_fitter_new_points(self, uv, options, weights, mask, sample_values, progress, stat, errmsg)
     class(planish_field_fitter_t), intent(inout) :: self
@@ -4188,6 +4248,22 @@ contains
     status = c_field_fitter_fit( &
         self%get(), values, size(values, 2, c_size_t), size(values, 1, c_size_t), handle, report)
     if (status >= 0) call surface%take(handle)
+    call conclude_fit(status, report, stat, errmsg)
+  end subroutine
+
+  !> Fits values(dim,n), one a node, over the faces of a model: field is a model of dimension dim.
+  subroutine field_fitter_fit_model(self, values, field, report, stat, errmsg)
+    class(planish_field_fitter_t), intent(in) :: self
+    real(c_double), intent(in), contiguous :: values(:, :)
+    class(planish_model_t), intent(inout) :: field
+    type(planish_fit_report), intent(inout), optional :: report
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    status = c_field_fitter_fit_model( &
+        self%get(), values, size(values, 2, c_size_t), size(values, 1, c_size_t), handle, report)
+    if (status >= 0) call field%take(handle)
     call conclude_fit(status, report, stat, errmsg)
   end subroutine
 
@@ -4437,6 +4513,41 @@ contains
         sample_values, progress, stat, errmsg)) return
     call_options%field = c_loc(field_options)
     status = c_transfer_new(source%get(), targets, size(targets, 2, c_size_t), call_options, handle, report)
+    if (status >= 0) call self%take(handle)
+    if (status >= 0 .and. present(report)) report%farthest_index = report%farthest_index + 1
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> The same from the nodes of the mesh that a model of patches was fitted to.
+  subroutine transfer_new_model(self, model, source, targets, options, field, weights, mask, sample_values, &
+      progress, report, stat, errmsg)
+    class(planish_transfer_t), intent(inout) :: self
+    class(planish_model_t), intent(in) :: model
+    class(planish_mesh_t), intent(in) :: source
+    real(c_double), intent(in), contiguous :: targets(:, :)
+    type(planish_transfer_options), intent(in), optional :: options
+    type(planish_field_options), intent(in), optional :: field
+    real(c_double), intent(in), optional, target, contiguous :: weights(:), sample_values(:, :)
+    logical, intent(in), optional :: mask(:)
+    procedure(planish_progress), optional :: progress
+    type(planish_transfer_report), intent(inout), optional :: report
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_transfer_options) :: call_options
+    type(planish_field_options), target :: field_options
+    type(planish_parameterize_options), target :: map
+    type(listener), target :: user
+    integer(c_int8_t), allocatable, target :: has_values(:)
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    if (present(options)) call_options = options
+    if (present(field)) field_options = field
+    if (refuse_extent(size(targets, 1, c_size_t), 3_c_size_t, "the first extent of targets", stat, errmsg)) return
+    if (refuse_nodes(field_options, map, user, has_values, source%point_count(), weights=weights, mask=mask, &
+        sample_values=sample_values, progress=progress, stat=stat, errmsg=errmsg)) return
+    call_options%field = c_loc(field_options)
+    status = c_transfer_new_model(model%get(), source%get(), targets, size(targets, 2, c_size_t), call_options, &
+        handle, report)
     if (status >= 0) call self%take(handle)
     if (status >= 0 .and. present(report)) report%farthest_index = report%farthest_index + 1
     call conclude(status, stat, errmsg)

@@ -1187,6 +1187,8 @@ class model {
   /// Gives the handle up; the caller destroys it.
   planish_model *release() noexcept { return handle_.release(); }
 
+  /// Numbers of a place: 3, or those of a value for a field over the faces of a model.
+  std::size_t dim() const noexcept { return planish_model_dim(get()); }
   /// Number of faces.
   std::size_t face_count() const noexcept { return planish_model_face_count(get()); }
   /// Number of edges; one between two faces counts once.
@@ -1300,16 +1302,27 @@ class model {
   }
 
   /// Values and derivatives up to `max_derivative` (at most 2) at parameters on faces: for each point the rows S; Su,
-  /// Sv; Suu, Suv, Svv of 3 numbers.
+  /// Sv; Suu, Suv, Svv of dim() numbers.
   std::vector<double> eval(const values<std::uint32_t> &faces, const rows<double, 2> &uv,
                            std::uint32_t max_derivative = 0,
                            const planish_eval_options &options = defaults<planish_eval_options>()) const {
     constexpr std::size_t row_counts[3] = {1, 3, 6};
-    const std::size_t width = 3 * row_counts[std::min<std::uint32_t>(max_derivative, 2)]; // the call refuses more
+    const std::size_t width = dim() * row_counts[std::min<std::uint32_t>(max_derivative, 2)]; // the call refuses more
     detail::check_rows(faces.count(), uv.count(), 1);
     return detail::filled(uv.count(), width, options, [&](double *out) {
       return planish_model_eval(get(), faces.data(), uv.data(), uv.count(), max_derivative, &options, out);
     });
+  }
+
+  /// The gradients in space of a field over the faces of this model, at parameters on faces: for each point
+  /// field.dim() rows of 3 numbers.
+  std::vector<double> field_gradient(const model &field, const values<std::uint32_t> &faces,
+                                     const rows<double, 2> &uv) const {
+    detail::check_rows(faces.count(), uv.count(), 1);
+    std::vector<double> gradients(3 * field.dim() * uv.count());
+    detail::checked(planish_model_field_gradient(get(), field.get(), faces.data(), uv.data(), uv.count(), nullptr,
+                                                 gradients.data()));
+    return gradients;
   }
 
   /// Unit normals at parameters on faces, out of the fronts of the faces.
@@ -1545,6 +1558,16 @@ inline fitted pht_fit(const mesh &mesh, const planish_pht_options &options = def
     return planish_pht_fit(mesh.get(), given, out, report);
   });
 }
+
+/// What came of fitting a field over the faces of a model.
+struct fitted_field {
+  /// A model of dimension dim with the faces of the one that it was fitted over.
+  planish::model model;
+  /// How good it is.
+  planish_fit_report report;
+  /// PLANISH_STATUS_OK or PLANISH_STATUS_TOLERANCE_NOT_MET.
+  planish_status status;
+};
 
 /// What came of making a model of a mesh.
 struct fitted_model {
@@ -1946,6 +1969,14 @@ class field_fitter {
     handle_.reset(made);
   }
 
+  /// For fields on the nodes of the mesh that a model of patches was fitted to; fit_model() fits them.
+  field_fitter(const model &model, const mesh &mesh,
+               const planish_field_options &options = defaults<planish_field_options>()) {
+    planish_field_fitter *made = nullptr;
+    detail::checked(planish_field_fitter_new_model(model.get(), mesh.get(), &options, &made));
+    handle_.reset(made);
+  }
+
   /// The handle, for calls of planish.h; it stays this object's.
   const planish_field_fitter *get() const noexcept { return handle_.get(); }
 
@@ -1973,6 +2004,15 @@ class field_fitter {
     const planish_status status =
         detail::checked(planish_field_fitter_fit(get(), field.data(), rows_of(field, dim), dim, &made, &report));
     return {surface(made), report, status};
+  }
+
+  /// Fits rows of dim numbers, one a node, over the faces of a model, and measures the result.
+  fitted_field fit_model(const values<double> &field, std::size_t dim) const {
+    planish_model *made = nullptr;
+    auto report = detail::sized<planish_fit_report>();
+    const planish_status status = detail::checked(
+        planish_field_fitter_fit_model(get(), field.data(), rows_of(field, dim), dim, &made, &report));
+    return {model(made), report, status};
   }
 
   /// Turns a surface of fit() into that of other values, in its place, without measuring it.
@@ -2005,6 +2045,16 @@ class transfer {
     planish_transfer *made = nullptr;
     detail::checked(
         planish_transfer_new(source.get(), targets.data(), targets.count(), &options, &made, &report_));
+    handle_.reset(made);
+  }
+
+  /// From the nodes of the mesh that a model of patches was fitted to, to points near it.
+  transfer(const model &model, const mesh &source, const rows<double, 3> &targets,
+           const planish_transfer_options &options = defaults<planish_transfer_options>())
+      : report_(detail::sized<planish_transfer_report>()) {
+    planish_transfer *made = nullptr;
+    detail::checked(planish_transfer_new_model(model.get(), source.get(), targets.data(), targets.count(), &options,
+                                               &made, &report_));
     handle_.reset(made);
   }
 

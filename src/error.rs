@@ -19,7 +19,7 @@ use crate::knots::KnotError;
 use crate::layout::LayoutError;
 use crate::layout::of_mesh::MeshLayoutError;
 use crate::mesh::{CutError, DecimateError, FeatureError, MeshError, ReadError};
-use crate::model::{ModelError, ModelEvalError};
+use crate::model::{FieldGradientError, ModelError, ModelEvalError};
 use crate::parameterize::ParameterizeError;
 use crate::parameterize::sphere::SphereError;
 use crate::query::deviation::DeviationError;
@@ -102,6 +102,8 @@ union! {
     Deviation(DeviationError),
     /// Gradients cannot be computed.
     Gradient(GradientError),
+    /// Gradients over a model cannot be computed.
+    FieldGradient(FieldGradientError),
     /// Points cannot be projected.
     Project(ProjectError),
     /// Rows of points cannot be taken from a mesh.

@@ -5,7 +5,12 @@
 mod common;
 
 use planish::Control;
+use planish::fit::field::FieldOptions;
+use planish::fit::found_grid::SampleField;
+use planish::fit::model::field::ModelFieldFitter;
 use planish::fit::model::{MeshModelOptions, fit_mesh};
+use planish::fit::report::Tolerance;
+use planish::surface::Surface;
 
 #[test]
 fn real_meshes_become_solids_within_the_tolerance() {
@@ -27,5 +32,40 @@ fn real_meshes_become_solids_within_the_tolerance() {
         assert!((report.volume / report.mesh_volume - 1.0).abs() <= 1e-3, "{name}: {}", report.volume);
         assert_eq!(fit.model.free_edge_count(), 0, "{name}");
         assert_eq!(fit.components[0].genus, mesh.genus(), "{name}");
+    }
+}
+
+#[test]
+fn fields_on_a_closed_brain_are_followed() {
+    let Some(mesh) = common::mesh("brain_pial_10k_fields.ply") else { return };
+    assert!(mesh.loops().is_empty(), "it is not cut open");
+    let model = fit_mesh(&mesh, &MeshModelOptions::default(), &mut Control::new(2)).unwrap().model;
+    let origin = model.origin().unwrap();
+    for name in ["thickness", "curvature"] {
+        let values = mesh.field(name).unwrap();
+        let tolerance = Tolerance { value: 0.1, ..Default::default() };
+        let options = FieldOptions::default().with_tolerance(tolerance);
+        let sample = Some(SampleField { values, dim: 1 });
+        let fitter = ModelFieldFitter::new(&model, &mesh, &options, sample, &mut Control::new(2)).unwrap();
+        let field = fitter.fit(values, 1).unwrap();
+        let report = fitter.measure(&field, values, 1).unwrap();
+        let mut largest: f64 = 0.0;
+        for ((node, value), told) in origin.nodes.iter().zip(values).zip(&report.errors) {
+            let node = node.unwrap();
+            let mut row = [0.0];
+            field.of_face(node.face).eval_rows(&[node.uv], 0, &mut row);
+            assert!(((row[0] - value).abs() - told).abs() <= 1e-12 * report.fit.diagonal);
+            largest = largest.max((row[0] - value).abs());
+        }
+        eprintln!(
+            "{name}: {} cells, {} control points, error {:.3e} of {:.3e}, rms {:.3e}",
+            report.fit.cell_count,
+            report.fit.coefficient_count,
+            largest,
+            report.fit.diagonal,
+            report.fit.rms_error
+        );
+        assert_eq!(largest, report.fit.max_error);
+        assert!(report.fit.max_error <= report.fit.tolerance, "{name}: {}", report.fit.max_error);
     }
 }

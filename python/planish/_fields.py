@@ -10,6 +10,7 @@ import numpy as np
 from ._calls import LongCall, ProgressCallback
 from ._library import OUT, Handle, InvalidError, array, call, lib, made, output, pointer, read_only
 from ._mesh import Mesh
+from ._model import Model
 from ._records import Report, by_reference, options, report_record
 from ._surface import Surface
 
@@ -25,7 +26,9 @@ def _rows(values: Any, count: int, what: str) -> tuple[np.ndarray, int]:
 class FieldFitter(Handle):
     """Fits fields on the nodes of one mesh, or at the same parameters: grid, factorization and threads are kept.
 
-    ``FieldFitter(mesh)`` or ``FieldFitter(uv=parameters)``; options: those of `planish_field_options`.
+    ``FieldFitter(mesh)`` or ``FieldFitter(uv=parameters)``, or ``FieldFitter(mesh, model=model)`` for a mesh that a model
+    of patches was fitted to: then `fit` gives a `Model` of values over the faces. options: those of
+    `planish_field_options`.
     """
 
     _free = "planish_field_fitter_free"
@@ -35,15 +38,18 @@ class FieldFitter(Handle):
         mesh: Mesh | None = None,
         *,
         uv: Any = None,
+        model: Model | None = None,
         progress: ProgressCallback | None = None,
         **field_options: Any,
     ):
-        if (mesh is None) == (uv is None):
-            raise TypeError("a FieldFitter is made for a mesh or for parameters uv")
-        self._made_by = (mesh, None if uv is None else np.array(uv, float), field_options)
+        if (mesh is None) == (uv is None) or (mesh is None and model is not None):
+            raise TypeError("a FieldFitter is made for a mesh, with or without its model, or for parameters uv")
+        self._made_by = (mesh, None if uv is None else np.array(uv, float), model, field_options)
         long = LongCall(progress)
         record = by_reference(options("field_options", field_options, **long.fields("field_options")))
-        if mesh is not None:
+        if model is not None:
+            _, handle = made("planish_field_fitter_new_model", model, mesh, record, OUT, run=long)
+        elif mesh is not None:
             _, handle = made("planish_field_fitter_new", mesh, record, OUT, run=long)
         else:
             uv = array(uv, width=2, what="uv")
@@ -69,11 +75,16 @@ class FieldFitter(Handle):
         call("planish_field_fitter_copy_parameters", self, pointer(uv), len(uv))
         return read_only(uv)
 
-    def fit(self, values: Any) -> Surface:
-        """The field of values (n,) or (n, dim) as a surface; its `report` tells how well."""
+    def fit(self, values: Any) -> Surface | Model:
+        """The field of values (n,) or (n, dim) as a surface, or over the faces of the model; its `report` tells how well."""
         values, dim = _rows(values, self.n_points, "values")
         report = report_record("fit_report")
         arguments = (self, pointer(values), self.n_points, dim, OUT, by_reference(report))
+        if self._made_by[2] is not None:
+            status, handle = made("planish_field_fitter_fit_model", *arguments)
+            field = Model._own(handle)
+            field.report = Report(report, status)
+            return field
         status, handle = made("planish_field_fitter_fit", *arguments)
         return Surface._own(handle, Report(report, status))
 
@@ -83,34 +94,42 @@ class FieldFitter(Handle):
         call("planish_field_fitter_update", self, field, pointer(values), self.n_points, dim)
 
     def __reduce__(self):
-        mesh, uv, field_options = self._made_by
-        return _fitter, (mesh, uv, field_options)
+        return _fitter, self._made_by
 
 
-def _fitter(mesh: Mesh | None, uv: np.ndarray | None, field_options: dict[str, Any]) -> FieldFitter:
-    return FieldFitter(mesh, uv=uv, **field_options)
+def _fitter(
+    mesh: Mesh | None, uv: np.ndarray | None, model: Model | None, field_options: dict[str, Any]
+) -> FieldFitter:
+    return FieldFitter(mesh, uv=uv, model=model, **field_options)
 
 
 class Transfer(Handle):
     """Carries values from the nodes of a mesh to target points, and forces on these back to the nodes.
 
-    targets: (m, 3) points; options: those of `planish_transfer_options`.
+    targets: (m, 3) points; model: one of patches that was fitted to the mesh, for meshes that are no disk; options: those
+    of `planish_transfer_options`.
     """
 
     _free = "planish_transfer_free"
 
     def __init__(
-        self, source: Mesh, targets: Any, *, progress: ProgressCallback | None = None, **transfer_options: Any
+        self,
+        source: Mesh,
+        targets: Any,
+        *,
+        model: Model | None = None,
+        progress: ProgressCallback | None = None,
+        **transfer_options: Any,
     ):
         targets = array(targets, width=3, what="targets")
         long = LongCall(progress)
         report = report_record("transfer_report")
         record = options("transfer_options", transfer_options, **long.fields("transfer_options"))
-        status, handle = made(
-            "planish_transfer_new",
-            *(source, pointer(targets), len(targets), by_reference(record), OUT, by_reference(report)),
-            run=long,
-        )
+        arguments = (source, pointer(targets), len(targets), by_reference(record), OUT, by_reference(report))
+        if model is None:
+            status, handle = made("planish_transfer_new", *arguments, run=long)
+        else:
+            status, handle = made("planish_transfer_new_model", model, *arguments, run=long)
         super().__init__(handle)
         self.report = Report(report, status)
 

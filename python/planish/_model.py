@@ -89,6 +89,11 @@ class Model(Handle):
         return model
 
     @property
+    def dim(self) -> int:
+        """Numbers of a place: 3, or those of a value for a field over the faces of a model."""
+        return lib.planish_model_dim(self)
+
+    @property
     def n_faces(self) -> int:
         """Number of faces."""
         return lib.planish_model_face_count(self)
@@ -180,15 +185,22 @@ class Model(Handle):
     # evaluation and queries
 
     def eval(self, faces: Any, uv: Any, **eval_options: Any) -> np.ndarray:
-        """Places (..., 3) at parameters (..., 2) of faces (...), by number."""
+        """Places (..., dim) at parameters (..., 2) of faces (...), by number."""
         return self.derivatives(faces, uv, 0, **eval_options)[..., 0, :]
 
     def derivatives(self, faces: Any, uv: Any, order: int = 1, **eval_options: Any) -> np.ndarray:
-        """S, Su, Sv, Suu, Suv, Svv up to `order` at parameters (..., 2) of faces (...): an array (..., rows, 3)."""
+        """S, Su, Sv, Suu, Suv, Svv up to `order` at parameters (..., 2) of faces (...): an array (..., rows, dim)."""
         rows = (order + 1) * (order + 2) // 2
         arguments, shape, record = self._places(faces, uv, eval_options)
-        out = np.empty(shape + (rows, 3))
+        out = np.empty(shape + (rows, self.dim))
         call("planish_model_eval", *arguments, order, record, pointer(out))
+        return out
+
+    def field_gradient(self, field: Model, faces: Any, uv: Any) -> np.ndarray:
+        """Gradients in space (..., field.dim, 3) of a field over the faces, at parameters (..., 2) of faces (...)."""
+        arguments, shape, _ = self._places(faces, uv, {})
+        out = np.empty(shape + (field.dim, 3))
+        call("planish_model_field_gradient", self, field, *arguments[1:], None, pointer(out))
         return out
 
     def normals(self, faces: Any, uv: Any, **eval_options: Any) -> np.ndarray:

@@ -55,6 +55,8 @@ pub(super) enum ArgumentError {
     Reserved { record: &'static str, given: u32 },
     #[error("the surface is of the family {found:?}, this call needs {needed:?}")]
     WrongKind { found: Kind, needed: Kind },
+    #[error("{name} is {found}, this call needs {needed}")]
+    OtherKind { name: &'static str, found: &'static str, needed: &'static str },
     #[error("the surface is of the family {found:?}, which has no patches")]
     NoPatches { found: Kind },
     #[error("the surface is of the family {found:?}, which has no control net")]
@@ -77,9 +79,10 @@ impl ArgumentError {
             Self::RecordVersion { .. } | Self::Reserved { .. } | Self::Version { .. } => {
                 planish_status::Version
             }
-            Self::WrongKind { .. } | Self::NoPatches { .. } | Self::NoControlNet { .. } => {
-                planish_status::WrongKind
-            }
+            Self::WrongKind { .. }
+            | Self::OtherKind { .. }
+            | Self::NoPatches { .. }
+            | Self::NoControlNet { .. } => planish_status::WrongKind,
             Self::OutOfMemory { .. } => planish_status::OutOfMemory,
             _ => planish_status::InvalidArgument,
         }

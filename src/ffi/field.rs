@@ -6,6 +6,7 @@ use super::arguments::{
 };
 use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;
+use super::model::planish_model;
 use super::progress::{thread_count, with_control};
 use super::report::{gravest, planish_fit_report, write_pairs};
 use super::status::query;
@@ -17,6 +18,7 @@ use crate::fit::common::FitError;
 use crate::fit::common::uniform::{Ends, Energy};
 use crate::fit::field::{FieldError, FieldFitter, FieldGrid, FieldNodes, FieldOptions};
 use crate::fit::found_grid::{self, SampleField};
+use crate::fit::model::field::ModelFieldFitter;
 use crate::fit::report::{Tolerance, ToleranceScale};
 use crate::mesh::Mesh;
 use crate::query::gradient::{field_gradient, piece_count};
@@ -28,7 +30,49 @@ use libc::c_void;
 /// are kept. Made by planish_field_fitter_new(), destroyed by planish_field_fitter_free().
 ///
 /// Calls that take it const may run at once on any threads.
-pub struct planish_field_fitter(FieldFitter);
+pub struct planish_field_fitter(Fitter);
+
+#[allow(clippy::large_enum_variant, reason = "one for each handle")]
+enum Fitter {
+    /// Over a parameter plane.
+    Plane(FieldFitter),
+    /// Over the patches of a model.
+    Patches(ModelFieldFitter),
+}
+
+impl planish_field_fitter {
+    fn into_raw(fitter: Fitter) -> *mut Self {
+        Box::into_raw(Box::new(Self(fitter)))
+    }
+
+    fn plane(&self) -> Result<&FieldFitter, ArgumentError> {
+        match &self.0 {
+            Fitter::Plane(fitter) => Ok(fitter),
+            Fitter::Patches(_) => {
+                let (found, needed) = ("one over the patches of a model", "one over a parameter plane");
+                Err(ArgumentError::OtherKind { name: "fitter", found, needed })
+            }
+        }
+    }
+
+    fn patches(&self) -> Result<&ModelFieldFitter, ArgumentError> {
+        match &self.0 {
+            Fitter::Patches(fitter) => Ok(fitter),
+            Fitter::Plane(_) => {
+                let (found, needed) =
+                    ("one over a parameter plane", "one of planish_field_fitter_new_model()");
+                Err(ArgumentError::OtherKind { name: "fitter", found, needed })
+            }
+        }
+    }
+
+    fn node_count(&self) -> usize {
+        match &self.0 {
+            Fitter::Plane(fitter) => fitter.node_count(),
+            Fitter::Patches(fitter) => fitter.node_count(),
+        }
+    }
+}
 
 const _: () = {
     const fn is_shared<T: Send + Sync>() {}
@@ -177,7 +221,7 @@ pub unsafe extern "C" fn planish_field_fitter_new(
         let fitter = with_field_options(given, mesh.points().len(), |core, sample, control| {
             fitter_on_mesh(mesh, core, sample, control)
         })??;
-        out_fitter.write(Box::into_raw(Box::new(planish_field_fitter(fitter))));
+        out_fitter.write(planish_field_fitter::into_raw(Fitter::Plane(fitter)));
         Ok(())
     })
 }
@@ -206,7 +250,41 @@ pub unsafe extern "C" fn planish_field_fitter_new_points(
             None => FieldFitter::at(&uv, core, control),
             Some(sample) => found_grid::fitter(FieldNodes::at(&uv, core)?, &sample, core, control),
         })??;
-        out_fitter.write(Box::into_raw(Box::new(planish_field_fitter(fitter))));
+        out_fitter.write(planish_field_fitter::into_raw(Fitter::Plane(fitter)));
+        Ok(())
+    })
+}
+
+/// Makes a fitter for fields on the nodes of the mesh that a model was fitted to: closed, of any genus, several
+/// components. Fields are fitted over the patches of the model by planish_field_fitter_fit_model(), on the cells that the
+/// shape needed, or on cells that are split until sample_values keep the tolerance. It keeps what it needs; model and
+/// mesh may go.
+///
+/// model:      not NULL, made by planish_model_fit() of patches, or a copy of such a model.
+/// mesh:       not NULL, with as many nodes as planish_model_node_count(): the mesh, perhaps moved.
+/// options:    NULL for the defaults; grid_u and grid_v must be 0, buffer, ends, energy and parameterize are not used.
+/// out_fitter: receives a new fitter; destroy with planish_field_fitter_free().
+/// Returns PLANISH_STATUS_OK or an error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND (the model was not
+/// fitted, is one chart, or has a face that is no part of a patch), PLANISH_STATUS_INVALID_ARGUMENT (an option, the number
+/// of nodes, too few nodes with values), PLANISH_STATUS_NOT_FINITE (a weight, a value of sample_values; the index is the
+/// node), PLANISH_STATUS_SINGULAR, PLANISH_STATUS_CANCELLED or PLANISH_STATUS_VERSION.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_field_fitter_new_model(
+    model: *const planish_model,
+    mesh: *const planish_mesh,
+    options: *const planish_field_options,
+    out_fitter: *mut *mut planish_field_fitter,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let model = deref(model, "model")?.core()?;
+        let mesh = &deref(mesh, "mesh")?.0;
+        let (out_fitter, given) = (out(out_fitter, "out_fitter")?, self::options(options)?);
+        let fitter = with_field_options(given, mesh.points().len(), |core, sample, control| {
+            ModelFieldFitter::new(model, mesh, core, sample, control)
+        })??;
+        out_fitter.write(planish_field_fitter::into_raw(Fitter::Patches(fitter)));
         Ok(())
     })
 }
@@ -229,7 +307,7 @@ pub unsafe extern "C" fn planish_field_fitter_free(fitter: *mut planish_field_fi
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_field_fitter_point_count(fitter: *const planish_field_fitter) -> usize {
     // SAFETY: the caller's promise.
-    query(|| Ok(unsafe { deref(fitter, "fitter") }?.0.node_count()))
+    query(|| Ok(unsafe { deref(fitter, "fitter") }?.node_count()))
 }
 
 /// Knots of the grid.
@@ -237,7 +315,8 @@ pub unsafe extern "C" fn planish_field_fitter_point_count(fitter: *const planish
 /// fitter:   not NULL.
 /// out_grid: receives 2 numbers: knots along u and v.
 /// Arrays: out_grid[2].
-/// Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_WRONG_KIND (of
+/// planish_field_fitter_new_model()).
 #[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_field_fitter_grid(
@@ -246,7 +325,7 @@ pub unsafe extern "C" fn planish_field_fitter_grid(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let grid = deref(fitter, "fitter")?.0.grid();
+        let grid = deref(fitter, "fitter")?.plane()?.grid();
         slice_mut(out_grid, 2, "out_grid")?.copy_from_slice(&grid);
         Ok(())
     })
@@ -258,7 +337,8 @@ pub unsafe extern "C" fn planish_field_fitter_grid(
 /// out_uv: receives planish_field_fitter_point_count() rows of u, v.
 /// count:  rows that out_uv has room for.
 /// Arrays: out_uv[field_fitter_point_count, 2].
-/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND (of
+/// planish_field_fitter_new_model()) or PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_field_fitter_copy_parameters(
@@ -268,23 +348,22 @@ pub unsafe extern "C" fn planish_field_fitter_copy_parameters(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let uv = deref(fitter, "fitter")?.0.parameters();
+        let uv = deref(fitter, "fitter")?.plane()?.parameters();
         write_pairs(uv, rows_mut(out_uv, count, uv.len(), 2, "out_uv")?);
         Ok(())
     })
 }
 
-/// The rows of a field for the nodes of a fitter.
+/// The rows of a field for the `expected` nodes of a fitter.
 ///
 /// # Safety
 /// `values` is NULL or has `count` rows of `dim` numbers.
 unsafe fn field_values<'a>(
-    fitter: &FieldFitter,
+    expected: usize,
     values: *const f64,
     count: usize,
     dim: usize,
 ) -> Result<&'a [f64], Failure> {
-    let expected = fitter.node_count();
     if count != expected {
         return Err(FitError::Count { what: "the nodes", count, expected }.into());
     }
@@ -302,8 +381,9 @@ unsafe fn field_values<'a>(
 /// out_report:  receives how good it is, measured on the surface; NULL for no report, which saves the measuring.
 /// Arrays: values[count, dim].
 /// Returns PLANISH_STATUS_OK, with a report also PLANISH_STATUS_TOLERANCE_NOT_MET, or an error:
-/// PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (count, dim), PLANISH_STATUS_NOT_FINITE (the index is
-/// the node), PLANISH_STATUS_SINGULAR (numbers overflow) or PLANISH_STATUS_TOO_LARGE.
+/// PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND (of planish_field_fitter_new_model()),
+/// PLANISH_STATUS_INVALID_ARGUMENT (count, dim), PLANISH_STATUS_NOT_FINITE (the index is the node),
+/// PLANISH_STATUS_SINGULAR (numbers overflow) or PLANISH_STATUS_TOO_LARGE.
 #[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_field_fitter_fit(
@@ -316,8 +396,8 @@ pub unsafe extern "C" fn planish_field_fitter_fit(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let fitter = &deref(fitter, "fitter")?.0;
-        let values = field_values(fitter, values, count, dim)?;
+        let fitter = deref(fitter, "fitter")?.plane()?;
+        let values = field_values(fitter.node_count(), values, count, dim)?;
         let (out_surface, report) = (out(out_surface, "out_surface")?, ReportOut::new(out_report)?);
         let surface = fitter.fit(values, dim)?;
         let status = match out_report.is_null() {
@@ -329,6 +409,50 @@ pub unsafe extern "C" fn planish_field_fitter_fit(
             }
         };
         out_surface.write(planish_surface::into_raw(surface));
+        Ok(status)
+    })
+}
+
+/// Fits a field over the patches of a model. The result is a model of dimension dim with the same faces: a value for each
+/// place of a face, with one gradient along the shape on both sides of every edge. planish_model_eval(),
+/// planish_model_field_gradient(), planish_model_copy_face(), copies and files are for it too.
+///
+/// fitter:     not NULL, of planish_field_fitter_new_model().
+/// values:     count rows of dim numbers, one a node.
+/// count:      planish_field_fitter_point_count().
+/// dim:        numbers of a value, at least 1.
+/// out_field:  receives a new model of dimension dim; destroy with planish_model_free().
+/// out_report: receives how good it is, measured on the field; NULL for no report, which saves the measuring.
+/// Arrays: values[count, dim].
+/// Returns PLANISH_STATUS_OK, with a report also PLANISH_STATUS_TOLERANCE_NOT_MET, or an error:
+/// PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND (a fitter over a parameter plane),
+/// PLANISH_STATUS_INVALID_ARGUMENT (count, dim), PLANISH_STATUS_NOT_FINITE (the index is the node),
+/// PLANISH_STATUS_SINGULAR (numbers overflow) or PLANISH_STATUS_TOO_LARGE.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_field_fitter_fit_model(
+    fitter: *const planish_field_fitter,
+    values: *const f64,
+    count: usize,
+    dim: usize,
+    out_field: *mut *mut planish_model,
+    out_report: *mut planish_fit_report,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let fitter = deref(fitter, "fitter")?.patches()?;
+        let values = field_values(fitter.node_count(), values, count, dim)?;
+        let (out_field, report) = (out(out_field, "out_field")?, ReportOut::new(out_report)?);
+        let field = fitter.fit(values, dim)?;
+        let status = match out_report.is_null() {
+            true => planish_status::Ok,
+            false => {
+                let measured = fitter.measure(&field, values, dim)?.fit;
+                report.store((&measured).into());
+                gravest(measured.remarks.0)
+            }
+        };
+        out_field.write(planish_model::field_into_raw(field));
         Ok(status)
     })
 }
@@ -356,8 +480,8 @@ pub unsafe extern "C" fn planish_field_fitter_update(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let fitter = &deref(fitter, "fitter")?.0;
-        let values = field_values(fitter, values, count, dim)?;
+        let fitter = deref(fitter, "fitter")?.plane()?;
+        let values = field_values(fitter.node_count(), values, count, dim)?;
         Ok(fitter.update(deref_mut(surface, "surface")?.tensor_mut()?, values, dim)?)
     })
 }

@@ -11,22 +11,33 @@ use super::status::query;
 use super::step::planish_step_options;
 use super::surface::planish_surface;
 use crate::Control;
+use crate::export::native::{ModelOrField, Save};
 use crate::export::{native, step};
 use crate::fit::conversion::{ConversionOptions, to_model};
 use crate::model::{
-    Carrier, EdgeId, Face, FaceId, Form, FormOptions, Measure, Model, ModelError, NodePlace, Role, ShellId,
-    Use,
+    Carrier, EdgeId, Face, FaceId, Form, FormOptions, Measure, Model, ModelError, ModelField, NodePlace,
+    Role, ShellId, Use,
 };
 use crate::surface::AnySurface;
 use glam::DVec2;
 use libc::{c_char, c_void};
 
 /// A model: faces, each a bounded part of a surface, that share edges and vertices. Made by
-/// planish_model_from_surface() and others, destroyed by planish_model_free().
+/// planish_model_from_surface() and others, destroyed by planish_model_free(). A field over the faces of a model, made by
+/// planish_field_fitter_fit_model(), is one of another dimension: calls that need places in space refuse it with
+/// PLANISH_STATUS_WRONG_KIND.
 ///
 /// Faces, edges, vertices and shells have numbers from 0 on. Calls that take a model const may run at once on any
 /// threads.
-pub struct planish_model(Model);
+pub struct planish_model(Content);
+
+#[allow(clippy::large_enum_variant, reason = "one for each handle")]
+enum Content {
+    /// In space.
+    Shape(Model),
+    /// Values over the faces of a model.
+    Field(ModelField),
+}
 
 const _: () = {
     const fn is_shared<T: Send + Sync>() {}
@@ -35,23 +46,63 @@ const _: () = {
 
 impl planish_model {
     pub(super) fn into_raw(model: Model) -> *mut Self {
-        Box::into_raw(Box::new(Self(model)))
+        Box::into_raw(Box::new(Self(Content::Shape(model))))
     }
 
-    pub(super) fn core(&self) -> &Model {
-        &self.0
+    pub(super) fn field_into_raw(field: ModelField) -> *mut Self {
+        Box::into_raw(Box::new(Self(Content::Field(field))))
+    }
+
+    /// The model in space.
+    pub(super) fn core(&self) -> Result<&Model, ArgumentError> {
+        match &self.0 {
+            Content::Shape(model) => Ok(model),
+            Content::Field(_) => {
+                let (found, needed) = ("a field over the faces of a model", "a model in space");
+                Err(ArgumentError::OtherKind { name: "model", found, needed })
+            }
+        }
+    }
+
+    /// The values over faces, of a field.
+    pub(super) fn field(&self) -> Option<&ModelField> {
+        match &self.0 {
+            Content::Field(field) => Some(field),
+            Content::Shape(_) => None,
+        }
+    }
+
+    fn saved(&self) -> &dyn Save {
+        match &self.0 {
+            Content::Shape(model) => model,
+            Content::Field(field) => field,
+        }
+    }
+
+    fn loaded(saved: ModelOrField) -> *mut Self {
+        match saved {
+            ModelOrField::Model(model) => Self::into_raw(model),
+            ModelOrField::Field(field) => Self::field_into_raw(field),
+        }
+    }
+
+    fn face_count(&self) -> usize {
+        match &self.0 {
+            Content::Shape(model) => model.faces().len(),
+            Content::Field(field) => field.patch_of_face().len(),
+        }
     }
 
     fn face(&self, index: usize) -> Result<FaceId, ArgumentError> {
-        number("face", index, self.0.faces().len()).map(FaceId::new)
+        number("face", index, self.face_count()).map(FaceId::new)
     }
 
     fn edge(&self, index: usize) -> Result<EdgeId, ArgumentError> {
-        number("edge", index, self.0.edges().len()).map(EdgeId::new)
+        number("edge", index, self.core()?.edges().len()).map(EdgeId::new)
     }
 
     fn shell(&self, index: usize) -> Result<ShellId, ArgumentError> {
-        number("shell", index, self.0.shells().len()).map(ShellId::new)
+        number("shell", index, self.core()?.shells().len()).map(ShellId::new)
     }
 }
 
@@ -259,9 +310,12 @@ pub unsafe extern "C" fn planish_model_clone(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let model = deref(model, "model")?.core();
+        let model = deref(model, "model")?;
         let out_model = out(out_model, "out_model")?;
-        out_model.write(planish_model::into_raw(model.clone()));
+        out_model.write(match &model.0 {
+            Content::Shape(model) => planish_model::into_raw(model.clone()),
+            Content::Field(field) => planish_model::field_into_raw(field.clone()),
+        });
         Ok(())
     })
 }
@@ -292,39 +346,46 @@ unsafe fn query_model(
     query(|| Ok(find(unsafe { deref(model, "model") }?)?))
 }
 
+/// Numbers of a place: 3 for a model in space, those of a value for a field over the faces of a model; 0 for NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_model_dim(model: *const planish_model) -> usize {
+    // SAFETY: the caller's promise.
+    unsafe { query_model(model, |model| Ok(model.field().map_or(3, ModelField::dim))) }
+}
+
 /// Number of faces; 0 for NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_model_face_count(model: *const planish_model) -> usize {
     // SAFETY: the caller's promise.
-    unsafe { query_model(model, |model| Ok(model.core().faces().len())) }
+    unsafe { query_model(model, |model| Ok(model.face_count())) }
 }
 
 /// Number of edges; one between two faces counts once. 0 for NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_model_edge_count(model: *const planish_model) -> usize {
     // SAFETY: the caller's promise.
-    unsafe { query_model(model, |model| Ok(model.core().edges().len())) }
+    unsafe { query_model(model, |model| Ok(model.core()?.edges().len())) }
 }
 
 /// Number of vertices; 0 for NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_model_vertex_count(model: *const planish_model) -> usize {
     // SAFETY: the caller's promise.
-    unsafe { query_model(model, |model| Ok(model.core().vertices().len())) }
+    unsafe { query_model(model, |model| Ok(model.core()?.vertices().len())) }
 }
 
 /// Number of shells; 0 for NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_model_shell_count(model: *const planish_model) -> usize {
     // SAFETY: the caller's promise.
-    unsafe { query_model(model, |model| Ok(model.core().shells().len())) }
+    unsafe { query_model(model, |model| Ok(model.core()?.shells().len())) }
 }
 
 /// Number of loops of a face; 0 for NULL and for a face that does not exist.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_model_loop_count(model: *const planish_model, face: usize) -> usize {
     // SAFETY: the caller's promise.
-    unsafe { query_model(model, |model| Ok(model.core().face(model.face(face)?).bounds.len())) }
+    unsafe { query_model(model, |model| Ok(model.core()?.face(model.face(face)?).bounds.len())) }
 }
 
 /// Number of edges of all loops of a face; one that two loops or sides of the face share counts twice. 0 for NULL and
@@ -332,7 +393,7 @@ pub unsafe extern "C" fn planish_model_loop_count(model: *const planish_model, f
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_model_coedge_count(model: *const planish_model, face: usize) -> usize {
     // SAFETY: the caller's promise.
-    unsafe { query_model(model, |model| Ok(coedge_count(model.core().face(model.face(face)?)))) }
+    unsafe { query_model(model, |model| Ok(coedge_count(model.core()?.face(model.face(face)?)))) }
 }
 
 fn coedge_count(face: &Face) -> usize {
@@ -359,7 +420,7 @@ pub unsafe extern "C" fn planish_model_face_info(
         let id = model.face(face)?;
         deref(out_info, "out_info")?;
         let info = ReportOut::new(out_info)?;
-        let model = model.core();
+        let model = model.core()?;
         let of_face = model.face(id);
         let shell = model.shells().iter().position(|shell| shell.faces.contains(&id));
         let errors = model.face_errors(id);
@@ -394,7 +455,7 @@ pub unsafe extern "C" fn planish_model_face_info(
 
 /// Makes a surface of a face: the spline under it, with the loops of the face as trims, the outer one first. A plane
 /// becomes a bilinear surface over the same parameters; a cylinder becomes a rational one, whose parameter u is not the
-/// angle.
+/// angle. Of a field over a model it is the PHT-spline of the values over the patch that the face is a part of.
 ///
 /// model:       not NULL.
 /// face:        below planish_model_face_count().
@@ -413,8 +474,10 @@ pub unsafe extern "C" fn planish_model_copy_face(
         let model = deref(model, "model")?;
         let face = model.face(face)?;
         let out_surface = out(out_surface, "out_surface")?;
-        let surface = model.core().face_surface(face)?;
-        out_surface.write(planish_surface::into_raw(surface));
+        out_surface.write(match &model.0 {
+            Content::Shape(model) => planish_surface::into_raw(model.face_surface(face)?),
+            Content::Field(field) => planish_surface::into_raw(field.of_face(face).clone()),
+        });
         Ok(())
     })
 }
@@ -439,7 +502,7 @@ pub unsafe extern "C" fn planish_model_copy_edge(
     guard(|| unsafe {
         let model = deref(model, "model")?;
         let id = model.edge(edge)?;
-        let model = model.core();
+        let model = model.core()?;
         let out_curve = if out_curve.is_null() { None } else { Some(out(out_curve, "out_curve")?) };
         let info = ReportOut::new(out_info)?;
         let (edge, joint) = (model.edge(id), model.joint(id));
@@ -493,7 +556,7 @@ pub unsafe extern "C" fn planish_model_copy_loops(
     // SAFETY: the caller's promises.
     guard(|| unsafe {
         let model = deref(model, "model")?;
-        let face = model.core().face(model.face(face)?);
+        let face = model.core()?.face(model.face(face)?);
         let sizes = rows_or_none(out_sizes, loop_count, face.bounds.len(), 1, "out_sizes")?;
         let needed = self::coedge_count(face);
         let edges = rows_or_none(out_edges, coedge_count, needed, 1, "out_edges")?;
@@ -531,7 +594,7 @@ pub unsafe extern "C" fn planish_model_copy_pcurve(
     guard(|| unsafe {
         let model = deref(model, "model")?;
         let id = model.face(face)?;
-        let model = model.core();
+        let model = model.core()?;
         let count = self::coedge_count(model.face(id));
         let (mut bound, mut place) = (0, number("coedge", coedge, count)? as usize);
         let out_curve = out(out_curve, "out_curve")?;
@@ -561,7 +624,7 @@ pub unsafe extern "C" fn planish_model_copy_vertices(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let vertices = deref(model, "model")?.core().vertices();
+        let vertices = deref(model, "model")?.core()?.vertices();
         let rows = rows_mut(out_points, count, vertices.len(), 3, "out_points")?;
         rows.chunks_exact_mut(3)
             .zip(vertices)
@@ -574,7 +637,7 @@ pub unsafe extern "C" fn planish_model_copy_vertices(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_model_node_count(model: *const planish_model) -> usize {
     // SAFETY: the caller's promise.
-    unsafe { query_model(model, |model| Ok(model.core().origin().map_or(0, |origin| origin.nodes.len()))) }
+    unsafe { query_model(model, |model| Ok(model.core()?.origin().map_or(0, |origin| origin.nodes.len()))) }
 }
 
 /// Where each node of the mesh that a model was fitted to lies on the model. Copies and saved models know it too.
@@ -596,7 +659,7 @@ pub unsafe extern "C" fn planish_model_locate_nodes(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let origin = deref(model, "model")?.core().origin().ok_or(ModelError::NotFitted)?;
+        let origin = deref(model, "model")?.core()?.origin().ok_or(ModelError::NotFitted)?;
         let nodes = &origin.nodes;
         let faces = rows_or_none(out_faces, count, nodes.len(), 1, "out_faces")?;
         let uv = rows_or_none(out_uv, count, nodes.len(), 2, "out_uv")?;
@@ -630,7 +693,7 @@ pub unsafe extern "C" fn planish_model_copy_shell(
     // SAFETY: the caller's promises.
     guard(|| unsafe {
         let model = deref(model, "model")?;
-        let shell = &model.core().shells()[model.shell(shell)?.index()];
+        let shell = &model.core()?.shells()[model.shell(shell)?.index()];
         let info = ReportOut::new(out_info)?;
         let faces = rows_or_none(out_faces, count, shell.faces.len(), 1, "out_faces")?;
         let (role, void_in) = match shell.role {
@@ -664,7 +727,7 @@ pub unsafe extern "C" fn planish_model_measure(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let model = deref(model, "model")?.core();
+        let model = deref(model, "model")?.core()?;
         deref(out_report, "out_report")?;
         let report = ReportOut::new(out_report)?;
         report.store(planish_measure_report::new(model, &model.measure()));
@@ -689,7 +752,7 @@ pub unsafe extern "C" fn planish_model_write_step(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let model = deref(model, "model")?.core();
+        let model = deref(model, "model")?.core()?;
         let path = arguments::path(path, "path")?;
         let given = self::options(options)?;
         let core = given.core()?;
@@ -720,7 +783,7 @@ pub unsafe extern "C" fn planish_model_write_step_memory(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let model = deref(model, "model")?.core();
+        let model = deref(model, "model")?.core()?;
         let given = self::options(options)?;
         let core = given.core()?;
         let report = ReportOut::new(given.out_report)?;
@@ -741,7 +804,7 @@ pub unsafe extern "C" fn planish_model_write_step_memory(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_model_save_size(model: *const planish_model) -> usize {
     // SAFETY: the caller's promise.
-    unsafe { query_model(model, |model| Ok(native::save_size(model.core()))) }
+    unsafe { query_model(model, |model| Ok(native::save_size(model.saved()))) }
 }
 
 /// Writes everything a model is into a buffer, to the bit. The layout is documented in docs/format.md; it is the same
@@ -761,7 +824,7 @@ pub unsafe extern "C" fn planish_model_save(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let model = deref(model, "model")?.core();
+        let model = deref(model, "model")?.saved();
         let needed = native::save_size(model);
         if size < needed {
             return Err(ArgumentError::TooSmall { name: "buffer", given: size, needed }.into());
@@ -790,7 +853,7 @@ pub unsafe extern "C" fn planish_model_load(
     guard(|| unsafe {
         let bytes = slice(buffer.cast::<u8>(), size, "buffer")?;
         let out_model = out(out_model, "out_model")?;
-        out_model.write(planish_model::into_raw(native::load_model(bytes)?));
+        out_model.write(planish_model::loaded(native::load_model_or_field(bytes)?));
         Ok(())
     })
 }
@@ -809,7 +872,7 @@ pub unsafe extern "C" fn planish_model_save_file(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let model = deref(model, "model")?.core();
+        let model = deref(model, "model")?.saved();
         Ok(native::save_file(model, arguments::path(path, "path")?)?)
     })
 }
@@ -830,7 +893,7 @@ pub unsafe extern "C" fn planish_model_load_file(
     guard(|| unsafe {
         let path = arguments::path(path, "path")?;
         let out_model = out(out_model, "out_model")?;
-        out_model.write(planish_model::into_raw(native::load_model_file(path)?));
+        out_model.write(planish_model::loaded(native::load_model_or_field_file(path)?));
         Ok(())
     })
 }

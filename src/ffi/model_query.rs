@@ -5,6 +5,7 @@ use super::arguments::{
     slice, slice_mut, slice_mut_or_none, stride, strided_len,
 };
 use super::export::{planish_vtk_content, planish_vtk_options};
+use super::field::planish_gradient_options;
 use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;
 use super::model::{PLANISH_NONE, planish_model};
@@ -18,7 +19,7 @@ use super::report::write_pairs;
 use super::surface::planish_eval_options;
 use crate::control::{Pool, Stage};
 use crate::export::vtk;
-use crate::model::{ModelProjector, ModelTessellation};
+use crate::model::{ModelField, ModelProjector, ModelTessellation};
 use crate::query::deviation::DeviationOptions;
 use crate::query::project::ProjectOptions;
 use crate::surface::MAX_DERIVATIVE;
@@ -41,18 +42,21 @@ unsafe fn eval(
 ) -> Result<planish_status, Failure> {
     // SAFETY: the caller's promises.
     unsafe {
-        let model = deref(model, "model")?.core();
+        let model = deref(model, "model")?;
         let given = self::options(options)?;
         let rules = [OutsideRule::Fail, OutsideRule::Flag, OutsideRule::Extrapolate];
         let rule = choice(given.outside, &rules, "outside")?;
         let faces = slice(faces, count, "faces")?;
         let uv = copy_rows(uv, count, stride(given.uv_stride, 2, "uv_stride")?, "uv", DVec2::from_array)?;
-        let width = quantity.width(3);
+        let width = quantity.width(model.field().map_or(3, ModelField::dim));
         let out_stride = stride(given.out_stride, width, "out_stride")?;
         let rows = slice_mut(out, strided_len::<f64>(count, out_stride, width, name)?, name)?;
         let flags = slice_mut_or_none(given.out_flags, count, "out_flags")?;
         let pool = Pool::new(thread_count(given.thread_count)?);
-        let values = model.evaluate(quantity, faces, &uv, rule, &pool)?;
+        let values = match (model.field(), quantity) {
+            (Some(field), Quantity::Derivatives(order)) => field.evaluate(order, faces, &uv, rule, &pool)?,
+            _ => model.core()?.evaluate(quantity, faces, &uv, rule, &pool)?,
+        };
         for (to, row) in rows.chunks_mut(out_stride).zip(values.rows.chunks_exact(width)) {
             to[..width].copy_from_slice(row);
         }
@@ -64,8 +68,8 @@ unsafe fn eval(
     }
 }
 
-/// Evaluates a model and its derivatives at parameters on its faces. On a spline u and v are those of the surface of
-/// planish_model_copy_face(); on a plane those of that surface too; on a cylinder the angle in radians and the height.
+/// Evaluates a model, or a field over its faces, and derivatives at parameters on the faces. On a spline u and v are those of
+/// the surface of planish_model_copy_face(); on a plane those of that surface too; on a cylinder the angle in radians and the height.
 ///
 /// model:          not NULL.
 /// faces:          for each point its face, below planish_model_face_count().
@@ -73,9 +77,9 @@ unsafe fn eval(
 /// count:          may be 0.
 /// max_derivative: 0, 1 or 2.
 /// options:        NULL for the defaults.
-/// out:            receives for each point 1, 3 or 6 rows of 3 numbers: S; Su, Sv; Suu, Suv, Svv. Points start
-///                 options->out_stride doubles apart. It must not overlap uv.
-/// Arrays: faces[count], uv[count, 2], out[count, *, 3].
+/// out:            receives for each point 1, 3 or 6 rows of planish_model_dim() numbers: S; Su, Sv; Suu, Suv, Svv.
+///                 Points start options->out_stride doubles apart. It must not overlap uv.
+/// Arrays: faces[count], uv[count, 2], out[count, *, model_dim].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_POINTS_OUTSIDE (with PLANISH_OUTSIDE_FLAG), PLANISH_STATUS_NULL_POINTER,
 /// PLANISH_STATUS_INVALID_ARGUMENT (an option, or max_derivative), PLANISH_STATUS_INDEX (a face; the index is the point),
 /// PLANISH_STATUS_OUTSIDE (with PLANISH_OUTSIDE_FAIL; the index is the first such point of the first such face),
@@ -99,6 +103,55 @@ pub unsafe extern "C" fn planish_model_eval(
             return Err(ArgumentError::Limit { name, given: order, largest }.into());
         }
         eval(model, Quantity::Derivatives(order), (faces, uv), count, options, out, "out")
+    })
+}
+
+/// The gradient in space of a field over the faces of a model: for each component the vector, tangential to the model,
+/// that gives its change along it.
+///
+/// shape:         not NULL, in space: the model that the field was fitted over.
+/// field:         not NULL, of planish_field_fitter_fit_model().
+/// faces:         for each point its face, below planish_model_face_count().
+/// uv:            count rows of u, v on the faces; rows start options->uv_stride doubles apart.
+/// count:         may be 0.
+/// options:       NULL for the defaults.
+/// out_gradients: receives count times planish_model_dim() of the field rows of 3 numbers; NaN where the model has no
+///                tangent plane.
+/// Arrays: faces[count], uv[count, 2], out_gradients[count, model_dim, 3].
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND (shape is a field, or field is
+/// none), PLANISH_STATUS_INVALID_ARGUMENT (an option; the numbers of faces differ), PLANISH_STATUS_INDEX (a face),
+/// PLANISH_STATUS_NOT_FINITE, PLANISH_STATUS_OUTSIDE (the index is the point for all three), PLANISH_STATUS_TOO_LARGE or
+/// PLANISH_STATUS_VERSION.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_model_field_gradient(
+    shape: *const planish_model,
+    field: *const planish_model,
+    faces: *const u32,
+    uv: *const f64,
+    count: usize,
+    options: *const planish_gradient_options,
+    out_gradients: *mut f64,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let shape = deref(shape, "shape")?.core()?;
+        let (name, found, needed) = ("field", "a model in space", "a field over its faces");
+        let wrong = ArgumentError::OtherKind { name, found, needed };
+        let field = deref(field, "field")?.field().ok_or(wrong)?;
+        let given = self::options(options)?;
+        if given.reserved != 0 {
+            let record = "planish_gradient_options";
+            return Err(ArgumentError::Reserved { record, given: given.reserved }.into());
+        }
+        let faces = slice(faces, count, "faces")?;
+        let uv = copy_rows(uv, count, stride(given.uv_stride, 2, "uv_stride")?, "uv", DVec2::from_array)?;
+        let rows = array_len::<f64>(count, field.dim(), "out_gradients")?;
+        let out_gradients =
+            slice_mut(out_gradients, array_len::<f64>(rows, 3, "out_gradients")?, "out_gradients")?;
+        let pool = Pool::new(thread_count(given.thread_count)?);
+        out_gradients.copy_from_slice(&field.gradient(shape, faces, &uv, &pool)?);
+        Ok(())
     })
 }
 
@@ -181,7 +234,7 @@ pub unsafe extern "C" fn planish_model_project(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let model = deref(model, "model")?.core();
+        let model = deref(model, "model")?.core()?;
         let given = self::options(options)?;
         if !given.guesses.is_null() {
             return Err(ArgumentError::NotNull { name: "guesses" }.into());
@@ -229,7 +282,7 @@ pub unsafe extern "C" fn planish_model_deviation(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let model = deref(model, "model")?.core();
+        let model = deref(model, "model")?.core()?;
         let mesh = &deref(mesh, "mesh")?.0;
         let given = self::options(options)?;
         let report = ReportOut::new(out_report)?;
@@ -278,7 +331,7 @@ pub unsafe extern "C" fn planish_model_tessellate(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let model = deref(model, "model")?.core();
+        let model = deref(model, "model")?.core()?;
         let out_mesh = out(out_mesh, "out_mesh")?;
         let given = self::options(options)?;
         let report = ReportOut::new(given.out_report)?;
@@ -312,7 +365,7 @@ pub unsafe extern "C" fn planish_model_write_vtk(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let model = deref(model, "model")?.core();
+        let model = deref(model, "model")?.core()?;
         let path = arguments::path(path, "path")?;
         let given = self::options(options)?;
         choice(given.content, &[planish_vtk_content::Triangles], "content")?;

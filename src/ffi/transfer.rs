@@ -1,23 +1,28 @@
 //! Values and forces between meshes whose nodes do not match.
 
-use super::arguments::{ReportOut, array_len, choice, copy_rows, deref, options, out, rows_mut, slice};
+use super::arguments::{
+    ArgumentError, ReportOut, array_len, choice, copy_rows, deref, options, out, rows_mut, slice,
+};
 use super::field::{fitter_on_mesh, planish_field_options, tolerance_scale, with_field_options};
 use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;
+use super::model::planish_model;
 use super::planish_status;
 use super::report::write_pairs;
 use super::status::query;
 use super::tensor::planish_tolerance_scale;
 use crate::control::Control;
 use crate::fit::common::FitError;
-use crate::fit::field::transfer::{Balance, FarRule, Transfer, TransferOptions, TransferReport};
+use crate::fit::field::transfer::{Balance, Carry, FarRule, Transfer, TransferOptions, TransferReport};
+use crate::fit::model::field::ModelFieldFitter;
+use crate::fit::model::field::transfer::ModelTransfer;
 use glam::DVec3;
 
 /// Carries values from the nodes of a source mesh to target points, and forces on these back to the nodes. Made by
 /// planish_transfer_new(), destroyed by planish_transfer_free().
 ///
 /// Calls that take it const may run at once on any threads.
-pub struct planish_transfer(Transfer);
+pub struct planish_transfer(Box<dyn Carry>);
 
 const _: () = {
     const fn is_shared<T: Send + Sync>() {}
@@ -194,7 +199,62 @@ pub unsafe extern "C" fn planish_transfer_new(
                 control.within(0.5, 1.0, make)
             })??;
         report.store((&made).into());
-        out_transfer.write(Box::into_raw(Box::new(planish_transfer(transfer))));
+        out_transfer.write(Box::into_raw(Box::new(planish_transfer(Box::new(transfer)))));
+        Ok(if made.far_count > 0 { planish_status::PointsOutside } else { planish_status::Ok })
+    })
+}
+
+/// Makes a transfer from the nodes of the mesh that a model was fitted to, closed and of any genus, to points near it.
+/// Fields are those of planish_field_fitter_new_model(): the points of the mesh are fitted over the patches of the model,
+/// and each target is projected onto that shape once. It keeps what it needs; model, mesh and points may go.
+///
+/// model:        not NULL, made by planish_model_fit() of patches, or a copy of such a model.
+/// source:       not NULL, with as many nodes as planish_model_node_count(): the mesh, perhaps moved.
+/// targets:      count rows of x, y, z.
+/// count:        may be 0.
+/// options:      NULL for the defaults.
+/// out_transfer: receives a new transfer; destroy with planish_transfer_free().
+/// out_report:   receives how well the two lie on one another, with 0 for the grid; NULL for no report.
+/// Arrays: targets[count, 3].
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_POINTS_OUTSIDE (targets beyond max_distance were kept), or an error:
+/// PLANISH_STATUS_OUTSIDE (a target lies beyond it; the index is the target), PLANISH_STATUS_NOT_FINITE (a target; the
+/// index), PLANISH_STATUS_INVALID_ARGUMENT (an option), or what planish_field_fitter_new_model() returns.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_transfer_new_model(
+    model: *const planish_model,
+    source: *const planish_mesh,
+    targets: *const f64,
+    count: usize,
+    options: *const planish_transfer_options,
+    out_transfer: *mut *mut planish_transfer,
+    out_report: *mut planish_transfer_report,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let model = deref(model, "model")?.core()?;
+        let source = &deref(source, "source")?.0;
+        let targets = copy_rows(targets, count, 3, "targets", DVec3::from_array)?;
+        let given = self::options(options)?;
+        let (out_transfer, report) = (out(out_transfer, "out_transfer")?, ReportOut::new(out_report)?);
+        let distance_scale = tolerance_scale(given.distance_scale, "distance_scale")?;
+        let far = choice(given.far_rule, &[FarRule::Refuse, FarRule::Keep], "far_rule")?;
+        let field: planish_field_options = self::options(given.field)?;
+        let (transfer, made) =
+            with_field_options(field, source.points().len(), |field, sample, control| {
+                let (field, max_distance) = (*field, given.max_distance);
+                let core = TransferOptions { field, max_distance, distance_scale, far };
+                core.check(&targets)?;
+                let make =
+                    |control: &mut Control| ModelFieldFitter::new(model, source, &field, sample, control);
+                let fitter = control.within(0.0, 0.5, make)?;
+                let make = |control: &mut Control| {
+                    ModelTransfer::with_fitter(fitter, source, &targets, &core, control)
+                };
+                control.within(0.5, 1.0, make)
+            })??;
+        report.store((&made).into());
+        out_transfer.write(Box::into_raw(Box::new(planish_transfer(Box::new(transfer)))));
         Ok(if made.far_count > 0 { planish_status::PointsOutside } else { planish_status::Ok })
     })
 }
@@ -233,7 +293,8 @@ pub unsafe extern "C" fn planish_transfer_target_count(transfer: *const planish_
 /// out_uv:   receives planish_transfer_target_count() rows of u, v.
 /// count:    rows that out_uv has room for.
 /// Arrays: out_uv[transfer_target_count, 2].
-/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND (of planish_transfer_new_model()) or
+/// PLANISH_STATUS_BUFFER_TOO_SMALL.
 #[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_transfer_copy_parameters(
@@ -243,7 +304,9 @@ pub unsafe extern "C" fn planish_transfer_copy_parameters(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let uv = deref(transfer, "transfer")?.0.parameters();
+        let (name, found) = ("transfer", "one over the patches of a model");
+        let wrong = ArgumentError::OtherKind { name, found, needed: "one over a parameter plane" };
+        let uv = deref(transfer, "transfer")?.0.parameters().ok_or(wrong)?;
         write_pairs(uv, rows_mut(out_uv, count, uv.len(), 2, "out_uv")?);
         Ok(())
     })
@@ -310,7 +373,7 @@ pub unsafe extern "C" fn planish_transfer_apply(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let transfer = &deref(transfer, "transfer")?.0;
+        let transfer = deref(transfer, "transfer")?.0.as_ref();
         let values = all_rows(values, (count, transfer.source_count()), dim, "values")?;
         let targets = transfer.target_count();
         Ok(transfer.apply(values, dim, rows_mut(out_values, targets, targets, dim, "out_values")?)?)
@@ -340,7 +403,7 @@ pub unsafe extern "C" fn planish_transfer_apply_transpose(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let transfer = &deref(transfer, "transfer")?.0;
+        let transfer = deref(transfer, "transfer")?.0.as_ref();
         let forces = all_rows(forces, (count, transfer.target_count()), dim, "forces")?;
         let nodes = transfer.source_count();
         Ok(transfer.apply_transpose(forces, dim, rows_mut(out_forces, nodes, nodes, dim, "out_forces")?)?)
@@ -372,7 +435,7 @@ pub unsafe extern "C" fn planish_transfer_balance(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let transfer = &deref(transfer, "transfer")?.0;
+        let transfer = deref(transfer, "transfer")?.0.as_ref();
         let nodes = (source_count, transfer.source_count());
         let displacements = all_rows(displacements, nodes, 3, "displacements")?;
         let forces = all_rows(forces, (target_count, transfer.target_count()), 3, "forces")?;

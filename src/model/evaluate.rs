@@ -1,5 +1,6 @@
 //! Batches of points on faces: see [`surface::evaluate`](crate::surface::evaluate) for quantities, rules and flags.
 
+use super::field::by_face;
 use super::{Carrier, FaceId, Model};
 use crate::control::Pool;
 use crate::failure::{Classify, ErrorKind};
@@ -63,16 +64,10 @@ impl Model {
         rule: OutsideRule,
         pool: &Pool,
     ) -> Result<ModelValues, ModelEvalError> {
-        let count = self.faces().len();
-        if let Some(index) = faces.iter().position(|&face| face as usize >= count) {
-            return Err(ModelEvalError::NoFace { index, face: faces[index], count });
-        }
         let width = quantity.width(3);
         let mut values =
             ModelValues { rows: vec![0.0; width * uv.len()], flags: vec![0; uv.len()], outside: 0 };
-        let mut order: Vec<usize> = (0..uv.len()).collect();
-        order.sort_by_key(|&index| faces[index]);
-        for group in order.chunk_by(|&a, &b| faces[a] == faces[b]) {
+        for group in by_face(faces, self.faces().len())? {
             let face = FaceId(faces[group[0]]);
             let places: Vec<DVec2> = group.iter().map(|&index| uv[index]).collect();
             let mut rows = vec![0.0; width * group.len()];
@@ -80,7 +75,7 @@ impl Model {
             let output = Output { rows: &mut rows, stride: width, flags: &mut flags };
             values.outside += self
                 .evaluate_on(face, quantity, &places, rule, output, pool)
-                .map_err(|error| of_all(error, group))?;
+                .map_err(|error| of_all(error, &group))?;
             if !self.face(face).is_forward {
                 rows.chunks_exact_mut(width).for_each(|row| turn(quantity, row));
             }
@@ -149,7 +144,7 @@ fn turn(quantity: Quantity, row: &mut [f64]) {
 }
 
 /// An error about the points of one face, told of all points.
-fn of_all(error: EvalError, group: &[usize]) -> EvalError {
+pub(super) fn of_all(error: EvalError, group: &[usize]) -> EvalError {
     match error {
         EvalError::NotFinite { index } => EvalError::NotFinite { index: group[index] },
         EvalError::Outside { index, u, v } => EvalError::Outside { index: group[index], u, v },

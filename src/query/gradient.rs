@@ -35,6 +35,17 @@ pub enum GradientError {
     },
 }
 
+impl GradientError {
+    /// The same of a point with another number.
+    pub(crate) fn at(self, number: impl Fn(usize) -> usize) -> Self {
+        match self {
+            Self::NotFinite { index } => Self::NotFinite { index: number(index) },
+            Self::Outside { index, u, v, what } => Self::Outside { index: number(index), u, v, what },
+            other => other,
+        }
+    }
+}
+
 impl Classify for GradientError {
     fn kind(&self) -> ErrorKind {
         match self {

@@ -5,7 +5,8 @@
 //! offset  type          content
 //!  0      8 bytes       "PLANISH" and a zero
 //!  8      u32           version of the format, 1
-//! 12      u32           kind: 0 tensor surface, 1 T-spline, 2 PHT-spline, 3 D1RC-spline, 16 curve, 17 model
+//! 12      u32           kind: 0 tensor surface, 1 T-spline, 2 PHT-spline, 3 D1RC-spline, 16 curve, 17 model,
+//!                       18 field over a model
 //! 16      u64           size of the whole in bytes
 //! 24                    what the family needs, see its module
 //! ...     u64           the unit of a surface: 0 millimetre, 1 metre, 2 inch \
@@ -19,6 +20,7 @@ mod bytes;
 mod curve;
 mod d1rc;
 mod model;
+mod model_field;
 mod pht;
 mod tensor;
 mod tspline;
@@ -28,7 +30,7 @@ use crate::curve::Curve;
 use crate::failure::{Classify, ErrorKind};
 use crate::file::{self, FileError};
 use crate::memory;
-use crate::model::Model;
+use crate::model::{Model, ModelField};
 use crate::surface::{AnySurface, Label};
 pub use bytes::Writer;
 use bytes::{Reader, label_size};
@@ -87,6 +89,7 @@ const D1RC: u32 = 3;
 /// What is no surface has kinds from 16 on.
 const CURVE: u32 = 16;
 const MODEL: u32 = 17;
+const FIELD: u32 = 18;
 
 /// A surface, curve or model that the format knows.
 pub trait Save {
@@ -147,6 +150,7 @@ pub fn load(bytes: &[u8]) -> Result<AnySurface, LoadError> {
         TSPLINE => AnySurface::TSpline(tspline::read(&mut reader)?),
         CURVE => return Err(reader.wrong("this is a curve, not a surface")),
         MODEL => return Err(reader.wrong("this is a model, not a surface")),
+        FIELD => return Err(reader.wrong("this is a field over a model, not a surface")),
         _ => return Err(reader.wrong(format!("the kind {kind} is unknown"))),
     };
     if reader.end().is_err() {
@@ -205,6 +209,32 @@ pub fn load_model(bytes: &[u8]) -> Result<Model, LoadError> {
     Ok(model)
 }
 
+/// A model in space, or values over the faces of one.
+#[derive(Debug, Clone)]
+#[allow(clippy::large_enum_variant, reason = "one is alive at once")]
+pub enum ModelOrField {
+    /// A model.
+    Model(Model),
+    /// Values over its faces.
+    Field(ModelField),
+}
+
+/// The model or field that bytes of [`save`] hold.
+pub fn load_model_or_field(bytes: &[u8]) -> Result<ModelOrField, LoadError> {
+    let (kind, mut reader) = Reader::open(bytes)?;
+    if kind != FIELD {
+        return load_model(bytes).map(ModelOrField::Model);
+    }
+    let field = model_field::read(&mut reader)?;
+    reader.end()?;
+    Ok(ModelOrField::Field(field))
+}
+
+/// The model or field that a file holds.
+pub fn load_model_or_field_file(path: &Path) -> Result<ModelOrField, LoadError> {
+    load_model_or_field(&read_file(path)?)
+}
+
 /// Saves to a file.
 pub fn save_file<S: Save + ?Sized>(surface: &S, path: &Path) -> Result<(), ExportError> {
     Ok(file::write(path, &save(surface))?)
@@ -218,11 +248,6 @@ pub fn load_file(path: &Path) -> Result<AnySurface, LoadError> {
 /// Loads a curve from a file.
 pub fn load_curve_file(path: &Path) -> Result<Curve, LoadError> {
     load_curve(&read_file(path)?)
-}
-
-/// Loads a model from a file.
-pub fn load_model_file(path: &Path) -> Result<Model, LoadError> {
-    load_model(&read_file(path)?)
 }
 
 fn read_file(path: &Path) -> Result<Vec<u8>, LoadError> {

@@ -18,19 +18,23 @@
 //!                       for a model that a fit made, else nothing: u64 number of nodes; for each of them: u64 its
 //!                       face plus 1, or 0 for none, f64 x 3 u, v, error; u64 number of pieces of patches; for each of
 //!                       them: u64 number of quads; for each quad: u64 x 4 its corners, u64 x 4 the edges of its sides,
-//!                       u64 number of splits, u64 x 3 level, i, j of each cell that is split; and if there are pieces,
-//!                       for each face u64 x 2 its piece plus 1, or 0 for none, and quad
+//!                       u64 number of splits, u64 x 3 level, i, j of each cell that is split; u64 number of creases,
+//!                       the edges as u64; u64 number of sectors between borders and creases; for each of them u64 x 2
+//!                       quad and side of its first corner, f64 its angle; and if there are pieces, for each face
+//!                       u64 x 2 its piece plus 1, or 0 for none, and quad
 //! ```
 
 use super::bytes::{Reader, Writer};
 use super::{LoadError, MODEL, Save, curve, pht, tensor};
 use crate::curve::Curve;
-use crate::layout::{Layout, Side};
+use crate::layout::{Creases, Layout, Sector, Side};
 use crate::model::{
     Builder, Carrier, Coedge, Cylinder, Edge, EdgeId, Face, FaceId, Frame, Loop, Model, NodePlace, Origin,
     PatchPiece, Plane, Role, ShellId, SurfaceId, VertexId,
 };
 use glam::{DVec2, DVec3};
+use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::PI;
 
 /// Bytes of a count, flag, number or double.
 const FIELD: usize = 8;
@@ -89,8 +93,19 @@ impl Save for Model {
 
 fn origin_size(origin: &Origin) -> usize {
     let quads = |piece: &PatchPiece| piece.splits().iter().map(|splits| 9 + 3 * splits.len()).sum::<usize>();
-    let pieces = origin.pieces.iter().map(|piece| 1 + quads(piece)).sum::<usize>();
+    let creases = |layout: &Layout| 2 + creases(layout).count() + 3 * open_sectors(layout).count();
+    let pieces = origin.pieces.iter().map(|piece| 1 + quads(piece) + creases(piece.layout())).sum::<usize>();
     FIELD * (2 + 4 * origin.nodes.len() + pieces + 2 * origin.patch_of_face.len())
+}
+
+/// The edges of two sides that are sharp.
+fn creases(layout: &Layout) -> impl Iterator<Item = u32> {
+    let is_crease = |&edge: &u32| layout.edges()[edge as usize].second.is_some() && !layout.is_smooth(edge);
+    (0..layout.edges().len() as u32).filter(is_crease)
+}
+
+fn open_sectors(layout: &Layout) -> impl Iterator<Item = &Sector> {
+    layout.sectors().iter().filter(|sector| sector.is_open())
 }
 
 fn write_origin(origin: &Origin, writer: &mut Writer) {
@@ -110,6 +125,15 @@ fn write_origin(origin: &Origin, writer: &mut Writer) {
             for cell in splits {
                 [cell.level, cell.i, cell.j].into_iter().for_each(|number| writer.count(number as usize));
             }
+        }
+        writer.count(creases(layout).count());
+        creases(layout).for_each(|edge| writer.count(edge as usize));
+        writer.count(open_sectors(layout).count());
+        for sector in open_sectors(layout) {
+            let Side { quad, side } = sector.corners[0];
+            writer.count(quad as usize);
+            writer.count(side.into());
+            writer.doubles(&[sector.angle]);
         }
     }
     for patch in &origin.patch_of_face {
@@ -232,7 +256,26 @@ fn read_patches(reader: &mut Reader) -> Result<PatchPiece, LoadError> {
         let count = reader.count()?;
         splits.push(pht::read_splits(reader, count)?);
     }
-    let layout = Layout::with_edges(&quads, &edges).map_err(|error| reader.wrong(error.to_string()))?;
+    let (crease_count, mut sharp) = (reader.count()?, BTreeSet::new());
+    for _ in 0..crease_count {
+        sharp.insert(reader.number()?);
+    }
+    let (sector_count, mut angles) = (reader.count()?, BTreeMap::new());
+    for _ in 0..sector_count {
+        let corner = [reader.number()?, reader.number()?];
+        let angle = reader.double()?;
+        if !angle.is_finite() {
+            return Err(reader.wrong("the angle of a sector is not finite"));
+        }
+        angles.insert(corner, angle);
+    }
+    let angle = |sector: &Sector| {
+        let Side { quad, side } = sector.corners[0];
+        angles.get(&[quad, side.into()]).copied().unwrap_or(PI)
+    };
+    let creases = Creases { sharp: &sharp, angle: &angle };
+    let layout = Layout::with_creases(&quads, &edges, &creases);
+    let layout = layout.map_err(|error| reader.wrong(error.to_string()))?;
     PatchPiece::from_splits(layout, splits).map_err(|error| reader.wrong(error.to_string()))
 }
 

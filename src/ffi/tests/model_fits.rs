@@ -110,6 +110,100 @@ unsafe fn check_origin(model: *const planish_model, (faces, uv, errors): (&[u32]
 }
 
 #[test]
+fn a_field_on_a_ball_is_a_model_of_its_own_dimension() {
+    let mesh = ball(8, false);
+    let (mut model, mut fitter, mut field) = (null_mut(), null_mut(), null_mut());
+    let mut report = planish_fit_report::default();
+    // SAFETY: live handles, arrays of their sizes.
+    unsafe {
+        let count = planish_mesh_point_count(mesh.0);
+        ok(planish_model_fit(mesh.0, &defaults(), &mut model, null_mut()));
+        let options = planish_field_options { thread_count: 2, ..planish_field_options::default() };
+        ok(planish_field_fitter_new_model(model, mesh.0, &options, &mut fitter));
+        assert_eq!(planish_field_fitter_point_count(fitter), count);
+        // twice x, and what is the same everywhere
+        let mut points = vec![0.0; 3 * count];
+        ok(planish_mesh_copy_points(mesh.0, points.as_mut_ptr(), count));
+        let values: Vec<f64> = points.chunks_exact(3).flat_map(|p| [2.0 * p[0], 4.0]).collect();
+        let status =
+            planish_field_fitter_fit_model(fitter, values.as_ptr(), count, 2, &mut field, &mut report);
+        assert!(status == planish_status::Ok || status == planish_status::ToleranceNotMet);
+        assert!(report.max_error <= 2e-3, "{}", report.max_error);
+        assert_eq!(
+            (planish_model_dim(field), planish_model_dim(model), planish_model_dim(null())),
+            (2, 3, 0)
+        );
+        assert_eq!(planish_model_face_count(field), planish_model_face_count(model));
+
+        let mut bytes = vec![0_u8; planish_model_save_size(field)];
+        ok(planish_model_save(field, bytes.as_mut_ptr().cast(), bytes.len()));
+        let (mut loaded, mut copy) = (null_mut(), null_mut());
+        ok(planish_model_load(bytes.as_ptr().cast(), bytes.len(), &mut loaded));
+        ok(planish_model_clone(loaded, &mut copy));
+        let (faces, uv) = ([0_u32, 3], [0.25_f64; 4]);
+        let mut rows = [[0.0; 12]; 2];
+        for (field, rows) in [field, copy].into_iter().zip(&mut rows) {
+            ok(planish_model_eval(field, faces.as_ptr(), uv.as_ptr(), 2, 1, null(), rows.as_mut_ptr()));
+        }
+        assert_eq!(rows[0], rows[1]);
+        let (mut places, mut gradients) = ([0.0; 6], [0.0; 12]);
+        ok(planish_model_eval(model, faces.as_ptr(), uv.as_ptr(), 2, 0, null(), places.as_mut_ptr()));
+        let (face, uv) = (faces.as_ptr(), uv.as_ptr());
+        ok(planish_model_field_gradient(model, field, face, uv, 2, null(), gradients.as_mut_ptr()));
+        for (k, place) in places.chunks_exact(3).enumerate() {
+            assert!(
+                (rows[0][6 * k] - 2.0 * place[0]).abs() <= 2e-3 && (rows[0][6 * k + 1] - 4.0).abs() <= 1e-13
+            );
+            // of x along the sphere
+            let exact = [0, 1, 2].map(|c| f64::from(u8::from(c == 0)) - place[0] * place[c]);
+            for c in 0..3 {
+                assert!((gradients[6 * k + c] - 2.0 * exact[c]).abs() <= 0.05, "{gradients:?} {exact:?}");
+                assert!(gradients[6 * k + 3 + c].abs() <= 1e-12);
+            }
+        }
+        // what needs places in space, and what needs another fitter
+        let (mut surface, mut mesh_of, mut bounds) =
+            (null_mut(), null_mut(), planish_measure_report::default());
+        let wrong = |status| refused(status, planish_status::WrongKind, -1, &["field over the faces"]);
+        wrong(planish_model_tessellate(field, null(), &mut mesh_of));
+        wrong(planish_model_measure(field, &mut bounds));
+        wrong(planish_model_normals(field, face, uv, 2, null(), places.as_mut_ptr()));
+        wrong(planish_field_fitter_new_model(field, mesh.0, null(), &mut fitter));
+        let status = planish_model_field_gradient(model, model, face, uv, 2, null(), gradients.as_mut_ptr());
+        refused(status, planish_status::WrongKind, -1, &["field"]);
+        let status = planish_field_fitter_fit(fitter, values.as_ptr(), count, 2, &mut surface, null_mut());
+        refused(status, planish_status::WrongKind, -1, &["patches"]);
+        let mut grid = [0; 2];
+        refused(
+            planish_field_fitter_grid(fitter, grid.as_mut_ptr()),
+            planish_status::WrongKind,
+            -1,
+            &["patches"],
+        );
+        ok(planish_model_copy_face(field, 0, &mut surface));
+        drop(SurfaceHandle(surface));
+
+        let targets: Vec<f64> = points[..30].iter().map(|x| 1.01 * x).collect();
+        let (mut transfer, mut told) = (null_mut(), planish_transfer_report::default());
+        let made =
+            planish_transfer_new_model(model, mesh.0, targets.as_ptr(), 10, null(), &mut transfer, &mut told);
+        assert_eq!((made, told.far_count), (planish_status::Ok, 0));
+        let mut there = [0.0; 20];
+        ok(planish_transfer_apply(transfer, values.as_ptr(), count, 2, there.as_mut_ptr()));
+        for (row, point) in there.chunks_exact(2).zip(points.chunks_exact(3)) {
+            assert!((row[0] - 2.0 * point[0]).abs() <= 0.01 && (row[1] - 4.0).abs() <= 1e-13);
+        }
+        let status = planish_transfer_copy_parameters(transfer, there.as_mut_ptr(), 10);
+        refused(status, planish_status::WrongKind, -1, &["patches"]);
+        planish_transfer_free(transfer);
+        for handle in [model, field, loaded, copy] {
+            planish_model_free(handle);
+        }
+        planish_field_fitter_free(fitter);
+    }
+}
+
+#[test]
 fn a_mesh_inside_out_is_turned_and_told() {
     let mesh = ball(4, true);
     let (mut model, mut report) = (null_mut(), planish_model_report::default());

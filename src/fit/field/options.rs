@@ -71,7 +71,7 @@ impl<'a> FieldOptions<'a> {
     }
 
     /// Checks the options for fields on `count` nodes.
-    pub(super) fn check(&self, count: usize) -> Result<(), FitError> {
+    pub(in crate::fit) fn check(&self, count: usize) -> Result<(), FitError> {
         check_tolerance(&self.tolerance)?;
         check_smoothing(self.smoothing, false)?;
         check_buffer(self.buffer)?;

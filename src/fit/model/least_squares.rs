@@ -9,14 +9,14 @@
 //! components. The few enclosure equations are met by a dense Schur complement `K = C A^-1 C^T`, twice, so that what is left is
 //! rounding.
 
-use super::constraints::Projector;
 use super::samples::ByCell;
 use crate::control::{Pool, Watch};
 use crate::fit::common::FitError;
 use crate::fit::common::hermite_cell::{CellSums, weights};
+use crate::layout::Place;
 use crate::linalg::{Cholesky, SymbolicCholesky};
-use crate::surface::g1::Space;
-use crate::surface::pht::{PhtSurface, expansions};
+use crate::surface::g1::{Enclosure, Space};
+use crate::surface::pht::expansions;
 use crate::tmesh::NodeId;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -51,8 +51,10 @@ pub struct CellPlace {
 }
 
 /// What a space makes of the unknowns of each cell, and the pattern of its matrix.
-pub struct System<'s, 'l> {
-    space: &'s Space<'l>,
+#[derive(Debug)]
+pub struct System {
+    free_count: usize,
+    enclosures: Vec<Enclosure>,
     cells: Vec<CellPlace>,
     maps: Vec<CellMap>,
     /// The lower triangle by columns.
@@ -62,20 +64,42 @@ pub struct System<'s, 'l> {
 }
 
 /// The sixteen unknowns of a cell as combinations: for each free unknown the sixteen factors.
+#[derive(Debug)]
 struct CellMap {
     unknowns: Vec<u32>,
     factors: Vec<[f64; CELL]>,
 }
 
 /// The factored matrix with all that a right-hand side needs.
-struct Solver<'m> {
+#[derive(Debug)]
+pub struct Solver {
     factor: Cholesky,
-    matrix: &'m CsMat<f64>,
+    matrix: CsMat<f64>,
+    /// What makes the diagonal one.
+    scale: Vec<f64>,
+    enclosing: Option<Enclosing>,
 }
 
-impl<'s, 'l> System<'s, 'l> {
+/// The enclosure equations in scaled unknowns.
+#[derive(Debug)]
+struct Enclosing {
+    /// `C`, row after row.
+    equations: Vec<f64>,
+    /// `A^-1 C^T`, column after column.
+    responses: Vec<f64>,
+    /// `C A^-1 C^T`, factored.
+    complement: faer::linalg::solvers::PartialPivLu<f64>,
+}
+
+/// The normal equations: the lower triangle by columns, and columns of right sides.
+struct Sums {
+    values: Vec<f64>,
+    right: Vec<f64>,
+}
+
+impl System {
     /// Prepares the space.
-    pub fn new(space: &'s Space<'l>, pool: &Pool) -> Self {
+    pub fn new(space: &Space, pool: &Pool) -> Self {
         let places = cells_of(space);
         let maps: Vec<CellMap> = pool.run(|| {
             (0..space.meshes().len()).into_par_iter().flat_map_iter(|quad| cell_maps(space, quad)).collect()
@@ -83,7 +107,8 @@ impl<'s, 'l> System<'s, 'l> {
         let (starts, rows) = pattern(space.free_count(), &maps);
         let ones = vec![1.0; rows.len()];
         let symbolic = SymbolicCholesky::new(&lower(&starts, &rows, ones).view(), None);
-        Self { space, cells: places, maps, starts, rows, symbolic }
+        let (free_count, enclosures) = (space.free_count(), space.enclosures().to_vec());
+        Self { free_count, enclosures, cells: places, maps, starts, rows, symbolic }
     }
 
     /// The cells of all patches, patch after patch.
@@ -91,19 +116,131 @@ impl<'s, 'l> System<'s, 'l> {
         &self.cells
     }
 
-    /// The best surface: `smoothing` by cell.
+    /// The free unknowns of the best surface, a row of three numbers each; `smoothing` by cell.
     pub fn solve(
         &self,
         targets: &Targets,
         by_cell: &ByCell,
         smoothing: &[f64],
-        projector: &Projector,
         pool: &Pool,
         watch: &Watch,
-    ) -> Result<Vec<PhtSurface>, FitError> {
-        let n = self.space.free_count();
+    ) -> Result<Vec<f64>, FitError> {
+        let Sums { values, right } = self.sums(targets, by_cell, smoothing, pool, watch)?;
+        let solver = self.solver(values)?;
+        watch.check()?;
+        let (n, columns) = (self.free_count, solver.solve(right));
+        Ok((0..n).flat_map(|k| (0..DIM).map(move |c| c * n + k)).map(|at| columns[at]).collect())
+    }
+
+    /// The left side for samples of these places and weights, factored; their points are not looked at.
+    pub fn factor(
+        &self,
+        targets: &Targets,
+        by_cell: &ByCell,
+        smoothing: f64,
+        pool: &Pool,
+        watch: &Watch,
+    ) -> Result<Solver, FitError> {
+        let energy = vec![smoothing; self.cells.len()];
+        self.solver(self.sums(targets, by_cell, &energy, pool, watch)?.values)
+    }
+
+    /// The right side of weighted rows of `dim` numbers at places: columns.
+    pub fn gather(
+        &self,
+        places: &[Place],
+        by_cell: &ByCell,
+        rows: &[f64],
+        dim: usize,
+        pool: &Pool,
+    ) -> Vec<f64> {
+        let of_cell = |cell: usize| {
+            let mut sums = vec![0.0; CELL * dim];
+            for &sample in by_cell.of(cell) {
+                let row = &rows[sample as usize * dim..][..dim];
+                for (sum, n) in sums.chunks_exact_mut(dim).zip(self.weights(cell, places[sample as usize])) {
+                    sum.iter_mut().zip(row).for_each(|(sum, x)| *sum += n * x);
+                }
+            }
+            let mut shares = vec![0.0; self.maps[cell].unknowns.len() * dim];
+            for (share, factors) in shares.chunks_exact_mut(dim).zip(&self.maps[cell].factors) {
+                for (sum, &factor) in
+                    sums.chunks_exact(dim).zip(factors).filter(|(_, factor)| **factor != 0.0)
+                {
+                    share.iter_mut().zip(sum).for_each(|(share, x)| *share += factor * x);
+                }
+            }
+            shares
+        };
+        let shares: Vec<Vec<f64>> = self.for_cells(pool, of_cell);
+        let mut columns = vec![0.0; dim * self.free_count];
+        for (map, shares) in self.maps.iter().zip(&shares) {
+            for (&unknown, share) in map.unknowns.iter().zip(shares.chunks_exact(dim)) {
+                (0..dim).for_each(|c| columns[c * self.free_count + unknown as usize] += share[c]);
+            }
+        }
+        columns
+    }
+
+    /// What columns of free unknowns are at places: rows. The transpose of [`System::gather`].
+    pub fn read(
+        &self,
+        places: &[Place],
+        by_cell: &ByCell,
+        columns: &[f64],
+        dim: usize,
+        pool: &Pool,
+    ) -> Vec<f64> {
+        let of_cell = |cell: usize| {
+            let mut corners = vec![0.0; CELL * dim];
+            let map = &self.maps[cell];
+            for (&unknown, factors) in map.unknowns.iter().zip(&map.factors) {
+                for (corner, &factor) in
+                    corners.chunks_exact_mut(dim).zip(factors).filter(|(_, f)| **f != 0.0)
+                {
+                    let column = |c: usize| columns[c * self.free_count + unknown as usize];
+                    corner.iter_mut().enumerate().for_each(|(c, sum)| *sum += factor * column(c));
+                }
+            }
+            let mut rows = vec![0.0; by_cell.of(cell).len() * dim];
+            for (row, &sample) in rows.chunks_exact_mut(dim).zip(by_cell.of(cell)) {
+                for (corner, n) in corners.chunks_exact(dim).zip(self.weights(cell, places[sample as usize]))
+                {
+                    row.iter_mut().zip(corner).for_each(|(sum, x)| *sum += n * x);
+                }
+            }
+            rows
+        };
+        let of_cells: Vec<Vec<f64>> = self.for_cells(pool, of_cell);
+        let mut rows = vec![0.0; dim * places.len()];
+        for (cell, of_cell) in of_cells.iter().enumerate() {
+            for (&sample, row) in by_cell.of(cell).iter().zip(of_cell.chunks_exact(dim)) {
+                rows[sample as usize * dim..][..dim].copy_from_slice(row);
+            }
+        }
+        rows
+    }
+
+    fn for_cells<R: Send>(&self, pool: &Pool, of_cell: impl Fn(usize) -> R + Sync + Send) -> Vec<R> {
+        pool.run(|| (0..self.cells.len()).into_par_iter().with_min_len(PIECE).map(of_cell).collect())
+    }
+
+    /// What a place weighs the sixteen unknowns of its cell.
+    fn weights(&self, cell: usize, place: Place) -> [f64; CELL] {
+        let at = (place.uv - self.cells[cell].min) / self.cells[cell].size;
+        weights(at.x, at.y)
+    }
+
+    fn sums(
+        &self,
+        targets: &Targets,
+        by_cell: &ByCell,
+        smoothing: &[f64],
+        pool: &Pool,
+        watch: &Watch,
+    ) -> Result<Sums, FitError> {
         let mut values = vec![0.0; self.rows.len()];
-        let mut right = vec![0.0; n * DIM];
+        let mut right = vec![0.0; self.free_count * DIM];
         let cells: Vec<usize> = (0..self.cells.len()).collect();
         for batch in cells.chunks(PIECE * PIECES) {
             watch.check()?;
@@ -117,6 +254,12 @@ impl<'s, 'l> System<'s, 'l> {
             }
         }
         watch.check()?;
+        Ok(Sums { values, right })
+    }
+
+    /// Factors the matrix with these values.
+    fn solver(&self, mut values: Vec<f64>) -> Result<Solver, FitError> {
+        let n = self.free_count;
         let scale: Vec<f64> = self.starts[..n].iter().map(|&start| 1.0 / values[start].sqrt()).collect();
         if scale.iter().any(|x| !x.is_finite()) {
             return Err(FitError::Singular);
@@ -127,22 +270,10 @@ impl<'s, 'l> System<'s, 'l> {
             }
             values[self.starts[column]] += DIAGONAL;
         }
-        for rows in right.chunks_exact_mut(n) {
-            rows.iter_mut().zip(&scale).for_each(|(x, d)| *x *= d);
-        }
         let matrix = lower(&self.starts, &self.rows, values);
         let factor = self.symbolic.factor(&matrix.view()).map_err(|_| FitError::Singular)?;
-        watch.check()?;
-        let solver = Solver { factor, matrix: &matrix };
-        let mut unknowns = solver.solve(&right);
-        solver.enclose(self.space, &scale, &mut unknowns);
-        let mut rows: Vec<f64> = (0..n)
-            .flat_map(|k| (0..DIM).map(move |c| c * n + k))
-            .map(|at| unknowns[at] * scale[at % n])
-            .collect();
-        projector.apply(self.space, &mut rows);
-        // an overflow in the solution is the one thing that can be wrong
-        self.space.surfaces(&rows, DIM).map_err(|_| FitError::Singular)
+        let enclosing = Enclosing::new(&self.enclosures, &scale, &factor);
+        Ok(Solver { factor, matrix, scale, enclosing })
     }
 
     /// The sums of one cell in its free unknowns.
@@ -190,7 +321,7 @@ impl<'s, 'l> System<'s, 'l> {
     }
 
     fn add(&self, cell: usize, share: &Share, values: &mut [f64], right: &mut [f64]) {
-        let (n, unknowns) = (self.space.free_count(), &self.maps[cell].unknowns);
+        let (n, unknowns) = (self.free_count, &self.maps[cell].unknowns);
         let mut lower = share.lower.iter();
         for (k, &column) in unknowns.iter().enumerate() {
             let range = self.starts[column as usize]..self.starts[column as usize + 1];
@@ -210,52 +341,75 @@ struct Share {
     right: Vec<[f64; DIM]>,
 }
 
-impl Solver<'_> {
+impl Solver {
+    /// The free unknowns for columns of right sides: columns.
+    pub fn solve(&self, mut right: Vec<f64>) -> Vec<f64> {
+        let n = self.matrix.cols();
+        for column in right.chunks_exact_mut(n) {
+            column.iter_mut().zip(&self.scale).for_each(|(x, d)| *x *= d);
+        }
+        let mut unknowns = self.solve_scaled(&right);
+        for column in unknowns.chunks_exact_mut(n) {
+            self.enclosing.iter().for_each(|enclosing| enclosing.keep(column));
+            column.iter_mut().zip(&self.scale).for_each(|(x, d)| *x *= d);
+        }
+        unknowns
+    }
+
     /// Solutions of right-hand sides stored one after the other, with one step of refinement, which takes back what
     /// [`DIAGONAL`] did where the data say something.
-    fn solve(&self, right: &[f64]) -> Vec<f64> {
+    fn solve_scaled(&self, right: &[f64]) -> Vec<f64> {
         let n = self.matrix.cols();
         let mut solutions = right.to_vec();
         self.factor.solve(&mut solutions, right.len() / n);
         let mut rest = right.to_vec();
         for (rest, solution) in rest.chunks_exact_mut(n).zip(solutions.chunks_exact(n)) {
-            subtract_product(self.matrix, solution, rest);
+            subtract_product(&self.matrix, solution, rest);
             rest.iter_mut().zip(solution).for_each(|(rest, x)| *rest += DIAGONAL * x);
         }
         self.factor.solve(&mut rest, right.len() / n);
         solutions.iter_mut().zip(&rest).for_each(|(x, d)| *x += d);
         solutions
     }
+}
 
-    /// Moves the solutions, in scaled unknowns, to the nearest that keep the enclosure equations.
-    fn enclose(&self, space: &Space, scale: &[f64], solutions: &mut [f64]) {
-        let (n, m) = (self.matrix.cols(), space.enclosures().len());
+impl Enclosing {
+    fn new(enclosures: &[Enclosure], scale: &[f64], factor: &Cholesky) -> Option<Self> {
+        let (n, m) = (scale.len(), enclosures.len());
         if m == 0 {
-            return;
+            return None;
         }
         let mut equations = vec![0.0; m * n];
-        for (row, enclosure) in equations.chunks_exact_mut(n).zip(space.enclosures()) {
+        for (row, enclosure) in equations.chunks_exact_mut(n).zip(enclosures) {
             for &(number, factor) in enclosure.sum.terms() {
                 row[number as usize] = factor * scale[number as usize];
             }
         }
         let mut responses = equations.clone();
-        self.factor.solve(&mut responses, m);
-        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        factor.solve(&mut responses, m);
         let complement =
             faer::Mat::from_fn(m, m, |i, j| dot(&equations[i * n..][..n], &responses[j * n..][..n]));
         let complement = complement.partial_piv_lu();
-        for solution in solutions.chunks_exact_mut(n) {
-            for _ in 0..2 {
-                let miss = faer::Mat::from_fn(m, 1, |i, _| dot(&equations[i * n..][..n], solution));
-                let shares = faer::linalg::solvers::Solve::solve(&complement, &miss);
-                for (i, response) in responses.chunks_exact(n).enumerate() {
-                    let share = shares[(i, 0)];
-                    solution.iter_mut().zip(response).for_each(|(x, r)| *x -= share * r);
-                }
+        Some(Self { equations, responses, complement })
+    }
+
+    /// Moves a solution to the nearest that keeps the equations.
+    fn keep(&self, solution: &mut [f64]) {
+        let n = solution.len();
+        let m = self.equations.len() / n;
+        for _ in 0..2 {
+            let miss = faer::Mat::from_fn(m, 1, |i, _| dot(&self.equations[i * n..][..n], solution));
+            let shares = faer::linalg::solvers::Solve::solve(&self.complement, &miss);
+            for (i, response) in self.responses.chunks_exact(n).enumerate() {
+                let share = shares[(i, 0)];
+                solution.iter_mut().zip(response).for_each(|(x, r)| *x -= share * r);
             }
         }
     }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// The cells of all patches, patch after patch, in the order of their leaves.

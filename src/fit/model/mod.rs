@@ -16,6 +16,7 @@ mod constraints;
 #[cfg(test)]
 mod crease_tests;
 mod error;
+pub mod field;
 mod folds;
 mod foot;
 mod ground;

@@ -19,6 +19,7 @@ use super::locks::Lock;
 use super::options::ModelOptions;
 use super::samples::{ByCell, Samples, guard_places, quads_of_cells, weight_on_facet};
 use crate::control::{Control, Pool, Watch};
+use crate::fit::common::FitError;
 use crate::fit::common::report::StopReason;
 use crate::fit::common::rounds::{Next, Rounds, Standing};
 use crate::geometry::Domain;
@@ -218,8 +219,10 @@ impl Refinement<'_> {
             .zip(system.cells())
             .map(|(&quad, cell)| self.options.smoothing * self.stiffness(quad, &domain_of(cell)))
             .collect();
-        let projector = Projector::new(&space, self.constraints);
-        let surfaces = system.solve(&targets.0, &by_cell, &energy, &projector, pool, watch)?;
+        let mut unknowns = system.solve(&targets.0, &by_cell, &energy, pool, watch)?;
+        Projector::new(&space, self.constraints).apply(&space, &mut unknowns);
+        // an overflow in the solution is the one thing that can be wrong
+        let surfaces = space.surfaces(&unknowns, 3).map_err(|_| FitError::Singular)?;
         watch.check()?;
         let (mut places, mut locks) = (self.samples.places.clone(), self.samples.locks.clone());
         let ground = Ground { layout: self.layout, surfaces: &surfaces, is_corner: &self.is_corner };

@@ -26,7 +26,7 @@ pub enum NodePlaces<'a> {
 
 impl NodePlaces<'_> {
     /// The place that is a mean of nodes; none over more patches than can be unfolded.
-    fn mean(&self, layout: &Layout, nodes: &[u32], shares: &[f64]) -> Option<Place> {
+    pub(super) fn mean(&self, layout: &Layout, nodes: &[u32], shares: &[f64]) -> Option<Place> {
         match self {
             Self::Sphere(directions) => {
                 let direction: DVec3 =
@@ -236,6 +236,7 @@ fn grid_rows(mesh: &Mesh) -> Vec<usize> {
 }
 
 /// Samples sorted by the cells of all patches.
+#[derive(Debug)]
 pub struct ByCell(Lists);
 
 impl ByCell {

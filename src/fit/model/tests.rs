@@ -35,10 +35,9 @@ pub(super) fn solve(space: &Space, places: &[Place], points: &[DVec3], smoothing
     let pool = Pool::new(1);
     let by_cell = ByCell::sort(space, places, &pool);
     let energy = vec![smoothing; by_cell.cell_count()];
-    let solve = Control::new(1).watch(|pool, watch| {
-        System::new(space, pool).solve(&targets, &by_cell, &energy, &Default::default(), pool, watch)
-    });
-    solve.unwrap().unwrap()
+    let solve = Control::new(1)
+        .watch(|pool, watch| System::new(space, pool).solve(&targets, &by_cell, &energy, pool, watch));
+    space.surfaces(&solve.unwrap().unwrap(), 3).unwrap()
 }
 
 pub(super) fn points_at(surfaces: &[PhtSurface], places: &[Place]) -> Vec<DVec3> {

@@ -1,8 +1,8 @@
 //! What a transfer keeps of forces, moments and work: everything but roundoff and the distance between the meshes.
 
-use super::{Transfer, TransferError};
+use super::TransferError;
 use crate::summary::sum;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 /// Sums over the forces given at the targets, and over those that arrive at the source's nodes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,15 +29,41 @@ pub struct Balance {
     pub work_error: f64,
 }
 
-impl Transfer {
+/// A linear map between the nodes of a source and targets, and its transpose.
+pub trait Carry: std::fmt::Debug + Send + Sync {
+    /// The nodes of the source, those without values included.
+    fn source_points(&self) -> &[DVec3];
+
+    /// The targets.
+    fn target_points(&self) -> &[DVec3];
+
+    /// Where the targets lie on it, if that has one parameter plane.
+    fn parameters(&self) -> Option<&[DVec2]> {
+        None
+    }
+
+    /// How far the targets are from the shape of the source.
+    fn distances(&self) -> &[f64];
+
+    /// Values at the targets: `out = T values`. Rows of `dim` numbers.
+    fn apply(&self, values: &[f64], dim: usize, out: &mut [f64]) -> Result<(), TransferError>;
+
+    /// Forces at the source's nodes: `out = T^T forces`. Rows of `dim` numbers; nodes without values get 0.
+    fn apply_transpose(&self, forces: &[f64], dim: usize, out: &mut [f64]) -> Result<(), TransferError>;
+
+    /// Number of nodes of the source, those without values included.
+    fn source_count(&self) -> usize {
+        self.source_points().len()
+    }
+
+    /// Number of targets.
+    fn target_count(&self) -> usize {
+        self.target_points().len()
+    }
+
     /// Carries displacements of the source's nodes to the targets and forces on the targets to the nodes, both rows of
     /// three numbers, and adds up; moments are about `about`.
-    pub fn balance(
-        &self,
-        displacements: &[f64],
-        forces: &[f64],
-        about: DVec3,
-    ) -> Result<Balance, TransferError> {
+    fn balance(&self, displacements: &[f64], forces: &[f64], about: DVec3) -> Result<Balance, TransferError> {
         let mut moved = vec![0.0; 3 * self.target_count()];
         let mut arrived = vec![0.0; 3 * self.source_count()];
         self.apply(displacements, 3, &mut moved)?;
@@ -48,10 +74,10 @@ impl Transfer {
         let moment = |points: &[DVec3], forces: &[f64]| {
             vector_sum(points.iter().zip(rows(forces)).map(|(&p, force)| (p - about).cross(force)))
         };
-        let moment_given = moment(&self.target_points, forces);
-        let moment_arrived = moment(&self.source_points, &arrived);
+        let moment_given = moment(self.target_points(), forces);
+        let moment_arrived = moment(self.source_points(), &arrived);
         let lever =
-            self.distances.iter().zip(given.clone()).map(|(distance, force)| distance * force.length());
+            self.distances().iter().zip(given.clone()).map(|(distance, force)| distance * force.length());
         let works = given.zip(rows(&moved)).map(|(force, way)| force.dot(way));
         let work_given = sum(works.clone());
         // nodes without values get no force, and their displacements are not looked at

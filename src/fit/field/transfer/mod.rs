@@ -17,7 +17,7 @@ mod error;
 #[cfg(test)]
 mod tests;
 
-pub use balance::Balance;
+pub use balance::{Balance, Carry};
 pub use error::TransferError;
 
 use super::right_side::{Data, RightSide, Scratch};
@@ -151,22 +151,12 @@ impl Transfer {
     ) -> Result<(Self, TransferReport), TransferError> {
         let start = Instant::now();
         options.check(targets)?;
-        let limit = options.max_distance;
         let positions: Vec<f64> = source.points().iter().flat_map(|p| p.to_array()).collect();
         let shape = fitter.fit(&positions, 3)?;
         let shape_report = fitter.measure(&shape, &positions, 3)?.fit;
-        let limit = match options.distance_scale {
-            ToleranceScale::Relative => limit * shape_report.diagonal,
-            ToleranceScale::Absolute => limit,
-        };
+        let limit = limit_of(options, &shape_report);
         let (parameters, distances) = project(&shape, targets, control)?;
-        let is_far = |&distance: &f64| distance > limit;
-        if options.far == FarRule::Refuse
-            && let Some(index) = distances.iter().position(&is_far)
-        {
-            return Err(TransferError::Far { index, distance: distances[index], limit });
-        }
-        let far_count = distances.iter().filter(|distance| is_far(distance)).count();
+        let far_count = check_targets(options, &distances, limit)?;
         let at_targets = Data::plain(&parameters);
         let targets_side = RightSide::new(&fitter.basis, at_targets, &fitter.pool);
         let summary = summarize(distances);
@@ -191,64 +181,9 @@ impl Transfer {
         Ok((transfer, report))
     }
 
-    /// Number of nodes of the source, those without values included.
-    pub fn source_count(&self) -> usize {
-        self.source_points.len()
-    }
-
-    /// Number of targets.
-    pub fn target_count(&self) -> usize {
-        self.target_points.len()
-    }
-
     /// The shape that the targets are projected onto.
     pub fn shape(&self) -> &TensorSurface {
         &self.shape
-    }
-
-    /// Where the targets lie on it.
-    pub fn parameters(&self) -> &[DVec2] {
-        &self.parameters
-    }
-
-    /// How far the targets are from it.
-    pub fn distances(&self) -> &[f64] {
-        &self.distances
-    }
-
-    /// Values at the targets: `out = T values`. Rows of `dim` numbers.
-    pub fn apply(&self, values: &[f64], dim: usize, out: &mut [f64]) -> Result<(), TransferError> {
-        self.fitter.check(values, dim)?;
-        check_room("the values at the targets", out, self.target_count(), dim)?;
-        self.fitter.with_scratch(dim, |scratch| {
-            let nodes = self.sources().nodes();
-            let share = 1.0 / nodes.len() as f64;
-            let at = |k: usize| nodes.iter().map(move |&node| values[node as usize * dim + k]);
-            scratch.set_center((0..dim).map(|k| share * sum(at(k))));
-            self.carry(self.sources(), &self.targets, values, scratch, out);
-            for row in out.chunks_exact_mut(dim) {
-                row.iter_mut().zip(scratch.center()).for_each(|(x, c)| *x += c);
-            }
-        });
-        Ok(())
-    }
-
-    /// Forces at the source's nodes: `out = T^T forces`. Rows of `dim` numbers; nodes without values get 0.
-    pub fn apply_transpose(&self, forces: &[f64], dim: usize, out: &mut [f64]) -> Result<(), TransferError> {
-        check_rows(self.target_count(), forces, dim)?;
-        check_room("the forces at the nodes", out, self.source_count(), dim)?;
-        self.fitter.with_scratch(dim, |scratch| {
-            scratch.set_center(std::iter::repeat_n(0.0, dim));
-            self.carry(&self.targets, self.sources(), forces, scratch, out);
-            let nodes = self.sources().nodes();
-            let share = 1.0 / nodes.len() as f64;
-            for k in 0..dim {
-                let given = sum(forces.iter().skip(k).step_by(dim).copied());
-                let arrived = sum(out.iter().skip(k).step_by(dim).copied());
-                nodes.iter().for_each(|&node| out[node as usize * dim + k] += share * (given - arrived));
-            }
-        });
-        Ok(())
     }
 
     fn sources(&self) -> &RightSide {
@@ -272,6 +207,57 @@ impl Transfer {
     }
 }
 
+impl Carry for Transfer {
+    fn source_points(&self) -> &[DVec3] {
+        &self.source_points
+    }
+
+    fn target_points(&self) -> &[DVec3] {
+        &self.target_points
+    }
+
+    fn parameters(&self) -> Option<&[DVec2]> {
+        Some(&self.parameters)
+    }
+
+    fn distances(&self) -> &[f64] {
+        &self.distances
+    }
+
+    fn apply(&self, values: &[f64], dim: usize, out: &mut [f64]) -> Result<(), TransferError> {
+        self.fitter.check(values, dim)?;
+        check_room("the values at the targets", out, self.target_count(), dim)?;
+        self.fitter.with_scratch(dim, |scratch| {
+            let nodes = self.sources().nodes();
+            let share = 1.0 / nodes.len() as f64;
+            let at = |k: usize| nodes.iter().map(move |&node| values[node as usize * dim + k]);
+            scratch.set_center((0..dim).map(|k| share * sum(at(k))));
+            self.carry(self.sources(), &self.targets, values, scratch, out);
+            for row in out.chunks_exact_mut(dim) {
+                row.iter_mut().zip(scratch.center()).for_each(|(x, c)| *x += c);
+            }
+        });
+        Ok(())
+    }
+
+    fn apply_transpose(&self, forces: &[f64], dim: usize, out: &mut [f64]) -> Result<(), TransferError> {
+        check_rows(self.target_count(), forces, dim)?;
+        check_room("the forces at the nodes", out, self.source_count(), dim)?;
+        self.fitter.with_scratch(dim, |scratch| {
+            scratch.set_center(std::iter::repeat_n(0.0, dim));
+            self.carry(&self.targets, self.sources(), forces, scratch, out);
+            let nodes = self.sources().nodes();
+            let share = 1.0 / nodes.len() as f64;
+            for k in 0..dim {
+                let given = sum(forces.iter().skip(k).step_by(dim).copied());
+                let arrived = sum(out.iter().skip(k).step_by(dim).copied());
+                nodes.iter().for_each(|&node| out[node as usize * dim + k] += share * (given - arrived));
+            }
+        });
+        Ok(())
+    }
+}
+
 /// The places inside the shape's trims nearest to the targets, and how far they are.
 fn project(
     shape: &TensorSurface,
@@ -292,7 +278,35 @@ fn project(
     Ok((parameters, distances))
 }
 
-fn check_room(what: &'static str, out: &[f64], count: usize, dim: usize) -> Result<(), FitError> {
+/// The limit of distances in model units.
+pub(in crate::fit) fn limit_of(options: &TransferOptions, shape: &FitReport) -> f64 {
+    match options.distance_scale {
+        ToleranceScale::Relative => options.max_distance * shape.diagonal,
+        ToleranceScale::Absolute => options.max_distance,
+    }
+}
+
+/// How many targets lie beyond the limit, if that is allowed.
+pub(in crate::fit) fn check_targets(
+    options: &TransferOptions,
+    distances: &[f64],
+    limit: f64,
+) -> Result<usize, TransferError> {
+    let is_far = |&distance: &f64| distance > limit;
+    if options.far == FarRule::Refuse
+        && let Some(index) = distances.iter().position(is_far)
+    {
+        return Err(TransferError::Far { index, distance: distances[index], limit });
+    }
+    Ok(distances.iter().filter(|distance| is_far(distance)).count())
+}
+
+pub(in crate::fit) fn check_room(
+    what: &'static str,
+    out: &[f64],
+    count: usize,
+    dim: usize,
+) -> Result<(), FitError> {
     let expected = count.saturating_mul(dim);
     match out.len() {
         count if count == expected => Ok(()),

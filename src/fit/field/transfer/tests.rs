@@ -34,7 +34,7 @@ fn values_are_those_of_the_fitted_field_at_the_targets() {
     transfer.apply(&values, 2, &mut out).unwrap();
     let field = transfer.fitter.fit(&values, 2).unwrap();
     let mut exact = vec![0.0; out.len()];
-    field.eval_rows(transfer.parameters(), 0, &mut exact);
+    field.eval_rows(transfer.parameters().unwrap(), 0, &mut exact);
     for (x, exact) in out.iter().zip(&exact) {
         // the same equations in another frame: their condition with a smoothing of 1e-6 magnifies roundings of
         // numbers of about 1
