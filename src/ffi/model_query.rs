@@ -219,8 +219,8 @@ pub unsafe extern "C" fn planish_model_curvatures(
 /// out_distances: receives count distances, NaN for such points; NULL for none.
 /// Arrays: points[count, 3], out_faces[count], out_uv[count, 2], out_distances[count].
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_POINTS_OUTSIDE (some points are farther than max_distance),
-/// PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_NOT_FINITE (the index is the point), PLANISH_STATUS_INVALID_ARGUMENT,
-/// PLANISH_STATUS_TOO_LARGE, PLANISH_STATUS_CANCELLED or PLANISH_STATUS_VERSION.
+/// PLANISH_STATUS_NOT_PROVEN (some answers are flagged), PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_NOT_FINITE (the
+/// index is the point), PLANISH_STATUS_INVALID_ARGUMENT, PLANISH_STATUS_TOO_LARGE, PLANISH_STATUS_CANCELLED or PLANISH_STATUS_VERSION.
 #[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_model_project(
@@ -244,6 +244,7 @@ pub unsafe extern "C" fn planish_model_project(
         let out_faces = slice_mut_or_none(out_faces, count, "out_faces")?;
         let out_uv = slice_mut_or_none(out_uv, array_len::<f64>(count, 2, "out_uv")?, "out_uv")?;
         let out_distances = slice_mut_or_none(out_distances, count, "out_distances")?;
+        let out_flags = slice_mut_or_none(given.out_flags, count, "out_flags")?;
         let feet = with_control(given.thread_count, listener!(given), |control| {
             control.enter(Stage::Project);
             ModelProjector::new(model)?.project(&points, &core, control.pool())
@@ -253,8 +254,12 @@ pub unsafe extern "C" fn planish_model_project(
         out_faces.into_iter().flatten().zip(&feet.faces).for_each(|(to, face)| *to = number(face));
         out_uv.into_iter().for_each(|to| write_pairs(&feet.uv, to));
         out_distances.into_iter().for_each(|to| to.copy_from_slice(&feet.distances));
-        let missed = feet.faces.contains(&None);
-        Ok(if missed { planish_status::PointsOutside } else { planish_status::Ok })
+        out_flags.into_iter().for_each(|to| to.copy_from_slice(&feet.flags));
+        Ok(match (feet.faces.contains(&None), feet.unproven()) {
+            (true, _) => planish_status::PointsOutside,
+            (false, 0) => planish_status::Ok,
+            _ => planish_status::NotProven,
+        })
     })
 }
 
@@ -267,7 +272,8 @@ pub unsafe extern "C" fn planish_model_project(
 /// count:         doubles that out_distances has room for.
 /// out_report:    receives the sizes of the distances; NULL for none. worst_back_u and worst_back_v are NaN.
 /// Arrays: out_distances[count].
-/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option),
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NOT_PROVEN (some distances are not proved to be the least ones, as
+/// unproven_count says), PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option),
 /// PLANISH_STATUS_BUFFER_TOO_SMALL, PLANISH_STATUS_TOPOLOGY or PLANISH_STATUS_TOO_LARGE (measuring back only),
 /// PLANISH_STATUS_CANCELLED or PLANISH_STATUS_VERSION.
 #[must_use]
@@ -307,9 +313,10 @@ pub unsafe extern "C" fn planish_model_deviation(
             worst_back_v: f64::NAN,
             worst_index: result.nodes.worst_index,
             back_count: result.back_count,
+            unproven_count: result.unproven,
             ..planish_deviation_report::default()
         });
-        Ok(())
+        Ok(if result.unproven > 0 { planish_status::NotProven } else { planish_status::Ok })
     })
 }
 
@@ -337,9 +344,9 @@ pub unsafe extern "C" fn planish_model_tessellate(
         let report = ReportOut::new(given.out_report)?;
         let core = given.core()?;
         let ModelTessellation { mesh, smallest_angle, chord_error, .. } =
-            with_control(1, listener!(given), |control| {
+            with_control(given.thread_count, listener!(given), |control| {
                 control.enter(Stage::Tessellate);
-                model.tessellate(&core)
+                model.tessellate_by(&core, control.pool())
             })??;
         report.store(planish_tessellate_report { smallest_angle, chord_error, ..Default::default() });
         out_mesh.write(planish_mesh::into_raw(mesh));

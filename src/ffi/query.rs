@@ -7,7 +7,7 @@ use super::arguments::{
 use super::guard::guard;
 use super::mesh::planish_mesh;
 use super::planish_status;
-use super::progress::{planish_progress, with_control};
+use super::progress::{planish_progress, thread_count, with_control};
 use super::report::write_pairs;
 use super::surface::planish_surface;
 use crate::control::Stage;
@@ -38,8 +38,9 @@ record! {
         pub out_stage: *mut u32,
         /// 1 (default) keeps to the part inside the trims, 0 covers the whole domain.
         pub keep_trims: u32 = u32::from(core.keep_trims),
-        /// 0.
-        pub reserved: u32,
+        /// Threads that share the faces of a model, at most 1024; 0 (default) for all cores. A surface takes one. The
+        /// result does not depend on it.
+        pub thread_count: u32,
         /// Receives how good the mesh is, or NULL (default). Set its struct_size before. Filled on success only; not
         /// looked at where the options are part of others.
         pub out_report: *mut planish_tessellate_report,
@@ -59,7 +60,7 @@ record! {
 
 impl planish_tessellate_options {
     pub(super) fn core(&self) -> Result<TessellateOptions, ArgumentError> {
-        check_reserved("planish_tessellate_options", self.reserved)?;
+        thread_count(self.thread_count)?;
         Ok(TessellateOptions {
             chord_tolerance: self.chord_tolerance,
             max_edge_length: self.max_edge_length,
@@ -67,10 +68,6 @@ impl planish_tessellate_options {
             keep_trims: flag(self.keep_trims, "keep_trims")?,
         })
     }
-}
-
-fn check_reserved(record: &'static str, given: u32) -> Result<(), ArgumentError> {
-    if given == 0 { Ok(()) } else { Err(ArgumentError::Reserved { record, given }) }
 }
 
 /// Makes a triangle mesh of a surface in space. Its nodes lie on the surface and carry their (u,v) as

@@ -20,6 +20,8 @@ pub struct ModelDeviation {
     pub faces: Vec<Option<FaceId>>,
     /// The parameters nearest to each node.
     pub uv: Vec<DVec2>,
+    /// Nodes whose distance is not proved to be the least one.
+    pub unproven: usize,
     /// Largest distance from a place on the model to the mesh; NaN unless asked for.
     pub max_back_distance: f64,
     /// Where it was found; NaN unless asked for.
@@ -41,6 +43,7 @@ impl Model {
     ) -> Result<ModelDeviation, DeviationError> {
         let feet = ModelProjector::new(self)?.project(mesh.points(), &ProjectOptions::default(), pool)?;
         let mut report = ModelDeviation {
+            unproven: feet.unproven(),
             nodes: summarize(feet.distances),
             faces: feet.faces,
             uv: feet.uv,
@@ -51,7 +54,7 @@ impl Model {
         if options.measure_back {
             let automatic = EDGE_LENGTH * mesh.diagonal();
             let longest = if options.max_edge_length > 0.0 { options.max_edge_length } else { automatic };
-            let places = self.samples(options.chord_tolerance, longest)?;
+            let places = self.samples(options.chord_tolerance, longest, pool)?;
             let tree = TriangleTree::new(mesh);
             let distance = |&place: &DVec3| tree.nearest(place).map_or(f64::NAN, |near| near.distance);
             let errors = summarize(pool.run(|| places.par_iter().map(distance).collect()));
@@ -63,9 +66,14 @@ impl Model {
     }
 
     /// Nodes of a tessellation, which lie on the model, and places of the model below the middles of its triangles.
-    fn samples(&self, chord_tolerance: f64, max_edge_length: f64) -> Result<Vec<DVec3>, DeviationError> {
+    fn samples(
+        &self,
+        chord_tolerance: f64,
+        max_edge_length: f64,
+        pool: &Pool,
+    ) -> Result<Vec<DVec3>, DeviationError> {
         let options = TessellateOptions { chord_tolerance, max_edge_length, ..TessellateOptions::default() };
-        let tessellation = self.tessellate(&options)?;
+        let tessellation = self.tessellate_by(&options, pool)?;
         let mut places = tessellation.mesh.points().to_vec();
         let middles = tessellation.places.iter().map(|corners| corners.iter().sum::<DVec2>() / 3.0);
         for (middle, &face) in middles.zip(&tessellation.faces) {

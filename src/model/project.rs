@@ -1,12 +1,13 @@
 //! The places of a model nearest to points: globally, over all faces.
 //!
-//! Faces are taken in the order of the distances of their boxes until none can be nearer. On splines the search is that
+//! Faces lie in a binary tree of boxes, of which the nearer half is searched first and what cannot be nearer is left out. On
+//! splines the search is that
 //! of [`query::project`](crate::query::project). On planes and cylinders the foot is exact: it counts if it lies inside
 //! the loops, else the nearest place of an edge does.
 
 use super::{Carrier, Face, FaceId, Model, Use};
 use crate::control::Pool;
-use crate::query::project::{ProjectError, ProjectOptions, Projector};
+use crate::query::project::{FLAG_NOT_PROVEN, ProjectError, ProjectOptions, Projector};
 use crate::surface::Surface;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -21,12 +22,80 @@ pub struct ModelFeet {
     pub uv: Vec<DVec2>,
     /// Their distances; NaN for the same points.
     pub distances: Vec<f64>,
+    /// [`FLAG_NOT_PROVEN`] where a search ended without a proof.
+    pub flags: Vec<u8>,
+}
+
+impl ModelFeet {
+    /// Points whose answer is not proved to be the nearest.
+    pub fn unproven(&self) -> usize {
+        self.flags.iter().filter(|&flags| flags & FLAG_NOT_PROVEN != 0).count()
+    }
 }
 
 /// Projects points onto one model. It holds all it needs of that.
 #[derive(Debug)]
 pub struct ModelProjector {
     faces: Vec<FaceFeet>,
+    /// The root first, each first child behind its parent.
+    tree: Vec<TreeNode>,
+}
+
+/// A box around some faces.
+#[derive(Debug)]
+struct TreeNode {
+    min: DVec3,
+    max: DVec3,
+    /// The second child, or the face of a leaf.
+    below: Below,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Below {
+    Face(usize),
+    Second(usize),
+}
+
+impl TreeNode {
+    fn distance(&self, point: DVec3) -> f64 {
+        point.distance(point.clamp(self.min, self.max))
+    }
+}
+
+/// Adds the tree over some faces: halves by the middles of their boxes along the longest extent of these.
+fn add_tree(faces: &[FaceFeet], order: &mut [usize], tree: &mut Vec<TreeNode>) {
+    let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let join = |(min, max): (DVec3, DVec3), (a, b): (DVec3, DVec3)| (min.min(a), max.max(b));
+    let (min, max) = order.iter().map(|&face| (faces[face].min, faces[face].max)).fold(start, join);
+    let node = tree.len();
+    tree.push(TreeNode { min, max, below: Below::Face(order[0]) });
+    if order.len() == 1 {
+        return;
+    }
+    let middle = |face: usize| faces[face].min + faces[face].max;
+    let (least, most) = order.iter().map(|&face| (middle(face), middle(face))).fold(start, join);
+    let axis = (most - least).max_position();
+    let half = order.len() / 2;
+    order.select_nth_unstable_by(half, |&a, &b| middle(a)[axis].total_cmp(&middle(b)[axis]).then(a.cmp(&b)));
+    let (low, high) = order.split_at_mut(half);
+    add_tree(faces, low, tree);
+    tree[node].below = Below::Second(tree.len());
+    add_tree(faces, high, tree);
+}
+
+/// The nearest place on a face.
+struct Foot {
+    uv: DVec2,
+    distance: f64,
+    is_proven: bool,
+}
+
+/// The nearest place of a model.
+struct ModelFoot {
+    face: Option<FaceId>,
+    uv: DVec2,
+    distance: f64,
+    is_proven: bool,
 }
 
 /// Points of one piece of work. Pieces do not depend on the number of threads.
@@ -69,8 +138,10 @@ struct Side {
 impl ModelProjector {
     /// Builds what searches need: time and memory are proportional to the patches and edges.
     pub fn new(model: &Model) -> Result<Self, ProjectError> {
-        let faces = model.face_ids().map(|face| face_feet(model, face));
-        Ok(Self { faces: faces.collect::<Result<_, _>>()? })
+        let faces = model.face_ids().map(|face| face_feet(model, face)).collect::<Result<Vec<_>, _>>()?;
+        let (mut order, mut tree) = ((0..faces.len()).collect::<Vec<usize>>(), Vec::new());
+        add_tree(&faces, &mut order, &mut tree);
+        Ok(Self { faces, tree })
     }
 
     /// The nearest place for each row of `points`. Guesses are not used: the answers are global. The result for a point
@@ -87,49 +158,61 @@ impl ModelProjector {
         if let Some(index) = points.iter().position(|point| !point.is_finite()) {
             return Err(ProjectError::NotFinite { index });
         }
-        let of_chunk = |chunk: &[DVec3]| -> Result<Vec<(Option<FaceId>, DVec2, f64)>, ProjectError> {
+        let of_chunk = |chunk: &[DVec3]| -> Result<Vec<ModelFoot>, ProjectError> {
             pool.check()?;
             chunk.iter().map(|&point| self.nearest(point, options.max_distance, pool)).collect()
         };
         let chunks: Result<Vec<_>, _> = pool.run(|| points.par_chunks(CHUNK).map(of_chunk).collect());
         let mut feet = ModelFeet::default();
-        for (face, uv, distance) in chunks?.into_iter().flatten() {
-            feet.faces.push(face);
-            feet.uv.push(uv);
-            feet.distances.push(distance);
+        for foot in chunks?.into_iter().flatten() {
+            feet.faces.push(foot.face);
+            feet.uv.push(foot.uv);
+            feet.distances.push(foot.distance);
+            feet.flags.push(if foot.is_proven { 0 } else { FLAG_NOT_PROVEN });
         }
         Ok(feet)
     }
 
-    fn nearest(
-        &self,
-        point: DVec3,
-        max_distance: f64,
-        pool: &Pool,
-    ) -> Result<(Option<FaceId>, DVec2, f64), ProjectError> {
-        let below = |of: &FaceFeet| point.distance(point.clamp(of.min, of.max));
-        let mut order: Vec<(f64, usize)> = self.faces.iter().map(below).zip(0..).collect();
-        order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let mut best = (None, DVec2::NAN, f64::NAN);
+    fn nearest(&self, point: DVec3, max_distance: f64, pool: &Pool) -> Result<ModelFoot, ProjectError> {
+        let mut best = ModelFoot { face: None, uv: DVec2::NAN, distance: f64::NAN, is_proven: true };
         let mut most = max_distance;
-        for (least, face) in order {
+        let mut stack = vec![(self.tree[0].distance(point), 0)];
+        while let Some((least, at)) = stack.pop() {
             if least > most {
-                break;
+                continue;
             }
-            let (uv, distance) = match &self.faces[face].feet {
-                Feet::Exact { carrier, bound } => bound.nearest(carrier, point, pool)?,
-                Feet::Spline(projector) => {
-                    let options = ProjectOptions { max_distance: most, ..ProjectOptions::default() };
-                    let nearest = projector.project(&point.to_array(), &options, pool)?;
-                    (nearest.uv[0], nearest.distances[0])
+            match self.tree[at].below {
+                Below::Second(second) => {
+                    let [a, b] = [at + 1, second].map(|child| (self.tree[child].distance(point), child));
+                    // the nearer one is taken from the stack first
+                    stack.extend(if a.0 <= b.0 { [b, a] } else { [a, b] });
                 }
-            };
-            if distance < most || (best.0.is_none() && distance <= most) {
-                best = (Some(FaceId(face as u32)), uv, distance);
-                most = distance;
+                Below::Face(face) => {
+                    let foot = self.faces[face].nearest(point, most, pool)?;
+                    best.is_proven &= foot.is_proven;
+                    if foot.distance < most || (best.face.is_none() && foot.distance <= most) {
+                        (best.face, best.uv) = (Some(FaceId(face as u32)), foot.uv);
+                        (best.distance, most) = (foot.distance, foot.distance);
+                    }
+                }
             }
         }
         Ok(best)
+    }
+}
+
+impl FaceFeet {
+    /// The nearest place, NaN if it is farther away than `most`.
+    fn nearest(&self, point: DVec3, most: f64, pool: &Pool) -> Result<Foot, ProjectError> {
+        match &self.feet {
+            Feet::Exact { carrier, bound } => bound.nearest(carrier, point, pool),
+            Feet::Spline(projector) => {
+                let options = ProjectOptions { max_distance: most, ..ProjectOptions::default() };
+                let nearest = projector.project(&point.to_array(), &options, pool)?;
+                let is_proven = nearest.unproven() == 0;
+                Ok(Foot { uv: nearest.uv[0], distance: nearest.distances[0], is_proven })
+            }
+        }
     }
 }
 
@@ -221,15 +304,17 @@ impl Bound {
     }
 
     /// The nearest place on the part of an exact surface inside the loops.
-    fn nearest(&self, carrier: &Carrier, point: DVec3, pool: &Pool) -> Result<(DVec2, f64), ProjectError> {
+    fn nearest(&self, carrier: &Carrier, point: DVec3, pool: &Pool) -> Result<Foot, ProjectError> {
         let foot = carrier.locate_all(&[point])[0];
         let at_foot = carrier.points(&[foot])[0];
         let options = ProjectOptions::default();
         let mut edge = (0, 0.0, f64::INFINITY);
         let mut beside = (0, 0.0, f64::INFINITY);
+        let mut is_proven = true;
         for (k, side) in self.sides.iter().enumerate() {
             for (place, best) in [(point, &mut edge), (at_foot, &mut beside)] {
                 let nearest = side.projector.project(&place.to_array(), &options, pool)?;
+                is_proven &= nearest.unproven() == 0;
                 if nearest.distances[0] < best.2 {
                     *best = (k, nearest.uv[0].x, nearest.distances[0]);
                 }
@@ -241,10 +326,10 @@ impl Bound {
             false => self.contains(foot),
         };
         if is_inside {
-            return Ok((foot, point.distance(at_foot)));
+            return Ok(Foot { uv: foot, distance: point.distance(at_foot), is_proven });
         }
         let at_edge = super::points_on(&self.sides[edge.0].curve, &[edge.1])[0];
-        Ok((carrier.locate_all(&[at_edge])[0], edge.2))
+        Ok(Foot { uv: carrier.locate_all(&[at_edge])[0], distance: edge.2, is_proven })
     }
 
     /// Whether a place of the surface is on the side of an edge on which the face is.

@@ -11,10 +11,12 @@
 //! ```
 
 use super::{Carrier, Edge, FaceId, Model, Use, points_on};
+use crate::control::Pool;
 use crate::mesh::Mesh;
 use crate::query::tessellate::{TessellateError, TessellateOptions, distance_to_segment, least_angle};
 use crate::surface::Patches;
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation, mitigate_underflow};
 use std::collections::HashMap;
@@ -46,31 +48,50 @@ const MAX_TRIALS: usize = 8;
 const FINER: f64 = 0.25;
 /// Sides are not halved any more once they are this short against the face: a fold or pole would go on for ever.
 const SHORTEST_SIDE: f64 = 1e-7;
+/// Faces whose triangulations are kept until they are joined.
+const AT_ONCE: usize = 64;
 /// Most lines in each direction on whose crossings first nodes are set: where patches are, features may be.
 const START_LINES: usize = 17;
 
 impl Model {
-    /// Triangulates a model.
+    /// Triangulates a model on this thread.
     pub fn tessellate(&self, options: &TessellateOptions) -> Result<ModelTessellation, TessellateError> {
+        self.tessellate_by(options, &Pool::new(1))
+    }
+
+    /// Triangulates a model; faces are shared by the threads of a pool, and the result does not depend on them.
+    pub fn tessellate_by(
+        &self,
+        options: &TessellateOptions,
+        pool: &Pool,
+    ) -> Result<ModelTessellation, TessellateError> {
         options.check()?;
+        let all: Vec<FaceId> = self.face_ids().collect();
         let automatic = CHORD_SHARE * self.diagonal();
         let chord = if options.chord_tolerance > 0.0 { options.chord_tolerance } else { automatic };
         let mut chords = vec![chord; self.edges().len()];
         for trial in 0.. {
             let mut nodes = Nodes::new(self, &chords, options)?;
             let mut crossing = None;
-            for face in self.face_ids() {
-                match FacePlane::new(self, face, &nodes, options, chord).and_then(FacePlane::refined) {
-                    Ok(plane) => plane.finish(&mut nodes),
-                    Err(error @ TessellateError::CrossingTrims { .. }) => {
-                        crossing = Some(error);
-                        // polylines that cross have too few nodes
-                        let edges = self.face(face).bounds.iter().flatten().map(|coedge| coedge.edge);
-                        edges.for_each(|edge| chords[edge.index()] *= FINER);
+            for faces in all.chunks(AT_ONCE) {
+                pool.check()?;
+                let plane = |&face: &FaceId| {
+                    FacePlane::new(self, face, &nodes, options, chord).and_then(FacePlane::refined)
+                };
+                let planes: Vec<_> = pool.run(|| faces.par_iter().map(plane).collect());
+                for (&face, plane) in faces.iter().zip(planes) {
+                    match plane {
+                        Ok(plane) => plane.finish(&mut nodes),
+                        Err(error @ TessellateError::CrossingTrims { .. }) => {
+                            crossing = Some(error);
+                            // polylines that cross have too few nodes
+                            let edges = self.face(face).bounds.iter().flatten().map(|coedge| coedge.edge);
+                            edges.for_each(|edge| chords[edge.index()] *= FINER);
+                        }
+                        Err(error) => return Err(error),
                     }
-                    Err(error) => return Err(error),
+                    nodes.check(options)?;
                 }
-                nodes.check(options)?;
             }
             match crossing {
                 None => return nodes.finish(),

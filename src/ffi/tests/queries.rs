@@ -57,9 +57,9 @@ fn tessellations_refuse_by_name() {
         options = planish_tessellate_options { keep_trims: 2, ..record() };
         let status = planish_surface_tessellate(scene.surface, &raw const options, &raw mut mesh);
         refused(status, planish_status::InvalidArgument, -1, &["keep_trims", "2"]);
-        options = planish_tessellate_options { reserved: 1, ..record() };
+        options = planish_tessellate_options { thread_count: 1025, ..record() };
         let status = planish_surface_tessellate(scene.surface, &raw const options, &raw mut mesh);
-        refused(status, planish_status::Version, -1, &["planish_tessellate_options"]);
+        refused(status, planish_status::InvalidArgument, -1, &["thread_count", "1025"]);
         let bow = [0.1, 0.1, 0.9, 0.9, 0.9, 0.1, 0.1, 0.9];
         ok(planish_surface_set_trims(scene.surface, bow.as_ptr(), [4].as_ptr(), 1));
         let status = planish_surface_tessellate(scene.surface, null(), &raw mut mesh);
