@@ -165,6 +165,11 @@ record! {
         pub stop_reason: u32,
         /// 1 for one chart, 0 for patches.
         pub is_chart: u32,
+        /// Pairs of triangles of the mesh that cross.
+        pub mesh_crossing_count: usize,
+        /// Pairs of triangles of the model that cross, triangulated as finely as the tolerance: walls that are thinner
+        /// than that, or folds. SIZE_MAX if the model could not be triangulated.
+        pub crossing_count: usize,
     }
 }
 
@@ -205,6 +210,8 @@ impl planish_model_report {
             pass_count: report.passes as u32,
             stop_reason: planish_stop_reason::from(report.stop) as u32,
             is_chart: u32::from(fit.pieces.is_empty()),
+            mesh_crossing_count: report.mesh_crossings,
+            crossing_count: report.crossings.unwrap_or(usize::MAX),
         }
     }
 

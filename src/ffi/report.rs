@@ -31,6 +31,8 @@ pub enum planish_remark {
     SegmentationAdvised = 256,
     /// The data do not determine the beam energy's null space; the plate energy was used instead.
     PlateEnergyUsed = 512,
+    /// Triangles of the mesh, or of the triangulated model, cross each other.
+    SelfIntersecting = 1024,
     /// Points that lay on the one before them in their row have been merged with it.
     MergedPoints = 1048576,
     /// A row looks reversed or shifted against the one before it: see align in planish_skin_options.
@@ -177,6 +179,7 @@ const _: () = {
     assert!(Remarks::EMPTY_CELLS.0 == planish_remark::EmptyCells as u64);
     assert!(Remarks::ROUGH_BETWEEN_NODES.0 == planish_remark::RoughBetweenNodes as u64);
     assert!(Remarks::SEGMENTATION_ADVISED.0 == planish_remark::SegmentationAdvised as u64);
+    assert!(Remarks::SELF_INTERSECTING.0 == planish_remark::SelfIntersecting as u64);
     assert!(Remarks::PLATE_ENERGY_USED.0 == planish_remark::PlateEnergyUsed as u64);
     assert!(Remarks::MERGED_POINTS.0 == planish_remark::MergedPoints as u64);
     assert!(Remarks::TWISTED_ROWS.0 == planish_remark::TwistedRows as u64);

@@ -1,6 +1,7 @@
 //! Questions that take more than an evaluation: tessellation, closest points and deviation of surfaces, rows of points on
 //! meshes.
 
+pub mod crossings;
 pub mod deviation;
 pub mod extent;
 pub mod gradient;

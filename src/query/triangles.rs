@@ -54,7 +54,7 @@ impl<M: Borrow<Mesh>> TriangleTree<M> {
         tree
     }
 
-    fn corners(&self, triangle: u32) -> [DVec3; 3] {
+    pub(super) fn corners(&self, triangle: u32) -> [DVec3; 3] {
         let mesh = self.mesh();
         mesh.triangles()[triangle as usize].map(|node| mesh.points()[node as usize])
     }
@@ -88,6 +88,25 @@ impl<M: Borrow<Mesh>> TriangleTree<M> {
         self.add(first, half, middles);
         self.nodes[node].second = self.nodes.len() as u32;
         self.add(first + half, count - half, middles);
+    }
+
+    /// Calls `visit` with the triangles that may meet one with these corners: those whose leaf's box meets its box.
+    pub(super) fn for_each_near(&self, corners: [DVec3; 3], mut visit: impl FnMut(u32)) {
+        let [a, b, c] = corners;
+        let (min, max) = (a.min(b).min(c), a.max(b).max(c));
+        let mut stack = vec![0];
+        while let Some(at) = stack.pop() {
+            let Some(node) = self.nodes.get(at) else { continue };
+            if node.min.cmpgt(max).any() || node.max.cmplt(min).any() {
+                continue;
+            }
+            if node.second == 0 {
+                let range = node.first as usize..(node.first + node.count) as usize;
+                self.order[range].iter().for_each(|&triangle| visit(triangle));
+            } else {
+                stack.extend([at + 1, node.second as usize]);
+            }
+        }
     }
 
     /// The place of the mesh nearest to a point; None for a mesh without triangles.

@@ -155,7 +155,6 @@ pub fn run(arguments: &FitArguments, given: &Given) -> Result<Outcome, Failure> 
         family => family,
     };
     check_used(arguments, family, given)?;
-    given.refuse("report", !is_model, "is written of surfaces: a model has none yet; --picture draws it")?;
     if is_model {
         return model::run(&mesh, &repairs, arguments);
     }
@@ -387,6 +386,11 @@ pub fn remarks(remarks: Remarks) -> impl Iterator<Item = &'static str> {
              --family d1rc --sharp-angle 30 keeps, or where it swings, which more --smoothing prevents",
         ),
         (Remarks::SEGMENTATION_ADVISED, "the map is very compressed: cut the mesh into several charts"),
+        (
+            Remarks::SELF_INTERSECTING,
+            "triangles of the mesh or of the model cross: repair the mesh there, or tighten the tolerance below half of \
+             the thinnest wall",
+        ),
         (Remarks::PLATE_ENERGY_USED, "the plate energy was used: the beam energy leaves the data free"),
     ]
     .into_iter()

@@ -108,6 +108,9 @@ impl Remarks {
     /// The data do not determine the beam energy's null space; the plate energy was used instead.
     pub const PLATE_ENERGY_USED: Self = Self(1 << 9);
 
+    /// Triangles of the mesh or of the finished model cross each other.
+    pub const SELF_INTERSECTING: Self = Self(1 << 10);
+
     /// Points that lay on the one before them in their row have been merged with it.
     pub const MERGED_POINTS: Self = Self(1 << 20);
     /// A row looks reversed or shifted against the one before it.

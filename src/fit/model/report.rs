@@ -76,6 +76,10 @@ pub struct ModelReport {
     pub dropped_samples: usize,
     /// Rounds of fitting and measuring.
     pub passes: usize,
+    /// Pairs of triangles of the mesh that cross.
+    pub mesh_crossings: usize,
+    /// Pairs of triangles of the finished model that cross; None if it could not be triangulated, or has not been yet.
+    pub crossings: Option<usize>,
     /// Why the fit ended.
     pub stop: StopReason,
     /// Everything worth knowing.
@@ -151,6 +155,8 @@ pub fn measure(
         deepest_level: tmeshes.map(level).max().unwrap_or(0),
         dropped_samples: refinement.samples.dropped,
         passes: outcome.passes,
+        mesh_crossings: 0,
+        crossings: None,
         stop: outcome.stop,
         remarks,
         patches,

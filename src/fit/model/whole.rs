@@ -10,7 +10,7 @@
 use super::bodies::{Body, bodies};
 use super::error::ModelFitError;
 use super::{LayoutFit, ModelOptions, ModelReport, NodePlaces, fit_over_layout};
-use crate::control::Control;
+use crate::control::{Cancelled, Control};
 use crate::failure::Classify;
 use crate::fit::common::report::{FitReport, Remarks, Tolerance, ToleranceScale};
 use crate::fit::pht::{self, PhtOptions};
@@ -22,6 +22,8 @@ use crate::model::{
     of_surface,
 };
 use crate::parameterize::sphere::{SphereOptions, map_to_sphere};
+use crate::query::crossings::crossings;
+use crate::query::tessellate::TessellateOptions;
 use crate::summary::summarize;
 use crate::surface::AnySurface;
 use crate::surface::pht::PhtSurface;
@@ -140,8 +142,28 @@ pub fn fit_mesh(
     };
     let start = Instant::now();
     let mut fit = if is_chart { chart(mesh, options, control) } else { patches(mesh, options, control) }?;
+    count_crossings(mesh, &mut fit, control)?;
     fit.seconds = start.elapsed().as_secs_f64();
     Ok(fit)
+}
+
+/// Counts the triangles that cross in the mesh and in the model, triangulated as finely as the tolerance.
+fn count_crossings(mesh: &Mesh, fit: &mut ModelFit, control: &mut Control) -> Result<(), ModelFitError> {
+    let options = TessellateOptions { chord_tolerance: fit.report.tolerance, ..TessellateOptions::default() };
+    let model = &fit.model;
+    let (of_mesh, of_model) = control.watch(|pool, watch| -> Result<_, Cancelled> {
+        let of_mesh = crossings(mesh, pool)?.count;
+        watch.check()?;
+        // a model that cannot be triangulated has no triangles that cross
+        let triangles = model.tessellate_by(&options, pool).ok();
+        watch.check()?;
+        let of_model = triangles.map(|triangles| crossings(&triangles.mesh, pool)).transpose()?;
+        Ok((of_mesh, of_model.map(|found| found.count)))
+    })??;
+    (fit.report.mesh_crossings, fit.report.crossings) = (of_mesh, of_model);
+    let do_cross = of_mesh > 0 || of_model.is_some_and(|count| count > 0);
+    fit.report.remarks.add_if(do_cross, Remarks::SELF_INTERSECTING);
+    Ok(())
 }
 
 /// Share of a component's time in which its map is made.
@@ -342,6 +364,8 @@ fn together(mesh: &Mesh, components: &[ComponentReport], errors: &[f64]) -> Mode
         deepest_level: fits().map(|fit| fit.deepest_level).max().unwrap_or(0),
         dropped_samples: fits().map(|fit| fit.dropped_samples).sum(),
         passes: fits().map(|fit| fit.passes).max().unwrap_or(0),
+        mesh_crossings: 0,
+        crossings: None,
         stop: fits().map(|fit| fit.stop).find(|&stop| stop != Default::default()).unwrap_or_default(),
         remarks,
         fit_seconds: fits().map(|fit| fit.fit_seconds).sum(),
