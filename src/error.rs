@@ -14,6 +14,7 @@ use crate::fit::d1rc::D1rcFitError;
 use crate::fit::field::FieldError;
 use crate::fit::field::transfer::TransferError;
 use crate::fit::model::ModelFitError;
+use crate::fit::model::from_patches::FromPatchesError;
 use crate::fit::skin::SkinError;
 use crate::knots::KnotError;
 use crate::layout::LayoutError;
@@ -74,6 +75,8 @@ union! {
     Fit(FitError),
     /// A mesh does not become a model.
     ModelFit(ModelFitError),
+    /// Patches make no smooth model.
+    FromPatches(FromPatchesError),
     /// A field cannot be fitted.
     Field(FieldError),
     /// Values cannot be carried from mesh to mesh.

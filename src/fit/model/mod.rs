@@ -19,6 +19,7 @@ mod error;
 pub mod field;
 mod folds;
 mod foot;
+pub mod from_patches;
 mod ground;
 mod least_squares;
 mod locks;

@@ -23,6 +23,7 @@ const ORDER: &[&str] = &[
     "patch.rs",
     "tensor.rs",
     "field.rs",
+    "from_patches.rs",
     "transfer.rs",
     "query.rs",
     "rows.rs",
