@@ -1,12 +1,13 @@
 //! The report as a page.
 
-use super::arguments::{self, choice, deref, options, text};
+use super::arguments::{self, ArgumentError, choice, deref, options, text};
 use super::guard::guard;
 use super::mesh::planish_mesh;
+use super::model::planish_model;
 use super::planish_status;
 use super::progress::{planish_progress, with_control};
 use super::surface::planish_surface;
-use crate::export::html::{ReportOptions, write_report};
+use crate::export::html::{ReportOptions, write_model_report, write_report};
 use crate::fit::common::report::{Remarks, ToleranceScale};
 use libc::{c_char, c_void};
 
@@ -39,6 +40,31 @@ record! {
     }
 }
 
+impl planish_report_options {
+    /// The core's options.
+    ///
+    /// # Safety
+    /// Texts are NULL or end with a NUL, and stay as they are.
+    unsafe fn core(&self) -> Result<ReportOptions<'_>, ArgumentError> {
+        let defaults = ReportOptions::default();
+        // SAFETY: the caller's promise.
+        let or = |given, default, name| unsafe {
+            if given == std::ptr::null() { Ok(default) } else { text(given, name) }
+        };
+        Ok(ReportOptions {
+            title: or(self.title, defaults.title, "title")?,
+            unit: or(self.unit, defaults.unit, "unit")?,
+            tolerance: Some(self.tolerance).filter(|&value| value != 0.0),
+            tolerance_scale: choice(
+                self.tolerance_scale,
+                &[ToleranceScale::Relative, ToleranceScale::Absolute],
+                "tolerance_scale",
+            )?,
+            remarks: Remarks(self.remarks),
+        })
+    }
+}
+
 /// Measures a surface in space against a mesh and writes the result as one HTML page that needs nothing from outside:
 /// the mesh in the colours of its signed distances (positive on the side of the normal), the surface and its control
 /// net, a section plane, a histogram, the ten worst places, and the numbers in words.
@@ -64,20 +90,42 @@ pub unsafe extern "C" fn planish_surface_write_report(
         let mesh = &deref(mesh, "mesh")?.0;
         let path = arguments::path(path, "path")?;
         let given = self::options(options)?;
-        let defaults = ReportOptions::default();
-        let core = ReportOptions {
-            title: if given.title.is_null() { defaults.title } else { text(given.title, "title")? },
-            unit: if given.unit.is_null() { defaults.unit } else { text(given.unit, "unit")? },
-            tolerance: Some(given.tolerance).filter(|&value| value != 0.0),
-            tolerance_scale: choice(
-                given.tolerance_scale,
-                &[ToleranceScale::Relative, ToleranceScale::Absolute],
-                "tolerance_scale",
-            )?,
-            remarks: Remarks(given.remarks),
-        };
+        let core = given.core()?;
         with_control(given.thread_count, listener!(given), |control| {
             write_report(surface, mesh, &core, path, control)
+        })??;
+        Ok(())
+    })
+}
+
+/// Measures a model against a mesh and writes the result as one HTML page, as planish_surface_write_report() does: the mesh in
+/// the colours of its signed distances (positive in front of the faces), the model, a section plane, a histogram, the ten
+/// worst places, and the numbers in words.
+///
+/// model:   not NULL.
+/// mesh:    not NULL.
+/// path:    the file, UTF-8; not NULL. Replaced as a whole.
+/// options: NULL for the defaults.
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND (a field), an error of
+/// planish_model_deviation() or planish_model_tessellate(), PLANISH_STATUS_INVALID_ARGUMENT (an option),
+/// PLANISH_STATUS_FILE, PLANISH_STATUS_VERSION or PLANISH_STATUS_CANCELLED.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_model_write_report(
+    model: *const planish_model,
+    mesh: *const planish_mesh,
+    path: *const c_char,
+    options: *const planish_report_options,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let model = deref(model, "model")?.core()?;
+        let mesh = &deref(mesh, "mesh")?.0;
+        let path = arguments::path(path, "path")?;
+        let given = self::options(options)?;
+        let core = given.core()?;
+        with_control(given.thread_count, listener!(given), |control| {
+            write_model_report(model, mesh, &core, path, control)
         })??;
         Ok(())
     })

@@ -6,6 +6,7 @@ use crate::picture::{Picture, View};
 use crate::step::Step;
 use crate::{Failure, Outcome};
 use glam::DVec3;
+use planish::Control;
 use planish::fit::model::{Family, MeshModelOptions, ModelFit, ModelOptions, fit_mesh};
 use planish::fit::report::Remarks;
 use planish::layout::of_mesh::{LayoutKind, MeshLayoutOptions};
@@ -30,6 +31,10 @@ pub fn run(mesh: &Mesh, repairs: &MeshRepairs, arguments: &FitArguments) -> Resu
         picture.draw_mesh(&moved, Some(&fit.errors), range);
         picture.draw_scale("deviation", range);
         output::write_png(&picture, path)?;
+    }
+    if let Some(path) = &arguments.report {
+        let write = |control: &mut Control| output::write_model_report(mesh, &fit, &stem, path, control);
+        with_bar(arguments.threads, write)?;
     }
     if arguments.json {
         output::print(format_args!("{}\n", json_report(arguments, mesh, repairs, &fit)))?;
@@ -191,6 +196,8 @@ fn json_report(
         "stop": crate::fit::verdict(report.remarks, report.stop),
         "fit_seconds": report.fit_seconds,
         "seconds": fit.seconds,
+        "mesh_crossings": report.mesh_crossings,
+        "crossings": report.crossings,
         "remarks": crate::fit::remarks(report.remarks).collect::<Vec<_>>(),
         "repaired": output::repairs(repairs),
         "written": crate::fit::written(arguments),

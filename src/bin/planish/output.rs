@@ -11,6 +11,7 @@ use planish::export::mesh::Encoding;
 use planish::export::{mesh as mesh_files, native, step, vtk};
 use planish::file;
 use planish::fit::conversion::to_model;
+use planish::fit::model::ModelFit;
 use planish::fit::report::{FitReport, ToleranceScale};
 use planish::memory;
 use planish::mesh::{Format, Mesh, MeshRepairs};
@@ -217,6 +218,24 @@ pub fn write_report(
         remarks: fit.report.remarks,
     };
     Ok(html::write_report(fit.surface.as_surface(), mesh, &options, path, control)?)
+}
+
+/// Writes the page of a model.
+pub fn write_model_report(
+    mesh: &Mesh,
+    fit: &ModelFit,
+    title: &str,
+    path: &Path,
+    control: &mut Control,
+) -> Result<(), Failure> {
+    let options = ReportOptions {
+        title,
+        unit: "",
+        tolerance: Some(fit.report.tolerance),
+        tolerance_scale: ToleranceScale::Absolute,
+        remarks: fit.report.remarks,
+    };
+    Ok(html::write_model_report(&fit.model, mesh, &options, path, control)?)
 }
 
 /// Writes a picture of the surface coloured by the error at the nodes.

@@ -14,7 +14,7 @@ use crate::surface::ControlNet;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use glam::DVec3;
-pub use measured::{ReportError, ReportOptions, write_report};
+pub use measured::{ReportError, ReportOptions, write_model_report, write_report};
 use std::fmt::Write;
 use std::path::Path;
 pub use summary::Statistics;

@@ -53,6 +53,7 @@ fn a_ball_becomes_a_solid_and_every_node_finds_its_place() {
         ok(planish_model_fit(mesh.0, &options, &mut model, &mut report));
         assert!(report.max_error <= report.tolerance && report.normal_jump <= 1e-12, "{report:?}");
         assert_eq!((report.component_count, report.patch_count, report.genus, report.is_chart), (1, 6, 0, 0));
+        assert_eq!((report.mesh_crossing_count, report.crossing_count), (0, 0));
         assert_eq!(errors.iter().copied().fold(0.0, f64::max), report.max_error);
         let mut measure = planish_measure_report::default();
         ok(planish_model_measure(model, &mut measure));
@@ -70,6 +71,7 @@ fn a_ball_becomes_a_solid_and_every_node_finds_its_place() {
         let miss: f64 = (0..3).map(|k| (point[k] - node[k]).powi(2)).sum::<f64>().sqrt();
         assert!((miss - errors[0]).abs() <= 1e-13, "{miss} {}", errors[0]);
         check_origin(model, (&faces, &uv, &errors));
+        check_page(model, mesh.0);
         planish_model_free(model);
     }
 }
@@ -106,6 +108,27 @@ unsafe fn check_origin(model: *const planish_model, (faces, uv, errors): (&[u32]
         assert!(again == bytes, "what is loaded is saved as it was");
         planish_model_free(copy);
         planish_model_free(loaded);
+    }
+}
+
+/// The page of a model names its faces, and a place that cannot be written is told.
+unsafe fn check_page(model: *const planish_model, mesh: *const planish_mesh) {
+    let path = std::env::temp_dir().join(format!("planish-model-{}.html", std::process::id()));
+    let c_path = std::ffi::CString::new(path.to_str().unwrap()).unwrap();
+    // SAFETY: a live model and mesh.
+    unsafe {
+        ok(planish_model_write_report(model, mesh, c_path.as_ptr(), null()));
+        let page = std::fs::read_to_string(&path).unwrap();
+        std::fs::remove_file(&path).unwrap();
+        for word in
+            ["<td>shells</td><td>1</td>", "<td>edges of one face</td><td>0</td>", "face ", "Tolerance met"]
+        {
+            assert!(page.contains(word), "{word}");
+        }
+        let options = planish_report_options { tolerance: -1.0, ..planish_report_options::default() };
+        let status = planish_model_write_report(model, mesh, c_path.as_ptr(), &options);
+        refused(status, planish_status::InvalidArgument, -1, &["tolerance"]);
+        null_refused(planish_model_write_report(model, null(), c_path.as_ptr(), null()), "mesh");
     }
 }
 
@@ -200,6 +223,79 @@ fn a_field_on_a_ball_is_a_model_of_its_own_dimension() {
             planish_model_free(handle);
         }
         planish_field_fitter_free(fitter);
+    }
+}
+
+#[test]
+fn two_sides_of_a_roof_become_one_smooth_shell() {
+    let knots = [0.0, 0.0, 1.0, 1.0];
+    let bilinear = |points: [[f64; 3]; 4]| {
+        let (mut surface, knots) = (null_mut(), knots.as_ptr());
+        // SAFETY: knots and control points of degree 1.
+        ok(unsafe {
+            planish_tensor_new(
+                3,
+                1,
+                1,
+                knots,
+                4,
+                knots,
+                4,
+                points.as_flattened().as_ptr(),
+                null(),
+                &mut surface,
+            )
+        });
+        SurfaceHandle(surface)
+    };
+    let left = bilinear([[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.2], [1.0, 1.0, 0.2]]);
+    let right = bilinear([[1.0, 0.0, 0.2], [1.0, 1.0, 0.2], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0]]);
+    let apart = bilinear([[1.0, 0.5, 0.2], [1.0, 1.0, 0.2], [2.0, 0.5, 0.0], [2.0, 1.0, 0.0]]);
+    let (mut model, mut report): (*mut planish_model, _) = (null_mut(), planish_smooth_report::default());
+    // SAFETY: live surfaces.
+    unsafe {
+        let options = planish_smooth_options { thread_count: 2, ..planish_smooth_options::default() };
+        let both = [left.0.cast_const(), right.0.cast_const()];
+        let made = planish_model_smooth_from_patches(both.as_ptr(), 2, &options, &mut model, &mut report);
+        assert!(matches!(made, planish_status::ToleranceNotMet | planish_status::Stagnated), "{made:?}");
+        assert_eq!((report.joined_count, report.free_count, report.piece_count), (1, 6, 1));
+        assert!(report.given_normal_jump > 0.3 && report.normal_jump <= 1e-12, "{report:?}");
+        assert!(report.max_deviation > report.tolerance && report.max_deviation < 0.05, "{report:?}");
+        planish_model_free(model);
+
+        let before = format!("{report:?}");
+        let mut model = canary::<*mut planish_model>();
+        let mut refuse = |patches: &[*const planish_surface], options: *const planish_smooth_options| {
+            let status = planish_model_smooth_from_patches(
+                patches.as_ptr(),
+                patches.len(),
+                options,
+                &mut model,
+                &mut report,
+            );
+            assert!(model == canary() && format!("{report:?}") == before);
+            status
+        };
+        let meets = [left.0.cast_const(), apart.0.cast_const()];
+        refused(refuse(&meets, null()), planish_status::Topology, 0, &["corner of patch 1", "patch 0"]);
+        refused(refuse(&[], null()), planish_status::InvalidArgument, -1, &["no patches"]);
+        null_refused(refuse(&[left.0, null()], null()), "surfaces");
+        type Change = fn(&mut planish_smooth_options);
+        let cases: [(Change, &str); 6] = [
+            (|o| o.tolerance = 0.0, "tolerance"),
+            (|o| o.join_tolerance = f64::NAN, "tolerance"),
+            (|o| o.smoothing = -1.0, "smoothing"),
+            (|o| o.max_cells = 3, "max_cells"),
+            (|o| o.max_rounds = 0, "max_rounds"),
+            (|o| o.tolerance_scale = 2, "tolerance_scale"),
+        ];
+        for (change, word) in cases {
+            let mut options = options;
+            change(&mut options);
+            refused(refuse(&both, &options), planish_status::InvalidArgument, -1, &[word]);
+        }
+        let status = planish_model_smooth_from_patches(both.as_ptr(), 2, null(), null_mut(), null_mut());
+        null_refused(status, "out_model");
     }
 }
 
