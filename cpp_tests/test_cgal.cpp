@@ -1,4 +1,4 @@
-// CGAL and planish agree: on mean value coordinates, and on the distance of a mesh to its surface.
+// CGAL and planish agree: on mean value coordinates, on the distance of a mesh to its surface, and on models of closed meshes.
 #include "check.hpp"
 #include "shapes.hpp"
 
@@ -8,8 +8,10 @@
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Eigen_solver_traits.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/border.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/Circular_border_parameterizer_3.h>
@@ -81,6 +83,45 @@ TEST(Cgal, MeanValueMapsAreEqual) {
   }
   CHECK_NEAR(largest, 0.0, 1e-9);
   std::printf("mean value map of %zu nodes: largest difference %.1e\n", found.size(), largest);
+}
+
+// A bumpy ellipsoid of CGAL's goes in, a solid comes out: the triangles of the model enclose what the model says, and CGAL
+// finds none that meet where they should not.
+TEST(Cgal, ModelsEncloseTheirVolumeAndDoNotMeetThemselves) {
+  using Exact = CGAL::Exact_predicates_inexact_constructions_kernel;
+  using ExactMesh = CGAL::Surface_mesh<Exact::Point_3>;
+  namespace pmp = CGAL::Polygon_mesh_processing;
+  shapes::arrays all = shapes::ball(14);
+  for (std::size_t n = 0; n < all.point_count(); ++n) {
+    double *p = &all.points[3 * n];
+    const double radius = 1 + 0.1 * std::sin(4 * p[2]);
+    p[0] *= 2 * radius;
+    p[1] *= radius;
+    p[2] *= radius;
+  }
+  const SurfaceMesh theirs = to_cgal(all);
+  const planish::mesh mesh = from_cgal(theirs);
+  const planish::fitted_model fit = planish::model_fit(mesh);
+  CHECK(fit.status == PLANISH_STATUS_OK);
+  CHECK_EQUAL(fit.report.crossing_count, 0u);
+  const planish_measure_report measure = fit.model.measure();
+  CHECK_EQUAL(measure.free_edge_count, 0u);
+  auto options = planish::defaults<planish_tessellate_options>();
+  options.chord_tolerance = 1e-4 * measure.diagonal;
+  const planish::mesh triangles = fit.model.tessellate(options);
+  ExactMesh exact;
+  for (const planish::point3 &p : triangles.points()) exact.add_vertex(Exact::Point_3(p[0], p[1], p[2]));
+  for (const planish::triangle &t : triangles.triangles()) {
+    const auto node = [&](std::size_t k) { return ExactMesh::Vertex_index(t[k]); };
+    CHECK(exact.add_face(node(0), node(1), node(2)) != ExactMesh::null_face());
+  }
+  CHECK(CGAL::is_closed(exact));
+  CHECK(!pmp::does_self_intersect(exact));
+  // a layer as thick as the chords are off
+  const double volume = CGAL::to_double(pmp::volume(exact));
+  CHECK_NEAR(volume, measure.volume, 2 * options.chord_tolerance * measure.area);
+  CHECK_NEAR(CGAL::to_double(pmp::volume(theirs)), measure.volume, 2e-2 * volume);
+  std::printf("model of %zu triangles: volume %.6f, by CGAL %.6f\n", theirs.number_of_faces(), measure.volume, volume);
 }
 
 #ifdef HAS_DISTANCE

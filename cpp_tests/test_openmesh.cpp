@@ -177,4 +177,29 @@ TEST(OpenMesh, TextureCoordinatesTravelBothWays) {
   std::remove(path);
 }
 
+// Normals at the nodes of a fine tessellation are those of the model: a node lies no farther than a side from where the
+// facets around it touch the model, and there the normal has turned by that side over the radius of curvature.
+TEST(OpenMesh, NormalsOfModelsAreThoseOfTheirTriangles) {
+  const shapes::arrays ball = shapes::ball(10);
+  const planish::model model = planish::model_fit(planish::mesh(ball.points, ball.triangles)).model;
+  auto options = planish::defaults<planish_tessellate_options>();
+  options.chord_tolerance = 1e-4;
+  const planish::mesh triangles = model.tessellate(options);
+  TriMesh theirs = to_openmesh(triangles);
+  theirs.request_face_normals();
+  theirs.request_vertex_normals();
+  theirs.update_normals();
+  const planish::model::feet feet = model.project(triangles.points());
+  const std::vector<planish::point3> normals = model.normals(feet.faces, feet.uv);
+  double largest = 0, longest = 0;
+  for (const auto edge : theirs.edges()) longest = std::max(longest, theirs.calc_edge_length(edge));
+  for (const auto vertex : theirs.vertices()) {
+    const TriMesh::Normal n = theirs.normal(vertex);
+    const planish::point3 &m = normals[static_cast<std::size_t>(vertex.idx())];
+    largest = std::max(largest, (n - TriMesh::Normal(m[0], m[1], m[2])).norm());
+  }
+  CHECK(largest <= longest);
+  std::printf("normals of %zu nodes: largest difference %.1e, longest side %.1e\n", normals.size(), largest, longest);
+}
+
 int main() { return check::run(); }

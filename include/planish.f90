@@ -209,8 +209,7 @@ module planish_types
     procedure :: new => curve_new
     procedure, private :: fit_rows => curve_fit_rows
     procedure, private :: fit_scalars => curve_fit_scalars
-    procedure, private :: fit_model_rows => field_fitter_fit_model
-    generic :: fit => fit_rows, fit_scalars, fit_model_rows
+    generic :: fit => fit_rows, fit_scalars
     procedure :: dim => curve_dim
     procedure :: degree => curve_degree
     procedure :: knot_count => curve_knot_count
@@ -271,6 +270,7 @@ module planish_types
     procedure :: deviation => model_deviation
     procedure :: tessellate => model_tessellate
     procedure :: write_vtk => model_write_vtk
+    procedure :: write_report => model_write_report
     procedure :: measure => model_measure
     procedure :: write_step => model_write_step
     procedure :: write_step_memory => model_write_step_memory
@@ -301,7 +301,8 @@ module planish_types
     procedure :: copy_parameters => field_fitter_copy_parameters
     procedure, private :: fit_rows => field_fitter_fit_rows
     procedure, private :: fit_scalars => field_fitter_fit_scalars
-    generic :: fit => fit_rows, fit_scalars
+    procedure, private :: fit_model_rows => field_fitter_fit_model
+    generic :: fit => fit_rows, fit_scalars, fit_model_rows
     procedure, private :: update_rows => field_fitter_update_rows
     procedure, private :: update_scalars => field_fitter_update_scalars
     generic :: update => update_rows, update_scalars
@@ -396,6 +397,7 @@ module planish_types
   public :: planish_tspline_insert_knot_u, planish_tspline_insert_knot_v, planish_tspline_remove_knot_u
   public :: planish_d1rc_fit
   public :: planish_model_fit
+  public :: planish_model_smooth_from_patches
   public :: planish_pht_fit, planish_pht_fit_points, planish_pht_fit_field, planish_pht_new
   public :: planish_pht_split, planish_pht_merge, planish_pht_simplify, planish_pht_refine_region
   public :: planish_pht_from_surface, planish_pht_to_tensor_patches, planish_pht_stitch
@@ -2562,6 +2564,29 @@ contains
     call conclude(c_model_write_vtk(self%get(), terminated(path), call_options), stat, errmsg)
   end subroutine
 
+  !> Measures the model against a mesh and writes the result as one HTML page, as a surface's.
+  subroutine model_write_report(self, mesh, path, options, title, unit, stat, errmsg)
+    class(planish_model_t), intent(in) :: self
+    class(planish_mesh_t), intent(in) :: mesh
+    character(*), intent(in) :: path
+    type(planish_report_options), intent(in), optional :: options
+    character(*), intent(in), optional :: title, unit
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_report_options) :: call_options
+    character(kind=c_char, len=:), allocatable, target :: c_title, c_unit
+    if (present(options)) call_options = options
+    if (present(title)) then
+      c_title = terminated(title)
+      call_options%title = c_loc(c_title)
+    end if
+    if (present(unit)) then
+      c_unit = terminated(unit)
+      call_options%unit = c_loc(c_unit)
+    end if
+    call conclude(c_model_write_report(self%get(), mesh%get(), terminated(path), call_options), stat, errmsg)
+  end subroutine
+
   !> Box, area, volume, and how well the faces meet.
   subroutine model_measure(self, report, stat, errmsg)
     class(planish_model_t), intent(in) :: self
@@ -3364,6 +3389,33 @@ contains
     status = c_model_fit(mesh%get(), call_options, handle, report)
     if (status >= 0) call model%take(handle)
     if (status >= 0 .and. present(report)) report%worst_node = report%worst_node + 1
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Makes one smooth model of tensor surfaces that meet edge to edge within a tolerance. worst_patch of the report
+  !> counts from 1.
+  subroutine planish_model_smooth_from_patches(surfaces, model, options, report, progress, stat, errmsg)
+    class(planish_surface_t), intent(in) :: surfaces(:)
+    class(planish_model_t), intent(inout) :: model
+    type(planish_smooth_options), intent(in), optional :: options
+    type(planish_smooth_report), intent(inout), optional :: report
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_smooth_options) :: call_options
+    type(listener), target :: user
+    type(c_ptr) :: handle
+    integer(c_int) :: status
+    if (present(options)) call_options = options
+    if (present(progress)) then
+      user%hear => progress
+      call_options%progress = c_funloc(relay)
+      call_options%user = c_loc(user)
+    end if
+    status = c_model_smooth_from_patches( &
+        handles_of(surfaces), size(surfaces, kind=c_size_t), call_options, handle, report)
+    if (status >= 0) call model%take(handle)
+    if (status >= 0 .and. present(report)) report%worst_patch = report%worst_patch + 1
     call conclude(status, stat, errmsg)
   end subroutine
 

@@ -133,6 +133,9 @@ inline planish_status init(planish_sphere_options &options) {
 inline planish_status init(planish_model_options &options) {
   return planish_model_options_init(&options, sizeof options);
 }
+inline planish_status init(planish_smooth_options &options) {
+  return planish_smooth_options_init(&options, sizeof options);
+}
 inline planish_status init(planish_feature_options &options) {
   return planish_feature_options_init(&options, sizeof options);
 }
@@ -1294,6 +1297,12 @@ class model {
     return faces;
   }
 
+  /// Measures the model against a mesh and writes the result as one HTML page; `path` is UTF-8.
+  void write_report(const mesh &measured, const std::string &path,
+                    const planish_report_options &options = defaults<planish_report_options>()) const {
+    detail::checked(planish_model_write_report(get(), measured.get(), path.c_str(), &options));
+  }
+
   /// Box, area, volume, and how well the faces meet.
   planish_measure_report measure() const {
     auto report = detail::sized<planish_measure_report>();
@@ -1603,6 +1612,33 @@ inline fitted_model model_fit(const mesh &mesh, planish_model_options options = 
   model owner(made); // freed even if the callback's last call has thrown
   listener.checked(status);
   return {std::move(owner), report, status, std::move(faces), std::move(uv), std::move(errors)};
+}
+
+/// What came of making one smooth model of patches.
+struct smoothed_model {
+  /// The best model found.
+  planish::model model;
+  /// How far it is from the patches, and how far those were apart.
+  planish_smooth_report report;
+  /// PLANISH_STATUS_OK, or the gravest remark, such as PLANISH_STATUS_TOLERANCE_NOT_MET.
+  planish_status status;
+};
+
+/// Makes one smooth model of tensor surfaces that meet edge to edge within a tolerance.
+inline smoothed_model model_smooth_from_patches(const std::vector<const surface *> &patches,
+                                                planish_smooth_options options = defaults<planish_smooth_options>(),
+                                                const progress &hear = {}) {
+  detail::listener listener(hear);
+  listener.attach(options);
+  std::vector<const planish_surface *> handles;
+  for (const surface *patch : patches) handles.push_back(patch->get());
+  auto report = detail::sized<planish_smooth_report>();
+  planish_model *made = nullptr;
+  const planish_status status =
+      planish_model_smooth_from_patches(handles.data(), handles.size(), &options, &made, &report);
+  model owner(made); // freed even if the callback's last call has thrown
+  listener.checked(status);
+  return {std::move(owner), report, status};
 }
 
 /// Fits a PHT-spline to rows of `dim` numbers at scattered parameters.

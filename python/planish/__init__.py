@@ -17,7 +17,7 @@ from ._fit import fit, fit_field, fit_points, skin, skin_curves
 from ._layout import Layout
 from ._library import Cancelled, Error, FileError, InvalidError, OutOfMemoryError, RangeError
 from ._mesh import Mesh, read_mesh, read_mesh_bytes
-from ._model import Edge, Face, Model, Shell, load_model, model
+from ._model import Edge, Face, Model, Shell, load_model, model, smooth_from_patches
 from ._records import Report
 from ._pht import Extraction, PhtSurface, pht, pht_from_surface
 from ._surface import BezierPatch, Curvatures, Surface, load, loads
@@ -67,6 +67,7 @@ __all__ = [
     "skin",
     "skin_curves",
     "smooth_creased",
+    "smooth_from_patches",
     "tensor",
     "tspline",
 ]

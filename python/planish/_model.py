@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -264,6 +265,25 @@ class Model(Handle):
         record = options("vtk_options", vtk_options, **long.fields("vtk_options"))
         long("planish_model_write_vtk", self, path_of(path), by_reference(record))
 
+    def write_report(
+        self,
+        path: str | os.PathLike,
+        mesh: Mesh,
+        *,
+        progress: ProgressCallback | None = None,
+        **report_options: Any,
+    ) -> None:
+        """Writes an HTML page with the mesh in the colours of its distances, numbers and worst places.
+
+        report_options: ``title``, ``unit``, ``tolerance`` (default: that of the fit), ``remarks``.
+        """
+        long = LongCall(progress)
+        if self.report is not None and "tolerance" not in report_options:
+            report_options.update(tolerance=self.report.tolerance, tolerance_scale="absolute")
+            report_options.setdefault("remarks", self.report.remarks)
+        record = options("report_options", report_options, **long.fields("report_options"))
+        long("planish_model_write_report", self, mesh, path_of(path), by_reference(record))
+
     def to_brep(self) -> str:
         """The model as BREP text of OpenCASCADE: FreeCAD, CadQuery and build123d take it from memory."""
         from ._brep import text
@@ -362,3 +382,33 @@ def model(
     fitted.report = Report(report, status)
     fitted.report.faces, fitted.report.uv, fitted.report.errors = map(read_only, (faces, uv, errors))
     return fitted
+
+
+def smooth_from_patches(
+    patches: Iterable[Surface],
+    tolerance: float = 1e-3,
+    *,
+    absolute: bool = False,
+    progress: ProgressCallback | None = None,
+    **smooth_options: Any,
+) -> Model:
+    """One smooth model of tensor surfaces that meet edge to edge within `join_tolerance`.
+
+    tolerance: the largest deviation allowed from the given surfaces, as a fraction of the diagonal of their box, or in their
+        units if `absolute`.
+    smooth_options: those of `planish_smooth_options`.
+
+    ``model.report`` tells how far the model is from the patches, and how far those were apart.
+    """
+    patches = list(patches)
+    handles = (ctypes.c_void_p * len(patches))(*(patch._as_parameter_ for patch in patches))
+    long, report = LongCall(progress), report_record("smooth_report")
+    filled = dict(
+        long.fields("smooth_options"), tolerance=tolerance, tolerance_scale="absolute" if absolute else "relative"
+    )
+    record = options("smooth_options", smooth_options, **filled)
+    arguments = (ctypes.addressof(handles), len(patches), by_reference(record), OUT, by_reference(report))
+    status, handle = made("planish_model_smooth_from_patches", *arguments, run=long)
+    smoothed = Model._own(handle)
+    smoothed.report = Report(report, status)
+    return smoothed
