@@ -160,6 +160,8 @@ module planish_records
   integer(c_int64_t), parameter, public :: PLANISH_REMARK_SEGMENTATION_ADVISED = 256
   !> The data do not determine the beam energy's null space; the plate energy was used instead
   integer(c_int64_t), parameter, public :: PLANISH_REMARK_PLATE_ENERGY_USED = 512
+  !> Triangles of the mesh, or of the triangulated model, cross each other
+  integer(c_int64_t), parameter, public :: PLANISH_REMARK_SELF_INTERSECTING = 1024
   !> Points that lay on the one before them in their row have been merged with it
   integer(c_int64_t), parameter, public :: PLANISH_REMARK_MERGED_POINTS = 1048576
   !> A row looks reversed or shifted against the one before it: see align in planish_skin_options
@@ -799,6 +801,53 @@ module planish_records
     integer(c_int32_t) :: reserved = 0
   end type
 
+  !> How patches become one smooth model.
+  type, bind(c), public :: planish_smooth_options
+    integer(c_size_t) :: struct_size = 6 * word + 40
+    type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
+    type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag
+    type(c_ptr) :: cancel = c_null_ptr
+    !> Shows what the call is doing, before progress hears of it: a planish_stage
+    type(c_ptr) :: out_stage = c_null_ptr
+    real(c_double) :: tolerance = 1e-3_c_double !! Largest deviation from the given surfaces allowed
+    real(c_double) :: join_tolerance = 1e-3_c_double !! Within what distance corners and sides of patches meet
+    !> Weight of the plate energy of each cell of a patch, mapped to the unit cell
+    real(c_double) :: smoothing = 1e-6_c_double
+    integer(c_size_t) :: max_cells = 200000 !! Most cells of all patches of a piece
+    !> What both tolerances are measured in: a planish_tolerance_scale; PLANISH_TOLERANCE_SCALE_RELATIVE (default):
+    !> the diagonal of the box around all control points
+    integer(c_int32_t) :: tolerance_scale = PLANISH_TOLERANCE_SCALE_RELATIVE
+    integer(c_int32_t) :: max_rounds = 12 !! Most rounds of fitting and refining
+    integer(c_int32_t) :: level_spread = 1 !! By how much the levels of the cells in one face may differ
+    integer(c_int32_t) :: thread_count = 0 !! Threads that share the work; 0 (default) for all cores
+  end type
+
+  !> What became of patches.
+  type, bind(c), public :: planish_smooth_report
+    integer(c_size_t) :: struct_size = 7 * word + 104
+    real(c_double) :: max_deviation = 0 !! Largest distance between places all over the given surfaces and the model
+    real(c_double) :: rms_deviation = 0 !! Square root of the mean of its square
+    real(c_double) :: mean_deviation = 0 !! Its mean
+    real(c_double) :: tolerance = 0 !! The tolerance that was kept or missed
+    real(c_double) :: diagonal = 0 !! Diagonal of the box around all given control points
+    real(c_double) :: given_gap = 0 !! Largest distance between given sides that were joined
+    real(c_double) :: given_normal_jump = 0 !! Largest difference of unit normals across given sides that were joined
+    real(c_double) :: gap = 0 !! Largest distance between the two sides of an edge of the model
+    real(c_double) :: normal_jump = 0 !! Largest difference of unit normals across edges of the model
+    real(c_double) :: volume = 0 !! Volume that closed pieces enclose
+    real(c_double) :: seconds = 0 !! Seconds in all
+    integer(c_size_t) :: worst_patch = 0 !! The given patch that deviates most
+    integer(c_size_t) :: joined_count = 0 !! Sides that were joined, counted once for both
+    integer(c_size_t) :: free_count = 0 !! Sides that stayed free
+    integer(c_size_t) :: piece_count = 0 !! Pieces: shells of the model
+    integer(c_size_t) :: coefficient_count = 0 !! Control points, four a vertex of the cells of each patch
+    integer(c_size_t) :: cell_count = 0 !! Cells of all patches
+    integer(c_int64_t) :: remarks = 0 !! Everything worth knowing: bits of planish_remark
+    integer(c_int32_t) :: pass_count = 0 !! Rounds of fitting and measuring of the piece that took most
+    integer(c_int32_t) :: stop_reason = 0 !! A planish_stop_reason, why the fit ended
+  end type
+
   !> How values are carried.
   type, bind(c), public :: planish_transfer_options
     integer(c_size_t) :: struct_size = 2 * word + 16
@@ -865,7 +914,8 @@ module planish_records
     !> Shows what the call is doing, before progress hears of it: a planish_stage
     type(c_ptr) :: out_stage = c_null_ptr
     integer(c_int32_t) :: keep_trims = 1 !! 1 (default) keeps to the part inside the trims, 0 covers the whole domain
-    integer(c_int32_t) :: reserved = 0
+    !> Threads that share the faces of a model, at most 1024; 0 (default) for all cores
+    integer(c_int32_t) :: thread_count = 0
     type(c_ptr) :: out_report = c_null_ptr !! Receives how good the mesh is, or NULL (default)
   end type
 
@@ -1054,7 +1104,7 @@ module planish_records
 
   !> What a face is.
   type, bind(c), public :: planish_face_info
-    integer(c_size_t) :: struct_size = 3 * word + 96
+    integer(c_size_t) :: struct_size = 4 * word + 112
     real(c_double) :: origin(3) = 0 !! A point of the plane, or of the cylinder's axis; zeros for a spline
     !> The normal of the plane, or the direction of the cylinder's axis, of length 1; zeros for a spline
     real(c_double) :: axis(3) = 0
@@ -1069,6 +1119,10 @@ module planish_records
     integer(c_int32_t) :: shell = 0 !! The shell that it is in
     !> 1 if its front is the side to which the normal of its surface points, else 0
     integer(c_int32_t) :: is_forward = 0
+    !> The largest distance between a node of the fitted mesh on the face and the model; NaN without such nodes
+    real(c_double) :: max_error = 0
+    real(c_double) :: rms_error = 0 !! Square root of the mean of its square; NaN without such nodes
+    integer(c_size_t) :: node_count = 0 !! Nodes of the fitted mesh on the face; 0 for a model that no fit made
   end type
 
   !> What a shell is.
@@ -1142,7 +1196,7 @@ module planish_records
 
   !> What a fit of a model did and how good it is, of all components together.
   type, bind(c), public :: planish_model_report
-    integer(c_size_t) :: struct_size = 12 * word + 152
+    integer(c_size_t) :: struct_size = 14 * word + 152
     !> Largest distance between a node and the model at the node's place: what the tolerance bounds
     real(c_double) :: max_error = 0
     real(c_double) :: rms_error = 0 !! Square root of the mean of its square
@@ -1179,6 +1233,10 @@ module planish_records
     integer(c_int32_t) :: pass_count = 0 !! Rounds of fitting and measuring of the component that took most
     integer(c_int32_t) :: stop_reason = 0 !! A planish_stop_reason, why the fit ended
     integer(c_int32_t) :: is_chart = 0 !! 1 for one chart, 0 for patches
+    integer(c_size_t) :: mesh_crossing_count = 0 !! Pairs of triangles of the mesh that cross
+    !> Pairs of triangles of the model that cross, triangulated as finely as the tolerance: walls that are thinner
+    !> than that, or folds
+    integer(c_size_t) :: crossing_count = 0
   end type
 
   !> Options of curve fits.
@@ -2311,6 +2369,17 @@ module planish_calls
       type(c_ptr), intent(inout) :: out_fitter
     end function
 
+    integer(c_int) function c_field_fitter_new_model( &
+        model, mesh, options, out_fitter) &
+        bind(c, name="planish_field_fitter_new_model")
+      import
+      implicit none
+      type(c_ptr), value :: model
+      type(c_ptr), value :: mesh
+      type(planish_field_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_fitter
+    end function
+
     subroutine c_field_fitter_free(fitter) bind(c, name="planish_field_fitter_free")
       import
       implicit none
@@ -2352,6 +2421,19 @@ module planish_calls
       integer(c_size_t), value :: count
       integer(c_size_t), value :: dim
       type(c_ptr), intent(inout) :: out_surface
+      type(planish_fit_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_field_fitter_fit_model( &
+        fitter, values, count, dim, out_field, out_report) &
+        bind(c, name="planish_field_fitter_fit_model")
+      import
+      implicit none
+      type(c_ptr), value :: fitter
+      real(c_double), intent(in) :: values(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), value :: dim
+      type(c_ptr), intent(inout) :: out_field
       type(planish_fit_report), intent(inout), optional :: out_report
     end function
 
@@ -2400,6 +2482,25 @@ module planish_calls
       real(c_double), intent(inout) :: out_gradients(*)
     end function
 
+    integer(c_int) function c_smooth_options_init(options, struct_size) bind(c, name="planish_smooth_options_init")
+      import
+      implicit none
+      type(planish_smooth_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_model_smooth_from_patches( &
+        surfaces, count, options, out_model, out_report) &
+        bind(c, name="planish_model_smooth_from_patches")
+      import
+      implicit none
+      type(c_ptr), intent(in) :: surfaces(*)
+      integer(c_size_t), value :: count
+      type(planish_smooth_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_model
+      type(planish_smooth_report), intent(inout), optional :: out_report
+    end function
+
     integer(c_int) function c_transfer_options_init( &
         options, struct_size) &
         bind(c, name="planish_transfer_options_init")
@@ -2414,6 +2515,20 @@ module planish_calls
         bind(c, name="planish_transfer_new")
       import
       implicit none
+      type(c_ptr), value :: source
+      real(c_double), intent(in) :: targets(*)
+      integer(c_size_t), value :: count
+      type(planish_transfer_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_transfer
+      type(planish_transfer_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_transfer_new_model( &
+        model, source, targets, count, options, out_transfer, out_report) &
+        bind(c, name="planish_transfer_new_model")
+      import
+      implicit none
+      type(c_ptr), value :: model
       type(c_ptr), value :: source
       real(c_double), intent(in) :: targets(*)
       integer(c_size_t), value :: count
@@ -2716,6 +2831,17 @@ module planish_calls
       type(planish_report_options), intent(in), optional :: options
     end function
 
+    integer(c_int) function c_model_write_report( &
+        model, mesh, path, options) &
+        bind(c, name="planish_model_write_report")
+      import
+      implicit none
+      type(c_ptr), value :: model
+      type(c_ptr), value :: mesh
+      character(kind=c_char), intent(in) :: path(*)
+      type(planish_report_options), intent(in), optional :: options
+    end function
+
     integer(c_int) function c_model_from_surface(surface, out_model) bind(c, name="planish_model_from_surface")
       import
       implicit none
@@ -2735,6 +2861,12 @@ module planish_calls
       implicit none
       type(c_ptr), value :: model
     end subroutine
+
+    pure integer(c_size_t) function c_model_dim(model) bind(c, name="planish_model_dim")
+      import
+      implicit none
+      type(c_ptr), value :: model
+    end function
 
     pure integer(c_size_t) function c_model_face_count(model) bind(c, name="planish_model_face_count")
       import
@@ -2833,6 +2965,23 @@ module planish_calls
       implicit none
       type(c_ptr), value :: model
       real(c_double), intent(inout) :: out_points(*)
+      integer(c_size_t), value :: count
+    end function
+
+    pure integer(c_size_t) function c_model_node_count(model) bind(c, name="planish_model_node_count")
+      import
+      implicit none
+      type(c_ptr), value :: model
+    end function
+
+    integer(c_int) function c_model_locate_nodes( &
+        model, out_faces, out_uv, count) &
+        bind(c, name="planish_model_locate_nodes")
+      import
+      implicit none
+      type(c_ptr), value :: model
+      integer(c_int32_t), intent(inout), optional :: out_faces(*)
+      real(c_double), intent(inout), optional :: out_uv(*)
       integer(c_size_t), value :: count
     end function
 
@@ -2939,6 +3088,20 @@ module planish_calls
       integer(c_int32_t), value :: max_derivative
       type(planish_eval_options), intent(in), optional :: options
       real(c_double), intent(inout) :: out(*)
+    end function
+
+    integer(c_int) function c_model_field_gradient( &
+        shape, field, faces, uv, count, options, out_gradients) &
+        bind(c, name="planish_model_field_gradient")
+      import
+      implicit none
+      type(c_ptr), value :: shape
+      type(c_ptr), value :: field
+      integer(c_int32_t), intent(in) :: faces(*)
+      real(c_double), intent(in) :: uv(*)
+      integer(c_size_t), value :: count
+      type(planish_gradient_options), intent(in), optional :: options
+      real(c_double), intent(inout) :: out_gradients(*)
     end function
 
     integer(c_int) function c_model_normals( &
@@ -3755,6 +3918,7 @@ module planish_calls
     module procedure init_tensor_options
     module procedure init_field_options
     module procedure init_gradient_options
+    module procedure init_smooth_options
     module procedure init_transfer_options
     module procedure init_tessellate_options
     module procedure init_project_options
@@ -3786,6 +3950,7 @@ module planish_calls
   private :: init_tensor_options
   private :: init_field_options
   private :: init_gradient_options
+  private :: init_smooth_options
   private :: init_transfer_options
   private :: init_tessellate_options
   private :: init_project_options
@@ -3882,6 +4047,12 @@ contains
     type(planish_gradient_options), intent(inout) :: options
     integer(c_int) :: status
     status = c_gradient_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_smooth_options(options)
+    type(planish_smooth_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_smooth_options_init(options, c_sizeof(options)) ! which cannot fail
   end subroutine
 
   subroutine init_transfer_options(options)

@@ -400,6 +400,10 @@ typedef enum planish_remark {
      */
     PLANISH_REMARK_PLATE_ENERGY_USED = 512,
     /**
+     * Triangles of the mesh, or of the triangulated model, cross each other.
+     */
+    PLANISH_REMARK_SELF_INTERSECTING = 1024,
+    /**
      * Points that lay on the one before them in their row have been merged with it.
      */
     PLANISH_REMARK_MERGED_POINTS = 1048576,
@@ -1022,7 +1026,9 @@ typedef struct planish_mesh planish_mesh;
 
 /**
  * A model: faces, each a bounded part of a surface, that share edges and vertices. Made by
- * planish_model_from_surface() and others, destroyed by planish_model_free().
+ * planish_model_from_surface() and others, destroyed by planish_model_free(). A field over the faces of a model, made by
+ * planish_field_fitter_fit_model(), is one of another dimension: calls that need places in space refuse it with
+ * PLANISH_STATUS_WRONG_KIND.
  *
  * Faces, edges, vertices and shells have numbers from 0 on. Calls that take a model const may run at once on any
  * threads.
@@ -2196,6 +2202,157 @@ typedef struct planish_gradient_options {
 } planish_gradient_options;
 
 /**
+ * How patches become one smooth model. Fill with planish_smooth_options_init(), then change what you need.
+ */
+typedef struct planish_smooth_options {
+    /**
+     * Set by planish_smooth_options_init().
+     */
+    size_t struct_size;
+    /**
+     * Hears of the progress and may cancel; NULL (default) for nobody.
+     */
+    planish_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *user;
+    /**
+     * Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+     */
+    const volatile int32_t *cancel;
+    /**
+     * Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+     * Array: [1].
+     */
+    uint32_t *out_stage;
+    /**
+     * Largest deviation from the given surfaces allowed. Default 1e-3.
+     */
+    double tolerance;
+    /**
+     * Within what distance corners and sides of patches meet. Default 1e-3.
+     */
+    double join_tolerance;
+    /**
+     * Weight of the plate energy of each cell of a patch, mapped to the unit cell. Default 1e-6.
+     */
+    double smoothing;
+    /**
+     * Most cells of all patches of a piece. Default 200000.
+     */
+    size_t max_cells;
+    /**
+     * What both tolerances are measured in: a planish_tolerance_scale; PLANISH_TOLERANCE_SCALE_RELATIVE (default): the
+     * diagonal of the box around all control points.
+     */
+    uint32_t tolerance_scale;
+    /**
+     * Most rounds of fitting and refining. Default 12.
+     */
+    uint32_t max_rounds;
+    /**
+     * By how much the levels of the cells in one face may differ. Default 1.
+     */
+    uint32_t level_spread;
+    /**
+     * Threads that share the work; 0 (default) for all cores. The result does not depend on it.
+     */
+    uint32_t thread_count;
+} planish_smooth_options;
+
+/**
+ * What became of patches. Set struct_size to sizeof(planish_smooth_report) before the call; the report is filled as
+ * far as that goes, on success only. Lengths are in model units.
+ */
+typedef struct planish_smooth_report {
+    /**
+     * sizeof(planish_smooth_report) as the caller sees it.
+     */
+    size_t struct_size;
+    /**
+     * Largest distance between places all over the given surfaces and the model.
+     */
+    double max_deviation;
+    /**
+     * Square root of the mean of its square.
+     */
+    double rms_deviation;
+    /**
+     * Its mean.
+     */
+    double mean_deviation;
+    /**
+     * The tolerance that was kept or missed.
+     */
+    double tolerance;
+    /**
+     * Diagonal of the box around all given control points.
+     */
+    double diagonal;
+    /**
+     * Largest distance between given sides that were joined.
+     */
+    double given_gap;
+    /**
+     * Largest difference of unit normals across given sides that were joined.
+     */
+    double given_normal_jump;
+    /**
+     * Largest distance between the two sides of an edge of the model.
+     */
+    double gap;
+    /**
+     * Largest difference of unit normals across edges of the model.
+     */
+    double normal_jump;
+    /**
+     * Volume that closed pieces enclose.
+     */
+    double volume;
+    /**
+     * Seconds in all.
+     */
+    double seconds;
+    /**
+     * The given patch that deviates most.
+     */
+    size_t worst_patch;
+    /**
+     * Sides that were joined, counted once for both.
+     */
+    size_t joined_count;
+    /**
+     * Sides that stayed free.
+     */
+    size_t free_count;
+    /**
+     * Pieces: shells of the model.
+     */
+    size_t piece_count;
+    /**
+     * Control points, four a vertex of the cells of each patch.
+     */
+    size_t coefficient_count;
+    /**
+     * Cells of all patches.
+     */
+    size_t cell_count;
+    /**
+     * Everything worth knowing: bits of planish_remark.
+     */
+    uint64_t remarks;
+    /**
+     * Rounds of fitting and measuring of the piece that took most.
+     */
+    uint32_t pass_count;
+    /**
+     * A planish_stop_reason, why the fit ended.
+     */
+    uint32_t stop_reason;
+} planish_smooth_report;
+
+/**
  * How values are carried. Fill with planish_transfer_options_init(), then change what you need.
  */
 typedef struct planish_transfer_options {
@@ -2398,9 +2555,10 @@ typedef struct planish_tessellate_options {
      */
     uint32_t keep_trims;
     /**
-     * 0.
+     * Threads that share the faces of a model, at most 1024; 0 (default) for all cores. A surface takes one. The
+     * result does not depend on it.
      */
-    uint32_t reserved;
+    uint32_t thread_count;
     /**
      * Receives how good the mesh is, or NULL (default). Set its struct_size before. Filled on success only; not
      * looked at where the options are part of others.
@@ -2880,6 +3038,18 @@ typedef struct planish_face_info {
      * 1 if its front is the side to which the normal of its surface points, else 0.
      */
     uint32_t is_forward;
+    /**
+     * The largest distance between a node of the fitted mesh on the face and the model; NaN without such nodes.
+     */
+    double max_error;
+    /**
+     * Square root of the mean of its square; NaN without such nodes.
+     */
+    double rms_error;
+    /**
+     * Nodes of the fitted mesh on the face; 0 for a model that no fit made.
+     */
+    size_t node_count;
 } planish_face_info;
 
 /**
@@ -3259,6 +3429,15 @@ typedef struct planish_model_report {
      * 1 for one chart, 0 for patches.
      */
     uint32_t is_chart;
+    /**
+     * Pairs of triangles of the mesh that cross.
+     */
+    size_t mesh_crossing_count;
+    /**
+     * Pairs of triangles of the model that cross, triangulated as finely as the tolerance: walls that are thinner
+     * than that, or folds. SIZE_MAX if the model could not be triangulated.
+     */
+    size_t crossing_count;
 } planish_model_report;
 
 /**
@@ -5348,6 +5527,28 @@ enum planish_status planish_field_fitter_new_points(const double *uv,
                                                     struct planish_field_fitter **out_fitter);
 
 /**
+ * Makes a fitter for fields on the nodes of the mesh that a model was fitted to: closed, of any genus, several
+ * components. Fields are fitted over the patches of the model by planish_field_fitter_fit_model(), on the cells that the
+ * shape needed, or on cells that are split until sample_values keep the tolerance. It keeps what it needs; model and
+ * mesh may go.
+ *
+ * model:      not NULL, made by planish_model_fit() of patches, or a copy of such a model.
+ * mesh:       not NULL, with as many nodes as planish_model_node_count(): the mesh, perhaps moved.
+ * options:    NULL for the defaults; grid_u and grid_v must be 0, buffer, ends, energy and parameterize are not used.
+ * out_fitter: receives a new fitter; destroy with planish_field_fitter_free().
+ * Returns PLANISH_STATUS_OK or an error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND (the model was not
+ * fitted, is one chart, or has a face that is no part of a patch), PLANISH_STATUS_INVALID_ARGUMENT (an option, the number
+ * of nodes, too few nodes with values), PLANISH_STATUS_NOT_FINITE (a weight, a value of sample_values; the index is the
+ * node), PLANISH_STATUS_SINGULAR, PLANISH_STATUS_CANCELLED or PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_field_fitter_new_model(const struct planish_model *model,
+                                                   const struct planish_mesh *mesh,
+                                                   const struct planish_field_options *options,
+                                                   struct planish_field_fitter **out_fitter);
+
+/**
  * Destroys a fitter.
  *
  * fitter: from this library and not destroyed yet; NULL does nothing.
@@ -5365,7 +5566,8 @@ PLANISH_API size_t planish_field_fitter_point_count(const struct planish_field_f
  * fitter:   not NULL.
  * out_grid: receives 2 numbers: knots along u and v.
  * Arrays: out_grid[2].
- * Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_WRONG_KIND (of
+ * planish_field_fitter_new_model()).
  */
 PLANISH_API
 PLANISH_NODISCARD
@@ -5379,7 +5581,8 @@ enum planish_status planish_field_fitter_grid(const struct planish_field_fitter 
  * out_uv: receives planish_field_fitter_point_count() rows of u, v.
  * count:  rows that out_uv has room for.
  * Arrays: out_uv[field_fitter_point_count, 2].
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND (of
+ * planish_field_fitter_new_model()) or PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
 PLANISH_API
 PLANISH_NODISCARD
@@ -5398,8 +5601,9 @@ enum planish_status planish_field_fitter_copy_parameters(const struct planish_fi
  * out_report:  receives how good it is, measured on the surface; NULL for no report, which saves the measuring.
  * Arrays: values[count, dim].
  * Returns PLANISH_STATUS_OK, with a report also PLANISH_STATUS_TOLERANCE_NOT_MET, or an error:
- * PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (count, dim), PLANISH_STATUS_NOT_FINITE (the index is
- * the node), PLANISH_STATUS_SINGULAR (numbers overflow) or PLANISH_STATUS_TOO_LARGE.
+ * PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND (of planish_field_fitter_new_model()),
+ * PLANISH_STATUS_INVALID_ARGUMENT (count, dim), PLANISH_STATUS_NOT_FINITE (the index is the node),
+ * PLANISH_STATUS_SINGULAR (numbers overflow) or PLANISH_STATUS_TOO_LARGE.
  */
 PLANISH_API
 PLANISH_NODISCARD
@@ -5409,6 +5613,32 @@ enum planish_status planish_field_fitter_fit(const struct planish_field_fitter *
                                              size_t dim,
                                              struct planish_surface **out_surface,
                                              struct planish_fit_report *out_report);
+
+/**
+ * Fits a field over the patches of a model. The result is a model of dimension dim with the same faces: a value for each
+ * place of a face, with one gradient along the shape on both sides of every edge. planish_model_eval(),
+ * planish_model_field_gradient(), planish_model_copy_face(), copies and files are for it too.
+ *
+ * fitter:     not NULL, of planish_field_fitter_new_model().
+ * values:     count rows of dim numbers, one a node.
+ * count:      planish_field_fitter_point_count().
+ * dim:        numbers of a value, at least 1.
+ * out_field:  receives a new model of dimension dim; destroy with planish_model_free().
+ * out_report: receives how good it is, measured on the field; NULL for no report, which saves the measuring.
+ * Arrays: values[count, dim].
+ * Returns PLANISH_STATUS_OK, with a report also PLANISH_STATUS_TOLERANCE_NOT_MET, or an error:
+ * PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND (a fitter over a parameter plane),
+ * PLANISH_STATUS_INVALID_ARGUMENT (count, dim), PLANISH_STATUS_NOT_FINITE (the index is the node),
+ * PLANISH_STATUS_SINGULAR (numbers overflow) or PLANISH_STATUS_TOO_LARGE.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_field_fitter_fit_model(const struct planish_field_fitter *fitter,
+                                                   const double *values,
+                                                   size_t count,
+                                                   size_t dim,
+                                                   struct planish_model **out_field,
+                                                   struct planish_fit_report *out_report);
 
 /**
  * Turns a surface of planish_field_fitter_fit() into the one of other values, in its place. Once a field of this dim
@@ -5492,6 +5722,44 @@ enum planish_status planish_surface_field_gradient(const struct planish_surface 
  * Fills options with the defaults.
  *
  * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_smooth_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+ */
+PLANISH_API
+enum planish_status planish_smooth_options_init(struct planish_smooth_options *options,
+                                                size_t struct_size);
+
+/**
+ * Makes one smooth model of four-sided patches that meet edge to edge within a tolerance: tensor surfaces of any degree,
+ * over their whole domains. The patches of the model share position and tangent plane along all their edges to rounding;
+ * the report says how far they are from the given ones, and how far those were apart. Patches that look the other way than
+ * their neighbours are turned; several pieces become several shells, closed ones solids.
+ *
+ * surfaces:   count tensor surfaces in space without trims; they stay as they are.
+ * count:      at least 1.
+ * options:    NULL for the defaults.
+ * out_model:  receives a new model; destroy with planish_model_free().
+ * out_report: receives what became of the patches; NULL for no report.
+ * Arrays: surfaces[count].
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_TOLERANCE_NOT_MET or PLANISH_STATUS_STAGNATED (the best model found is
+ * there), or an error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, no patches, a dimension
+ * that is not 3, trims; the index is the patch), PLANISH_STATUS_WRONG_KIND (no tensor surface),
+ * PLANISH_STATUS_DEGENERATE (a side without length; the index is the patch), PLANISH_STATUS_TOPOLOGY (a third side at an
+ * edge, a corner inside a side, a patch that meets itself, a one-sided surface: the index is the patch; an inner vertex
+ * of two patches), PLANISH_STATUS_SINGULAR, PLANISH_STATUS_CANCELLED or PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_model_smooth_from_patches(const struct planish_surface *const *surfaces,
+                                                      size_t count,
+                                                      const struct planish_smooth_options *options,
+                                                      struct planish_model **out_model,
+                                                      struct planish_smooth_report *out_report);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options:     struct_size writable bytes.
  * struct_size: sizeof(planish_transfer_options).
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
  */
@@ -5525,6 +5793,33 @@ enum planish_status planish_transfer_new(const struct planish_mesh *source,
                                          struct planish_transfer_report *out_report);
 
 /**
+ * Makes a transfer from the nodes of the mesh that a model was fitted to, closed and of any genus, to points near it.
+ * Fields are those of planish_field_fitter_new_model(): the points of the mesh are fitted over the patches of the model,
+ * and each target is projected onto that shape once. It keeps what it needs; model, mesh and points may go.
+ *
+ * model:        not NULL, made by planish_model_fit() of patches, or a copy of such a model.
+ * source:       not NULL, with as many nodes as planish_model_node_count(): the mesh, perhaps moved.
+ * targets:      count rows of x, y, z.
+ * count:        may be 0.
+ * options:      NULL for the defaults.
+ * out_transfer: receives a new transfer; destroy with planish_transfer_free().
+ * out_report:   receives how well the two lie on one another, with 0 for the grid; NULL for no report.
+ * Arrays: targets[count, 3].
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_POINTS_OUTSIDE (targets beyond max_distance were kept), or an error:
+ * PLANISH_STATUS_OUTSIDE (a target lies beyond it; the index is the target), PLANISH_STATUS_NOT_FINITE (a target; the
+ * index), PLANISH_STATUS_INVALID_ARGUMENT (an option), or what planish_field_fitter_new_model() returns.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_transfer_new_model(const struct planish_model *model,
+                                               const struct planish_mesh *source,
+                                               const double *targets,
+                                               size_t count,
+                                               const struct planish_transfer_options *options,
+                                               struct planish_transfer **out_transfer,
+                                               struct planish_transfer_report *out_report);
+
+/**
  * Destroys a transfer.
  *
  * transfer: from this library and not destroyed yet; NULL does nothing.
@@ -5548,7 +5843,8 @@ PLANISH_API size_t planish_transfer_target_count(const struct planish_transfer *
  * out_uv:   receives planish_transfer_target_count() rows of u, v.
  * count:    rows that out_uv has room for.
  * Arrays: out_uv[transfer_target_count, 2].
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_BUFFER_TOO_SMALL.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND (of planish_transfer_new_model()) or
+ * PLANISH_STATUS_BUFFER_TOO_SMALL.
  */
 PLANISH_API
 PLANISH_NODISCARD
@@ -6031,6 +6327,26 @@ enum planish_status planish_surface_write_report(const struct planish_surface *s
                                                  const struct planish_report_options *options);
 
 /**
+ * Measures a model against a mesh and writes the result as one HTML page, as planish_surface_write_report() does: the mesh in
+ * the colours of its signed distances (positive in front of the faces), the model, a section plane, a histogram, the ten
+ * worst places, and the numbers in words.
+ *
+ * model:   not NULL.
+ * mesh:    not NULL.
+ * path:    the file, UTF-8; not NULL. Replaced as a whole.
+ * options: NULL for the defaults.
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND (a field), an error of
+ * planish_model_deviation() or planish_model_tessellate(), PLANISH_STATUS_INVALID_ARGUMENT (an option),
+ * PLANISH_STATUS_FILE, PLANISH_STATUS_VERSION or PLANISH_STATUS_CANCELLED.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_model_write_report(const struct planish_model *model,
+                                               const struct planish_mesh *mesh,
+                                               const char *path,
+                                               const struct planish_report_options *options);
+
+/**
  * Makes a model of a surface in space: the part inside its trims as an open shell. A tensor surface is one face. A
  * T-spline is one face for each span of v, a PHT-spline one for each rectangle of cells whose levels differ by at most
  * one: tensor surfaces that share edges. A D1RC-spline is one face on a tensor surface fitted to it within 1e-3 of the
@@ -6067,6 +6383,12 @@ enum planish_status planish_model_clone(const struct planish_model *model,
  * model: NULL is accepted; otherwise not used again.
  */
 PLANISH_API void planish_model_free(struct planish_model *model);
+
+/**
+ * Numbers of a place: 3 for a model in space, those of a value for a field over the faces of a model; 0 for NULL.
+ */
+PLANISH_API
+size_t planish_model_dim(const struct planish_model *model);
 
 /**
  * Number of faces; 0 for NULL.
@@ -6119,7 +6441,7 @@ enum planish_status planish_model_face_info(const struct planish_model *model,
 /**
  * Makes a surface of a face: the spline under it, with the loops of the face as trims, the outer one first. A plane
  * becomes a bilinear surface over the same parameters; a cylinder becomes a rational one, whose parameter u is not the
- * angle.
+ * angle. Of a field over a model it is the PHT-spline of the values over the patch that the face is a part of.
  *
  * model:       not NULL.
  * face:        below planish_model_face_count().
@@ -6208,6 +6530,29 @@ PLANISH_NODISCARD
 enum planish_status planish_model_copy_vertices(const struct planish_model *model,
                                                 double *out_points,
                                                 size_t count);
+
+/**
+ * Number of nodes of the mesh that the model was fitted to; 0 for NULL and for a model that no fit made.
+ */
+PLANISH_API size_t planish_model_node_count(const struct planish_model *model);
+
+/**
+ * Where each node of the mesh that a model was fitted to lies on the model. Copies and saved models know it too.
+ *
+ * model:     not NULL, made by planish_model_fit().
+ * out_faces: receives the face of each node, PLANISH_NONE for a node without triangles; NULL for none.
+ * out_uv:    receives rows of u, v on the face's surface, NaN for such nodes; NULL for none.
+ * count:     nodes that both have room for, at least planish_model_node_count().
+ * Arrays: out_faces[model_node_count], out_uv[model_node_count, 2].
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND (no fit made the model) or
+ * PLANISH_STATUS_BUFFER_TOO_SMALL.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_model_locate_nodes(const struct planish_model *model,
+                                               uint32_t *out_faces,
+                                               double *out_uv,
+                                               size_t count);
 
 /**
  * What a shell is, and its faces.
@@ -6380,8 +6725,8 @@ enum planish_status planish_model_fit(const struct planish_mesh *mesh,
                                       struct planish_model_report *out_report);
 
 /**
- * Evaluates a model and its derivatives at parameters on its faces. On a spline u and v are those of the surface of
- * planish_model_copy_face(); on a plane those of that surface too; on a cylinder the angle in radians and the height.
+ * Evaluates a model, or a field over its faces, and derivatives at parameters on the faces. On a spline u and v are those of
+ * the surface of planish_model_copy_face(); on a plane those of that surface too; on a cylinder the angle in radians and the height.
  *
  * model:          not NULL.
  * faces:          for each point its face, below planish_model_face_count().
@@ -6389,9 +6734,9 @@ enum planish_status planish_model_fit(const struct planish_mesh *mesh,
  * count:          may be 0.
  * max_derivative: 0, 1 or 2.
  * options:        NULL for the defaults.
- * out:            receives for each point 1, 3 or 6 rows of 3 numbers: S; Su, Sv; Suu, Suv, Svv. Points start
- *                 options->out_stride doubles apart. It must not overlap uv.
- * Arrays: faces[count], uv[count, 2], out[count, *, 3].
+ * out:            receives for each point 1, 3 or 6 rows of planish_model_dim() numbers: S; Su, Sv; Suu, Suv, Svv.
+ *                 Points start options->out_stride doubles apart. It must not overlap uv.
+ * Arrays: faces[count], uv[count, 2], out[count, *, model_dim].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_POINTS_OUTSIDE (with PLANISH_OUTSIDE_FLAG), PLANISH_STATUS_NULL_POINTER,
  * PLANISH_STATUS_INVALID_ARGUMENT (an option, or max_derivative), PLANISH_STATUS_INDEX (a face; the index is the point),
  * PLANISH_STATUS_OUTSIDE (with PLANISH_OUTSIDE_FAIL; the index is the first such point of the first such face),
@@ -6406,6 +6751,34 @@ enum planish_status planish_model_eval(const struct planish_model *model,
                                        uint32_t max_derivative,
                                        const struct planish_eval_options *options,
                                        double *out);
+
+/**
+ * The gradient in space of a field over the faces of a model: for each component the vector, tangential to the model,
+ * that gives its change along it.
+ *
+ * shape:         not NULL, in space: the model that the field was fitted over.
+ * field:         not NULL, of planish_field_fitter_fit_model().
+ * faces:         for each point its face, below planish_model_face_count().
+ * uv:            count rows of u, v on the faces; rows start options->uv_stride doubles apart.
+ * count:         may be 0.
+ * options:       NULL for the defaults.
+ * out_gradients: receives count times planish_model_dim() of the field rows of 3 numbers; NaN where the model has no
+ *                tangent plane.
+ * Arrays: faces[count], uv[count, 2], out_gradients[count, model_dim, 3].
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_WRONG_KIND (shape is a field, or field is
+ * none), PLANISH_STATUS_INVALID_ARGUMENT (an option; the numbers of faces differ), PLANISH_STATUS_INDEX (a face),
+ * PLANISH_STATUS_NOT_FINITE, PLANISH_STATUS_OUTSIDE (the index is the point for all three), PLANISH_STATUS_TOO_LARGE or
+ * PLANISH_STATUS_VERSION.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_model_field_gradient(const struct planish_model *shape,
+                                                 const struct planish_model *field,
+                                                 const uint32_t *faces,
+                                                 const double *uv,
+                                                 size_t count,
+                                                 const struct planish_gradient_options *options,
+                                                 double *out_gradients);
 
 /**
  * Computes unit normals of a model, out of the fronts of its faces.
@@ -6464,8 +6837,8 @@ enum planish_status planish_model_curvatures(const struct planish_model *model,
  * out_distances: receives count distances, NaN for such points; NULL for none.
  * Arrays: points[count, 3], out_faces[count], out_uv[count, 2], out_distances[count].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_POINTS_OUTSIDE (some points are farther than max_distance),
- * PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_NOT_FINITE (the index is the point), PLANISH_STATUS_INVALID_ARGUMENT,
- * PLANISH_STATUS_TOO_LARGE, PLANISH_STATUS_CANCELLED or PLANISH_STATUS_VERSION.
+ * PLANISH_STATUS_NOT_PROVEN (some answers are flagged), PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_NOT_FINITE (the
+ * index is the point), PLANISH_STATUS_INVALID_ARGUMENT, PLANISH_STATUS_TOO_LARGE, PLANISH_STATUS_CANCELLED or PLANISH_STATUS_VERSION.
  */
 PLANISH_API
 PLANISH_NODISCARD
@@ -6487,7 +6860,8 @@ enum planish_status planish_model_project(const struct planish_model *model,
  * count:         doubles that out_distances has room for.
  * out_report:    receives the sizes of the distances; NULL for none. worst_back_u and worst_back_v are NaN.
  * Arrays: out_distances[count].
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option),
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NOT_PROVEN (some distances are not proved to be the least ones, as
+ * unproven_count says), PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option),
  * PLANISH_STATUS_BUFFER_TOO_SMALL, PLANISH_STATUS_TOPOLOGY or PLANISH_STATUS_TOO_LARGE (measuring back only),
  * PLANISH_STATUS_CANCELLED or PLANISH_STATUS_VERSION.
  */

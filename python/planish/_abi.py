@@ -100,6 +100,7 @@ ENUMERATIONS = {
         "rough_between_nodes": 128,
         "segmentation_advised": 256,
         "plate_energy_used": 512,
+        "self_intersecting": 1024,
         "merged_points": 1048576,
         "twisted_rows": 2097152,
         "clustered_rows": 4194304,
@@ -760,6 +761,66 @@ class planish_gradient_options(Structure):
     ]
 
 
+class planish_smooth_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("progress", planish_progress),
+        ("user", c_void_p),
+        ("cancel", c_void_p),
+        ("out_stage", c_void_p),
+        ("tolerance", c_double),
+        ("join_tolerance", c_double),
+        ("smoothing", c_double),
+        ("max_cells", c_size_t),
+        ("tolerance_scale", c_uint32),
+        ("max_rounds", c_uint32),
+        ("level_spread", c_uint32),
+        ("thread_count", c_uint32),
+    ]
+    choices = {
+        "out_stage": "planish_stage",
+        "tolerance_scale": "planish_tolerance_scale",
+    }
+    elements = {
+        "out_stage": c_uint32,
+    }
+    arrays = {
+        "out_stage": ("1",),
+    }
+
+
+class planish_smooth_report(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("max_deviation", c_double),
+        ("rms_deviation", c_double),
+        ("mean_deviation", c_double),
+        ("tolerance", c_double),
+        ("diagonal", c_double),
+        ("given_gap", c_double),
+        ("given_normal_jump", c_double),
+        ("gap", c_double),
+        ("normal_jump", c_double),
+        ("volume", c_double),
+        ("seconds", c_double),
+        ("worst_patch", c_size_t),
+        ("joined_count", c_size_t),
+        ("free_count", c_size_t),
+        ("piece_count", c_size_t),
+        ("coefficient_count", c_size_t),
+        ("cell_count", c_size_t),
+        ("remarks", c_uint64),
+        ("pass_count", c_uint32),
+        ("stop_reason", c_uint32),
+    ]
+    choices = {
+        "stop_reason": "planish_stop_reason",
+    }
+    bits = {
+        "remarks": "planish_remark",
+    }
+
+
 class planish_transfer_options(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -822,7 +883,7 @@ class planish_tessellate_options(Structure):
         ("cancel", c_void_p),
         ("out_stage", c_void_p),
         ("keep_trims", c_uint32),
-        ("reserved", c_uint32),
+        ("thread_count", c_uint32),
         ("out_report", c_void_p),
     ]
     choices = {
@@ -1067,6 +1128,9 @@ class planish_face_info(Structure):
         ("label", c_uint32),
         ("shell", c_uint32),
         ("is_forward", c_uint32),
+        ("max_error", c_double),
+        ("rms_error", c_double),
+        ("node_count", c_size_t),
     ]
     choices = {
         "carrier": "planish_carrier",
@@ -1187,6 +1251,8 @@ class planish_model_report(Structure):
         ("pass_count", c_uint32),
         ("stop_reason", c_uint32),
         ("is_chart", c_uint32),
+        ("mesh_crossing_count", c_size_t),
+        ("crossing_count", c_size_t),
     ]
     choices = {
         "stop_reason": "planish_stop_reason",
@@ -1520,6 +1586,8 @@ SIZES = {
     planish_tensor_options: 160,
     planish_field_options: 128,
     planish_gradient_options: 24,
+    planish_smooth_options: 88,
+    planish_smooth_report: 160,
     planish_transfer_options: 32,
     planish_transfer_report: 104,
     planish_balance_report: 152,
@@ -1534,11 +1602,11 @@ SIZES = {
     planish_step_options: 120,
     planish_report_options: 80,
     planish_edge_info: 48,
-    planish_face_info: 120,
+    planish_face_info: 144,
     planish_shell_info: 24,
     planish_measure_report: 144,
     planish_model_options: 152,
-    planish_model_report: 248,
+    planish_model_report: 264,
     planish_curve_options: 104,
     planish_interpolate_options: 24,
     planish_skin_report: 112,
@@ -1657,17 +1725,22 @@ FUNCTIONS = {
     "planish_field_options_init": (c_int32, c_void_p, c_size_t),
     "planish_field_fitter_new": (c_int32, c_void_p, c_void_p, c_void_p),
     "planish_field_fitter_new_points": (c_int32, c_void_p, c_size_t, c_void_p, c_void_p),
+    "planish_field_fitter_new_model": (c_int32, c_void_p, c_void_p, c_void_p, c_void_p),
     "planish_field_fitter_free": (None, c_void_p),
     "planish_field_fitter_point_count": (c_size_t, c_void_p),
     "planish_field_fitter_grid": (c_int32, c_void_p, c_void_p),
     "planish_field_fitter_copy_parameters": (c_int32, c_void_p, c_void_p, c_size_t),
     "planish_field_fitter_fit": (c_int32, c_void_p, c_void_p, c_size_t, c_size_t, c_void_p, c_void_p),
+    "planish_field_fitter_fit_model": (c_int32, c_void_p, c_void_p, c_size_t, c_size_t, c_void_p, c_void_p),
     "planish_field_fitter_update": (c_int32, c_void_p, c_void_p, c_void_p, c_size_t, c_size_t),
     "planish_tensor_combine": (c_int32, c_void_p, c_void_p, c_size_t, c_void_p),
     "planish_gradient_options_init": (c_int32, c_void_p, c_size_t),
     "planish_surface_field_gradient": (c_int32, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p, c_void_p),
+    "planish_smooth_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_model_smooth_from_patches": (c_int32, c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
     "planish_transfer_options_init": (c_int32, c_void_p, c_size_t),
     "planish_transfer_new": (c_int32, c_void_p, c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
+    "planish_transfer_new_model": (c_int32, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
     "planish_transfer_free": (None, c_void_p),
     "planish_transfer_source_count": (c_size_t, c_void_p),
     "planish_transfer_target_count": (c_size_t, c_void_p),
@@ -1702,9 +1775,11 @@ FUNCTIONS = {
     "planish_surface_write_step": (c_int32, c_void_p, c_char_p, c_void_p),
     "planish_report_options_init": (c_int32, c_void_p, c_size_t),
     "planish_surface_write_report": (c_int32, c_void_p, c_void_p, c_char_p, c_void_p),
+    "planish_model_write_report": (c_int32, c_void_p, c_void_p, c_char_p, c_void_p),
     "planish_model_from_surface": (c_int32, c_void_p, c_void_p),
     "planish_model_clone": (c_int32, c_void_p, c_void_p),
     "planish_model_free": (None, c_void_p),
+    "planish_model_dim": (c_size_t, c_void_p),
     "planish_model_face_count": (c_size_t, c_void_p),
     "planish_model_edge_count": (c_size_t, c_void_p),
     "planish_model_vertex_count": (c_size_t, c_void_p),
@@ -1717,6 +1792,8 @@ FUNCTIONS = {
     "planish_model_copy_loops": (c_int32, c_void_p, c_size_t, c_void_p, c_size_t, c_void_p, c_void_p, c_size_t),
     "planish_model_copy_pcurve": (c_int32, c_void_p, c_size_t, c_size_t, c_void_p),
     "planish_model_copy_vertices": (c_int32, c_void_p, c_void_p, c_size_t),
+    "planish_model_node_count": (c_size_t, c_void_p),
+    "planish_model_locate_nodes": (c_int32, c_void_p, c_void_p, c_void_p, c_size_t),
     "planish_model_copy_shell": (c_int32, c_void_p, c_size_t, c_void_p, c_void_p, c_size_t),
     "planish_model_measure": (c_int32, c_void_p, c_void_p),
     "planish_model_write_step": (c_int32, c_void_p, c_char_p, c_void_p),
@@ -1729,6 +1806,7 @@ FUNCTIONS = {
     "planish_model_options_init": (c_int32, c_void_p, c_size_t),
     "planish_model_fit": (c_int32, c_void_p, c_void_p, c_void_p, c_void_p),
     "planish_model_eval": (c_int32, c_void_p, c_void_p, c_void_p, c_size_t, c_uint32, c_void_p, c_void_p),
+    "planish_model_field_gradient": (c_int32, c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p, c_void_p),
     "planish_model_normals": (c_int32, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p, c_void_p),
     "planish_model_curvatures": (c_int32, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p, c_void_p),
     "planish_model_project": (c_int32, c_void_p, c_void_p, c_size_t, c_void_p, c_void_p, c_void_p, c_void_p),
@@ -1861,9 +1939,11 @@ ELEMENTS = {
     ("planish_model_copy_loops", "out_sizes"): c_size_t,
     ("planish_model_copy_loops", "out_edges"): c_uint32,
     ("planish_model_copy_loops", "out_forward"): c_uint8,
+    ("planish_model_locate_nodes", "out_faces"): c_uint32,
     ("planish_model_copy_shell", "out_faces"): c_uint32,
     ("planish_model_write_step_memory", "out_size"): c_size_t,
     ("planish_model_eval", "faces"): c_uint32,
+    ("planish_model_field_gradient", "faces"): c_uint32,
     ("planish_model_normals", "faces"): c_uint32,
     ("planish_model_curvatures", "faces"): c_uint32,
     ("planish_model_project", "out_faces"): c_uint32,
