@@ -948,7 +948,7 @@ module planish_records
 
   !> How a surface is compared with a mesh.
   type, bind(c), public :: planish_deviation_options
-    integer(c_size_t) :: struct_size = 5 * word + 32
+    integer(c_size_t) :: struct_size = 8 * word + 32
     !> Chord tolerance of the tessellation that is measured back from, in model units; 0 (default) takes 1e-3 of the
     !> surface's diagonal
     real(c_double) :: chord_tolerance = 0
@@ -967,11 +967,18 @@ module planish_records
     !> 1: measure from the surface to the mesh as well, which notices filled holes and surplus sheets
     integer(c_int32_t) :: measure_back = 0
     integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 (default) for all cores
+    !> Receives the distances of the nodes with the sign of their side: positive on the side of the normal, which is
+    !> the outside of a solid; NaN for a node without triangles
+    type(c_ptr) :: out_signed = c_null_ptr
+    type(c_ptr) :: out_uv = c_null_ptr !! Receives the u, v nearest to each node; NaN for a node without triangles
+    !> Receives the face of the model nearest to each node, PLANISH_NONE where there is none; NULL (default) for none,
+    !> and for a surface
+    type(c_ptr) :: out_faces = c_null_ptr
   end type
 
   !> Distances between a surface and a mesh, in model units.
   type, bind(c), public :: planish_deviation_report
-    integer(c_size_t) :: struct_size = 4 * word + 48
+    integer(c_size_t) :: struct_size = 4 * word + 72
     real(c_double) :: max_distance = 0 !! Largest distance from a node to its nearest place on the surface
     real(c_double) :: rms_distance = 0 !! Square root of the mean of its square
     real(c_double) :: mean_distance = 0 !! Its mean
@@ -983,6 +990,9 @@ module planish_records
     integer(c_size_t) :: back_count = 0 !! Places on the surface that were measured back from
     !> Nodes whose distance is not proved to be the least one: planish_surface_project() says when
     integer(c_size_t) :: unproven_count = 0
+    real(c_double) :: median_distance = 0 !! What half of the distances do not exceed
+    real(c_double) :: distance_95 = 0 !! What 95 of a hundred distances do not exceed
+    real(c_double) :: distance_99 = 0 !! What 99 of a hundred distances do not exceed
   end type
 
   !> What rows to take from a mesh.

@@ -404,7 +404,10 @@ FOLLOWS(planish_deviation_options, out_stage, keep_trims);
 FOLLOWS(planish_deviation_options, keep_trims, use_parameters);
 FOLLOWS(planish_deviation_options, use_parameters, measure_back);
 FOLLOWS(planish_deviation_options, measure_back, thread_count);
-LAST(planish_deviation_options, thread_count);
+FOLLOWS(planish_deviation_options, thread_count, out_signed);
+FOLLOWS(planish_deviation_options, out_signed, out_uv);
+FOLLOWS(planish_deviation_options, out_uv, out_faces);
+LAST(planish_deviation_options, out_faces);
 
 FIRST(planish_deviation_report);
 FOLLOWS(planish_deviation_report, struct_size, max_distance);
@@ -416,7 +419,10 @@ FOLLOWS(planish_deviation_report, worst_back_u, worst_back_v);
 FOLLOWS(planish_deviation_report, worst_back_v, worst_index);
 FOLLOWS(planish_deviation_report, worst_index, back_count);
 FOLLOWS(planish_deviation_report, back_count, unproven_count);
-LAST(planish_deviation_report, unproven_count);
+FOLLOWS(planish_deviation_report, unproven_count, median_distance);
+FOLLOWS(planish_deviation_report, median_distance, distance_95);
+FOLLOWS(planish_deviation_report, distance_95, distance_99);
+LAST(planish_deviation_report, distance_99);
 
 FIRST(planish_sample_rows_options);
 FOLLOWS(planish_sample_rows_options, struct_size, spacing);

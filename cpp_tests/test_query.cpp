@@ -151,8 +151,25 @@ TEST(Deviation, IsTheHeight) {
   CHECK_NEAR(report.mean_distance, 0.125, 1e-14);
   CHECK(std::isnan(report.max_back_distance));
   CHECK_EQUAL(report.back_count, 0u);
+  CHECK_NEAR(report.median_distance, 0.125, 1e-14);
+  CHECK_NEAR(report.distance_99, 0.125, 1e-14);
 
   planish_deviation_options options = deviation_options();
+  std::vector<double> heights(count), places(2 * count);
+  options.out_signed = heights.data();
+  options.out_uv = places.data();
+  CHECK(planish_surface_deviation(surface.get(), mesh.get(), &options, nullptr, 0, nullptr) == PLANISH_STATUS_OK);
+  // the mesh is above, where the normal points
+  for (double height : heights) CHECK_NEAR(height, 0.125, 1e-14);
+  const Mesh below = raised(-0.125);
+  CHECK(planish_surface_deviation(surface.get(), below.get(), &options, nullptr, 0, nullptr) == PLANISH_STATUS_OK);
+  for (double height : heights) CHECK_NEAR(height, -0.125, 1e-14);
+  std::uint32_t face = 7;
+  options.out_faces = &face;
+  CHECK_FAILS(planish_surface_deviation(surface.get(), mesh.get(), &options, nullptr, 0, nullptr),
+              PLANISH_STATUS_INVALID_ARGUMENT, -1, "out_faces is not used");
+
+  options = deviation_options();
   options.measure_back = 1;
   CHECK(planish_surface_deviation(surface.get(), mesh.get(), &options, nullptr, 0, &report) == PLANISH_STATUS_OK);
   CHECK_NEAR(report.max_back_distance, 0.125, 1e-14);

@@ -2673,6 +2673,24 @@ typedef struct planish_deviation_options {
      * Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
      */
     uint32_t thread_count;
+    /**
+     * Receives the distances of the nodes with the sign of their side: positive on the side of the normal, which is
+     * the outside of a solid; NaN for a node without triangles. NULL (default) for none. Written on success only.
+     * Array: [mesh_point_count].
+     */
+    double *out_signed;
+    /**
+     * Receives the u, v nearest to each node; NaN for a node without triangles. NULL (default) for none. Written on
+     * success only.
+     * Array: [mesh_point_count, 2].
+     */
+    double *out_uv;
+    /**
+     * Receives the face of the model nearest to each node, PLANISH_NONE where there is none; NULL (default) for none,
+     * and for a surface. Written on success only.
+     * Array: [mesh_point_count].
+     */
+    uint32_t *out_faces;
 } planish_deviation_options;
 
 /**
@@ -2720,6 +2738,18 @@ typedef struct planish_deviation_report {
      * Nodes whose distance is not proved to be the least one: planish_surface_project() says when.
      */
     size_t unproven_count;
+    /**
+     * What half of the distances do not exceed.
+     */
+    double median_distance;
+    /**
+     * What 95 of a hundred distances do not exceed.
+     */
+    double distance_95;
+    /**
+     * What 99 of a hundred distances do not exceed.
+     */
+    double distance_99;
 } planish_deviation_report;
 
 /**
@@ -6023,7 +6053,7 @@ enum planish_status planish_deviation_options_init(struct planish_deviation_opti
  *
  * surface:       not NULL, of dimension 3.
  * mesh:          not NULL.
- * options:       NULL for the defaults.
+ * options:       NULL for the defaults; out_faces must be NULL.
  * out_distances: receives planish_mesh_point_count() distances; NULL for none.
  * count:         doubles that out_distances has room for.
  * out_report:    receives the sizes of the distances; NULL for none.

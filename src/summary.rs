@@ -29,6 +29,19 @@ pub fn summarize(each: Vec<f64>) -> DataErrors {
     DataErrors { rms: scale * (squares / count).sqrt(), mean: sum / count, max, worst_index, each }
 }
 
+/// How large numbers are without their signs, the least first; what is no number is left out.
+pub fn sorted_sizes(numbers: &[f64]) -> Vec<f64> {
+    let mut sizes: Vec<f64> = numbers.iter().map(|x| x.abs()).filter(|x| !x.is_nan()).collect();
+    sizes.sort_unstable_by(f64::total_cmp);
+    sizes
+}
+
+/// The least of sorted numbers that at least this share of them do not exceed; 0 without numbers.
+pub fn percentile(sorted: &[f64], share: f64) -> f64 {
+    let rank = (share * sorted.len() as f64).ceil() as usize;
+    sorted.get(rank.max(1) - 1).copied().unwrap_or(0.0)
+}
+
 /// The sum, rounded about once: what each addition loses is added up beside it (A. Neumaier, "Rundungsfehleranalyse
 /// einiger Verfahren zur Summation endlicher Summen", Z. Angew. Math. Mech. 54 (1974), 39-51).
 pub fn sum(numbers: impl Iterator<Item = f64>) -> f64 {
@@ -43,6 +56,17 @@ pub fn sum(numbers: impl Iterator<Item = f64>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn percentiles_are_numbers_that_the_share_does_not_exceed() {
+        let sizes = sorted_sizes(&[-3.0, f64::NAN, 1.0, 2.0, -4.0]);
+        assert_eq!(sizes, [1.0, 2.0, 3.0, 4.0]);
+        assert_eq!(
+            [0.0, 0.25, 0.26, 0.5, 1.0].map(|share| percentile(&sizes, share)),
+            [1.0, 1.0, 2.0, 2.0, 4.0]
+        );
+        assert_eq!(percentile(&[], 0.5), 0.0);
+    }
 
     #[test]
     fn sums_keep_what_large_terms_would_swallow() {

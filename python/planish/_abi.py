@@ -947,15 +947,24 @@ class planish_deviation_options(Structure):
         ("use_parameters", c_uint32),
         ("measure_back", c_uint32),
         ("thread_count", c_uint32),
+        ("out_signed", c_void_p),
+        ("out_uv", c_void_p),
+        ("out_faces", c_void_p),
     ]
     choices = {
         "out_stage": "planish_stage",
     }
     elements = {
         "out_stage": c_uint32,
+        "out_signed": c_double,
+        "out_uv": c_double,
+        "out_faces": c_uint32,
     }
     arrays = {
         "out_stage": ("1",),
+        "out_signed": ("mesh_point_count",),
+        "out_uv": ("mesh_point_count", "2",),
+        "out_faces": ("mesh_point_count",),
     }
 
 
@@ -971,6 +980,9 @@ class planish_deviation_report(Structure):
         ("worst_index", c_size_t),
         ("back_count", c_size_t),
         ("unproven_count", c_size_t),
+        ("median_distance", c_double),
+        ("distance_95", c_double),
+        ("distance_99", c_double),
     ]
 
 
@@ -1594,8 +1606,8 @@ SIZES = {
     planish_tessellate_options: 80,
     planish_tessellate_report: 24,
     planish_project_options: 72,
-    planish_deviation_options: 72,
-    planish_deviation_report: 80,
+    planish_deviation_options: 96,
+    planish_deviation_report: 104,
     planish_sample_rows_options: 72,
     planish_vtk_options: 64,
     planish_step_report: 64,

@@ -15,7 +15,7 @@ from ._curve import Curve
 from ._library import OUT, Handle, array, call, indices, lib, made, path_of, pointer, read_only
 from ._mesh import Mesh, read_mesh
 from ._records import Report, by_reference, options, report_record
-from ._surface import Curvatures, Surface, _write_step
+from ._surface import Curvatures, Surface, _write_step, deviation_of
 
 _NONE = _abi.NONE
 
@@ -241,13 +241,13 @@ class Model(Handle):
     def deviation(
         self, mesh: Mesh, *, progress: ProgressCallback | None = None, **deviation_options: Any
     ) -> tuple[np.ndarray, Report]:
-        """The distance of each node of a mesh to the model, and a report of both directions."""
-        distances, report = np.empty(mesh.n_points), report_record("deviation_report")
-        long = LongCall(progress)
-        record = options("deviation_options", deviation_options, **long.fields("deviation_options"))
-        outputs = (pointer(distances), len(distances), by_reference(report))
-        status = long("planish_model_deviation", self, mesh, by_reference(record), *outputs)
-        return distances, Report(report, status)
+        """The distance of each node of a mesh to the model, and a report of both directions.
+
+        ``report.signed`` has the distances with their sign, positive outside, ``report.faces`` and ``report.uv`` the nearest
+        places.
+        """
+        faces = np.empty(mesh.n_points, np.uint32)
+        return deviation_of("planish_model_deviation", self, mesh, progress, deviation_options, faces=faces)
 
     def tessellate(self, *, progress: ProgressCallback | None = None, **tessellate_options: Any) -> Mesh:
         """Triangles of all faces; faces share the nodes of their edges, so that a solid gives a closed mesh."""

@@ -236,15 +236,12 @@ class Surface(Handle):
     def deviation(
         self, mesh: Mesh, *, progress: ProgressCallback | None = None, **deviation_options: Any
     ) -> tuple[np.ndarray, Report]:
-        """The distance of each node of a mesh to the surface, and a report of both directions."""
-        distances, report = np.empty(mesh.n_points), report_record("deviation_report")
-        long = LongCall(progress)
-        record = options("deviation_options", deviation_options, **long.fields("deviation_options"))
-        status = long(
-            "planish_surface_deviation",
-            *(self, mesh, by_reference(record), pointer(distances), len(distances), by_reference(report)),
-        )
-        return distances, Report(report, status)
+        """The distance of each node of a mesh to the surface, and a report of both directions.
+
+        ``report.signed`` has the distances with their sign, positive on the side of the normals, and ``report.uv`` the
+        nearest places.
+        """
+        return deviation_of("planish_surface_deviation", self, mesh, progress, deviation_options)
 
     def tessellate(self, *, progress: ProgressCallback | None = None, **tessellate_options: Any) -> Mesh:
         """Triangles inside the trims, within a chord tolerance."""
@@ -394,6 +391,22 @@ class Surface(Handle):
         surface.set_ctrlpts(points.reshape(-1, points.shape[-1]).tolist(), *points.shape[:2])
         surface.knotvector_u, surface.knotvector_v = (knots.tolist() for knots in tensor.knots)
         return surface
+
+
+def deviation_of(
+    function: str, shape: Handle, mesh: Mesh, progress: ProgressCallback | None, given: dict[str, Any], **places: np.ndarray
+) -> tuple[np.ndarray, Report]:
+    """Distances and report of a deviation; `places` are further arrays that the call fills, by the names of the report."""
+    places = dict(places, signed=np.empty(mesh.n_points), uv=np.empty((mesh.n_points, 2)))
+    distances, record = np.empty(mesh.n_points), report_record("deviation_report")
+    long = LongCall(progress)
+    filled = {f"out_{name}": values for name, values in places.items()}
+    call_options = by_reference(options("deviation_options", given, **filled, **long.fields("deviation_options")))
+    status = long(function, shape, mesh, call_options, pointer(distances), len(distances), by_reference(record))
+    report = Report(record, status)
+    for name, values in places.items():
+        setattr(report, name, values)
+    return distances, report
 
 
 def _pairs(u: Any, v: Any) -> np.ndarray:

@@ -82,6 +82,7 @@ def test_models_answer_as_surfaces_do(face, surface, mesh):
     assert np.all(face.curvatures(faces, uv, outside="extrapolate").k1.shape == (len(uv),))
     measured, report = face.deviation(mesh)
     assert np.abs(measured - distances).max() <= 1e-12 and report.max_distance == measured.max()
+    assert np.all(report.faces == 0) and np.abs(report.uv - uv).max() <= 1e-12 and np.all(np.abs(report.signed) == measured)
     assert face.tessellate().n_loops == 1
 
 

@@ -136,6 +136,10 @@ def test_projection_finds_the_surface(surface, mesh):
 def test_deviation_reports_both_ways(surface, mesh):
     distances, report = surface.deviation(mesh)
     assert distances.shape == (300,) and report.max_distance == distances.max()
+    assert report.median_distance == np.sort(distances)[149] and report.distance_99 <= report.max_distance
+    assert np.array_equal(np.abs(report.signed), distances)
+    raised = planish.Mesh(mesh.points + [0, 0, 0.05], mesh.triangles)
+    assert np.all(surface.deviation(raised)[1].signed > 0) == (surface.normals(report.uv)[:, 2].min() > 0)
 
 
 def test_tessellation_follows_the_trims(surface):

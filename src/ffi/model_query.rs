@@ -20,7 +20,7 @@ use super::surface::planish_eval_options;
 use crate::control::{Pool, Stage};
 use crate::export::vtk;
 use crate::model::{ModelField, ModelProjector, ModelTessellation};
-use crate::query::deviation::DeviationOptions;
+use crate::query::deviation::{DeviationError, DeviationOptions};
 use crate::query::project::ProjectOptions;
 use crate::surface::MAX_DERIVATIVE;
 use crate::surface::evaluate::{OutsideRule, Quantity};
@@ -299,10 +299,27 @@ pub unsafe extern "C" fn planish_model_deviation(
             max_edge_length: given.max_edge_length,
             ..DeviationOptions::default()
         };
-        let result = with_control(given.thread_count, listener!(given), |control| {
+        let needed = mesh.points().len();
+        let out_signed = slice_mut_or_none(given.out_signed, needed, "out_signed")?;
+        let out_uv = slice_mut_or_none(given.out_uv, array_len::<f64>(needed, 2, "out_uv")?, "out_uv")?;
+        let out_faces = slice_mut_or_none(given.out_faces, needed, "out_faces")?;
+        let (result, sides) = with_control(given.thread_count, listener!(given), |control| {
             control.enter(Stage::Project);
-            model.deviation(mesh, &core, control.pool())
+            let found = model.deviation(mesh, &core, control.pool())?;
+            let sides = out_signed.is_some().then(|| model.signed(mesh, &found, control.pool()));
+            Ok::<_, DeviationError>((found, sides))
         })??;
+        if let (Some(to), Some(sides)) = (out_signed, sides) {
+            to.copy_from_slice(&sides);
+        }
+        if let Some(to) = out_uv {
+            write_pairs(&result.uv, to);
+        }
+        if let Some(to) = out_faces {
+            let numbers =
+                result.faces.iter().map(|face| face.map_or(PLANISH_NONE, |face| face.index() as u32));
+            to.iter_mut().zip(numbers).for_each(|(to, number)| *to = number);
+        }
         out_distances.into_iter().for_each(|to| to.copy_from_slice(&result.nodes.each));
         report.store(planish_deviation_report {
             max_distance: result.nodes.max,
@@ -314,7 +331,7 @@ pub unsafe extern "C" fn planish_model_deviation(
             worst_index: result.nodes.worst_index,
             back_count: result.back_count,
             unproven_count: result.unproven,
-            ..planish_deviation_report::default()
+            ..planish_deviation_report::default().with_percentiles(&result.nodes.each)
         });
         Ok(if result.unproven > 0 { planish_status::NotProven } else { planish_status::Ok })
     })

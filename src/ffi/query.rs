@@ -2,7 +2,7 @@
 
 use super::arguments::{
     ArgumentError, ReportOut, array_len, copy_rows, deref, flag, options, out, slice, slice_mut,
-    slice_mut_or_none,
+    slice_mut_or_none, unused,
 };
 use super::guard::guard;
 use super::mesh::planish_mesh;
@@ -11,9 +11,13 @@ use super::progress::{planish_progress, thread_count, with_control};
 use super::report::write_pairs;
 use super::surface::planish_surface;
 use crate::control::Stage;
-use crate::query::deviation::{DeviationOptions, DeviationReport, check_in_space, deviation_with};
+use crate::query::deviation::{
+    DeviationError, DeviationOptions, DeviationReport, check_in_space, deviation_with,
+};
 use crate::query::project::{ProjectOptions, Projection};
+use crate::query::side::signed;
 use crate::query::tessellate::{TessellateOptions, Tessellation, tessellate_watched};
+use crate::summary::{percentile, sorted_sizes};
 use glam::DVec2;
 use libc::c_void;
 
@@ -240,6 +244,18 @@ record! {
         pub measure_back: u32 = u32::from(core.measure_back),
         /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
         pub thread_count: u32,
+        /// Receives the distances of the nodes with the sign of their side: positive on the side of the normal, which is
+        /// the outside of a solid; NaN for a node without triangles. NULL (default) for none. Written on success only.
+        /// Array: [mesh_point_count].
+        pub out_signed: *mut f64,
+        /// Receives the u, v nearest to each node; NaN for a node without triangles. NULL (default) for none. Written on
+        /// success only.
+        /// Array: [mesh_point_count, 2].
+        pub out_uv: *mut f64,
+        /// Receives the face of the model nearest to each node, PLANISH_NONE where there is none; NULL (default) for none,
+        /// and for a surface. Written on success only.
+        /// Array: [mesh_point_count].
+        pub out_faces: *mut u32,
     }
 }
 
@@ -265,6 +281,22 @@ record! {
         pub back_count: usize,
         /// Nodes whose distance is not proved to be the least one: planish_surface_project() says when.
         pub unproven_count: usize,
+        /// What half of the distances do not exceed.
+        pub median_distance: f64,
+        /// What 95 of a hundred distances do not exceed.
+        pub distance_95: f64,
+        /// What 99 of a hundred distances do not exceed.
+        pub distance_99: f64,
+    }
+}
+
+impl planish_deviation_report {
+    /// With what shares of the distances do not exceed.
+    pub(super) fn with_percentiles(self, distances: &[f64]) -> Self {
+        let sizes = sorted_sizes(distances);
+        let [median_distance, distance_95, distance_99] =
+            [0.5, 0.95, 0.99].map(|share| percentile(&sizes, share));
+        Self { median_distance, distance_95, distance_99, ..self }
     }
 }
 
@@ -281,7 +313,9 @@ impl From<&DeviationReport> for planish_deviation_report {
             worst_index: report.nodes.worst_index,
             back_count: report.back_count,
             unproven_count: report.unproven,
+            ..Self::default()
         }
+        .with_percentiles(&report.nodes.each)
     }
 }
 
@@ -290,7 +324,7 @@ impl From<&DeviationReport> for planish_deviation_report {
 ///
 /// surface:       not NULL, of dimension 3.
 /// mesh:          not NULL.
-/// options:       NULL for the defaults.
+/// options:       NULL for the defaults; out_faces must be NULL.
 /// out_distances: receives planish_mesh_point_count() distances; NULL for none.
 /// count:         doubles that out_distances has room for.
 /// out_report:    receives the sizes of the distances; NULL for none.
@@ -326,13 +360,27 @@ pub unsafe extern "C" fn planish_surface_deviation(
             chord_tolerance: given.chord_tolerance,
             max_edge_length: given.max_edge_length,
         };
+        unused(given.out_faces.is_null(), "out_faces", "planish_surface_deviation")?;
+        let out_signed = slice_mut_or_none(given.out_signed, needed, "out_signed")?;
+        let out_uv = slice_mut_or_none(given.out_uv, array_len::<f64>(needed, 2, "out_uv")?, "out_uv")?;
         check_in_space(surface.any())?;
-        let result = with_control(given.thread_count, listener!(given), |control| {
+        let (result, sides) = with_control(given.thread_count, listener!(given), |control| {
             control.enter(Stage::Project);
-            deviation_with(surface.projector()?, surface.any(), mesh, &core, control.pool())
+            let found = deviation_with(surface.projector()?, surface.any(), mesh, &core, control.pool())?;
+            let distances = &found.nodes.each;
+            let sides = out_signed
+                .is_some()
+                .then(|| signed(surface.any(), mesh.points(), &found.uv, distances, control.pool()));
+            Ok::<_, DeviationError>((found, sides))
         })??;
         if !out_distances.is_null() {
             slice_mut(out_distances, needed, "out_distances")?.copy_from_slice(&result.nodes.each);
+        }
+        if let (Some(to), Some(sides)) = (out_signed, sides) {
+            to.copy_from_slice(&sides);
+        }
+        if let Some(to) = out_uv {
+            write_pairs(&result.uv, to);
         }
         report.store((&result).into());
         Ok(if result.unproven > 0 { planish_status::NotProven } else { planish_status::Ok })

@@ -5,6 +5,7 @@ use crate::control::Pool;
 use crate::mesh::Mesh;
 use crate::query::deviation::{DeviationError, DeviationOptions};
 use crate::query::project::ProjectOptions;
+use crate::query::side::side;
 use crate::query::tessellate::TessellateOptions;
 use crate::query::triangles::TriangleTree;
 use crate::summary::{DataErrors, summarize};
@@ -63,6 +64,21 @@ impl Model {
             report.back_count = places.len();
         }
         Ok(report)
+    }
+
+    /// The distances of the nodes with the sign of their side: positive in front of the face that is nearest, which is the
+    /// outside of a solid.
+    pub fn signed(&self, mesh: &Mesh, found: &ModelDeviation, pool: &Pool) -> Vec<f64> {
+        let one = |node: usize| {
+            let (distance, Some(face)) = (found.nodes.each[node], found.faces[node]) else {
+                return found.nodes.each[node];
+            };
+            let mut row = [0.0; 9];
+            self.carrier(face).eval_rows(&[found.uv[node]], 1, &mut row);
+            let is_behind = side(mesh.points()[node], &row) < 0.0;
+            if is_behind == self.face(face).is_forward { -distance } else { distance }
+        };
+        pool.run(|| (0..mesh.points().len()).into_par_iter().map(one).collect())
     }
 
     /// Nodes of a tessellation, which lie on the model, and places of the model below the middles of its triangles.

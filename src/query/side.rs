@@ -15,15 +15,19 @@ pub fn signed(
     distances: &[f64],
     pool: &Pool,
 ) -> Vec<f64> {
-    // three rows of three numbers: the place and its two tangents
-    let mut rows = vec![0.0; 9 * nearest.len()];
-    pool.run(|| surface.eval_rows(nearest, 1, &mut rows));
-    let side = |(point, row): (&DVec3, &[f64])| {
-        let [place, su, sv] = [0, 3, 6].map(|at| DVec3::from_slice(&row[at..]));
-        (*point - place).dot(normal(su, sv))
-    };
-    let sides = points.iter().zip(rows.chunks_exact(9)).map(side);
+    // a node without triangles has no place: its distance is NaN whatever the sign
+    let some_place = surface.domain().min;
+    let places: Vec<DVec2> = nearest.iter().map(|&uv| if uv.is_nan() { some_place } else { uv }).collect();
+    let mut rows = vec![0.0; 9 * places.len()];
+    pool.run(|| surface.eval_rows(&places, 1, &mut rows));
+    let sides = points.iter().zip(rows.chunks_exact(9)).map(|(&point, row)| side(point, row));
     sides.zip(distances).map(|(side, &distance)| if side < 0.0 { -distance } else { distance }).collect()
+}
+
+/// How far a point lies along the normal of a place, whose row of nine numbers is the place and its two tangents.
+pub fn side(point: DVec3, row: &[f64]) -> f64 {
+    let [place, su, sv] = [0, 3, 6].map(|at| DVec3::from_slice(&row[at..]));
+    (point - place).dot(normal(su, sv))
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! The words and numbers beside the picture.
 
 use super::{Page, escaped};
+use crate::summary::{percentile, sorted_sizes};
 use std::fmt::Write;
 
 /// Signed distances in a few numbers.
@@ -23,20 +24,14 @@ pub struct Statistics {
 impl Statistics {
     /// Sums up; all 0 without data.
     pub fn of(distances: &[f64], tolerance: f64) -> Self {
-        let mut sizes: Vec<f64> = distances.iter().map(|d| d.abs()).collect();
-        sizes.sort_unstable_by(f64::total_cmp);
+        let sizes = sorted_sizes(distances);
         let count = sizes.len().max(1) as f64;
-        // the smallest size that at least this share of all do not exceed
-        let percentile = |share: f64| {
-            let rank = (share * sizes.len() as f64).ceil() as usize;
-            sizes.get(rank.max(1) - 1).copied().unwrap_or(0.0)
-        };
         Self {
             largest_outside: distances.iter().copied().fold(0.0, f64::max),
             largest_inside: distances.iter().copied().fold(0.0, f64::min),
             rms: (sizes.iter().map(|d| d * d).sum::<f64>() / count).sqrt(),
-            mean: distances.iter().sum::<f64>() / count,
-            percentiles: [0.50, 0.95, 0.99].map(percentile),
+            mean: distances.iter().filter(|d| !d.is_nan()).sum::<f64>() / count,
+            percentiles: [0.50, 0.95, 0.99].map(|share| percentile(&sizes, share)),
             share_within: sizes.partition_point(|&d| d <= tolerance) as f64 / count,
         }
     }

@@ -225,6 +225,28 @@ fn models_answer_questions_as_their_surface_does() {
         let mesh = MeshHandle(mesh);
         assert_eq!(planish_mesh_loop_count(mesh.0), 1);
         let mut report = planish_deviation_report::default();
+        // the same points a little along the normals of a saddle z = uv, and against them
+        let count = planish_mesh_point_count(mesh.0);
+        let mut points = vec![0.0; 3 * count];
+        ok(planish_mesh_copy_points(mesh.0, points.as_mut_ptr(), count));
+        for (node, point) in points.chunks_exact_mut(3).enumerate() {
+            point[2] += if node % 2 == 0 { 1e-3 } else { -1e-3 };
+        }
+        let mut moved = null_mut();
+        ok(planish_mesh_clone(mesh.0, &mut moved));
+        let moved = MeshHandle(moved);
+        ok(planish_mesh_set_points(moved.0, points.as_ptr(), count));
+        let (mut signed, mut uv, mut faces) = (vec![7.0; count], vec![7.0; 2 * count], vec![7_u32; count]);
+        let places = planish_deviation_options {
+            out_signed: signed.as_mut_ptr(),
+            out_uv: uv.as_mut_ptr(),
+            out_faces: faces.as_mut_ptr(),
+            ..record()
+        };
+        ok(planish_model_deviation(model.0, moved.0, &places, null_mut(), 0, &mut report));
+        assert!(signed.iter().enumerate().all(|(node, &d)| (d > 0.0) == (node % 2 == 0)), "{signed:?}");
+        assert!(faces.iter().all(|&face| face == 0) && uv.iter().all(|x| (0.0..=1.0).contains(x)));
+        assert!(0.0 < report.median_distance && report.distance_99 <= report.max_distance);
         let back = planish_deviation_options { measure_back: 1, ..record() };
         ok(planish_model_deviation(model.0, mesh.0, &back, null_mut(), 0, &mut report));
         assert!(report.max_distance < 1e-12 && report.max_back_distance < 2e-3, "{report:?}");

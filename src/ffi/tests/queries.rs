@@ -142,6 +142,22 @@ fn deviations_are_measured_and_refuse_by_name() {
         ok(planish_surface_deviation(scene.surface, scene.mesh, null(), to, count, &raw mut report));
         assert!(report.max_distance < 1e-14 && report.max_back_distance.is_nan(), "{report:?}");
         assert!(distances.iter().all(|&distance| distance <= report.max_distance));
+        assert!(report.median_distance <= report.distance_95 && report.distance_99 <= report.max_distance);
+        let (mut signed, mut uv, mut faces) = (vec![7.0; count], vec![7.0; 2 * count], vec![7_u32; count]);
+        let mut places = planish_deviation_options { out_signed: signed.as_mut_ptr(), ..record() };
+        places.out_uv = uv.as_mut_ptr();
+        ok(planish_surface_deviation(scene.surface, scene.mesh, &places, to, count, null_mut()));
+        for (signed, distance) in signed.iter().zip(&distances) {
+            assert_eq!(signed.abs(), *distance);
+        }
+        let mut at = vec![0.0; 3 * count];
+        ok(planish_surface_eval(scene.surface, uv.as_ptr(), count, null(), at.as_mut_ptr()));
+        let mut points = vec![0.0; 3 * count];
+        ok(planish_mesh_copy_points(scene.mesh, points.as_mut_ptr(), count));
+        assert!(at.iter().zip(&points).all(|(a, b)| (a - b).abs() < 1e-14));
+        places.out_faces = faces.as_mut_ptr();
+        let status = planish_surface_deviation(scene.surface, scene.mesh, &places, to, count, null_mut());
+        refused(status, planish_status::InvalidArgument, -1, &["out_faces"]);
         let back = planish_deviation_options { measure_back: 1, ..record() };
         let back = &raw const back;
         ok(planish_surface_deviation(scene.surface, scene.mesh, back, null_mut(), 0, &raw mut report));
