@@ -498,8 +498,12 @@ FOLLOWS(planish_edge_info, face_along, face_against);
 FOLLOWS(planish_edge_info, face_against, vertex_start);
 FOLLOWS(planish_edge_info, vertex_start, vertex_end);
 FOLLOWS(planish_edge_info, vertex_end, is_sharp);
-FOLLOWS(planish_edge_info, is_sharp, reserved);
-LAST(planish_edge_info, reserved);
+FOLLOWS(planish_edge_info, is_sharp, shape);
+FOLLOWS(planish_edge_info, shape, origin);
+FOLLOWS(planish_edge_info, origin, axis);
+FOLLOWS(planish_edge_info, axis, x_axis);
+FOLLOWS(planish_edge_info, x_axis, radii);
+LAST(planish_edge_info, radii);
 
 FIRST(planish_face_info);
 FOLLOWS(planish_face_info, struct_size, origin);
@@ -564,7 +568,12 @@ FOLLOWS(planish_model_options, guard, max_rounds);
 FOLLOWS(planish_model_options, max_rounds, sweeps);
 FOLLOWS(planish_model_options, sweeps, level_spread);
 FOLLOWS(planish_model_options, level_spread, thread_count);
-LAST(planish_model_options, thread_count);
+FOLLOWS(planish_model_options, thread_count, sharp_angle);
+FOLLOWS(planish_model_options, sharp_angle, labels);
+FOLLOWS(planish_model_options, labels, label_count);
+FOLLOWS(planish_model_options, label_count, exact);
+FOLLOWS(planish_model_options, exact, smooth);
+LAST(planish_model_options, smooth);
 
 FIRST(planish_model_report);
 FOLLOWS(planish_model_report, struct_size, max_error);
@@ -601,7 +610,8 @@ FOLLOWS(planish_model_report, pass_count, stop_reason);
 FOLLOWS(planish_model_report, stop_reason, is_chart);
 FOLLOWS(planish_model_report, is_chart, mesh_crossing_count);
 FOLLOWS(planish_model_report, mesh_crossing_count, crossing_count);
-LAST(planish_model_report, crossing_count);
+FOLLOWS(planish_model_report, crossing_count, exact_face_count);
+LAST(planish_model_report, exact_face_count);
 
 FIRST(planish_curve_options);
 FOLLOWS(planish_curve_options, struct_size, tolerance);

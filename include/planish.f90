@@ -3363,12 +3363,14 @@ contains
   !>
   !> report: receives what the fit did; worst_node counts from 1.
   !> errors: receives the error of each node.
-  subroutine planish_model_fit(mesh, model, options, report, errors, progress, stat, errmsg)
+  !> labels: a number for each triangle: edges between different ones are features, and exact faces have it as label.
+  subroutine planish_model_fit(mesh, model, options, report, errors, labels, progress, stat, errmsg)
     class(planish_mesh_t), intent(in) :: mesh
     class(planish_model_t), intent(inout) :: model
     type(planish_model_options), intent(in), optional :: options
     type(planish_model_report), intent(inout), optional :: report
     real(c_double), intent(inout), optional, target, contiguous :: errors(:)
+    integer(c_int32_t), intent(in), optional, target, contiguous :: labels(:)
     procedure(planish_progress), optional :: progress
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
@@ -3380,6 +3382,10 @@ contains
     if (present(errors)) then
       if (refuse_extent(size(errors, 1, c_size_t), mesh%point_count(), "the length of errors", stat, errmsg)) return
       call_options%out_errors = c_loc(errors)
+    end if
+    if (present(labels)) then
+      call_options%labels = c_loc(labels)
+      call_options%label_count = size(labels, kind=c_size_t)
     end if
     if (present(progress)) then
       user%hear => progress

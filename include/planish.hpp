@@ -1594,7 +1594,8 @@ struct fitted_model {
   std::vector<double> errors;
 };
 
-/// Makes a model of any mesh: smooth patches and a solid of a closed one, one chart of a mesh with a boundary.
+/// Makes a model of any mesh: a solid of a closed one, of exact faces or smooth patches, one chart of a mesh with a
+/// boundary.
 inline fitted_model model_fit(const mesh &mesh, planish_model_options options = defaults<planish_model_options>(),
                               const progress &hear = {}) {
   detail::listener listener(hear);

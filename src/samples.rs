@@ -5,6 +5,7 @@
 
 pub mod closed;
 pub mod layouts;
+pub mod machine;
 mod parts;
 pub mod rows;
 mod solids;

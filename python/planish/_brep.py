@@ -14,7 +14,7 @@ import numpy as np
 
 if TYPE_CHECKING:
     from ._curve import Curve
-    from ._model import Face, Model
+    from ._model import Edge, Face, Model
     from ._surface import Surface
 
 #: The least tolerance that OpenCASCADE works with.
@@ -58,14 +58,31 @@ def _plane(face: Face) -> str:
     return f"1 {_row(face.origin)} {_row(face.axis)} {_row(face.x_axis)} {_row(across)}\n"
 
 
+def _cylinder(face: Face) -> str:
+    """A cylinder (kind 2): a point of the axis, its direction, those of the angles 0 and a quarter, the radius."""
+    across = np.cross(face.axis, face.x_axis)
+    return f"2 {_row(face.origin)} {_row(face.axis)} {_row(face.x_axis)} {_row(across)} {face.radius!r}\n"
+
+
+def _edge_curve(edge: Edge) -> str:
+    """A line (kind 1) over its length, a circle (kind 2) or ellipse (kind 3) over its angles, or a spline."""
+    if edge.shape == "line":
+        (start, end), (first, last) = edge.curve.control_points, edge.curve.domain
+        along = (end - start) / np.linalg.norm(end - start)
+        if abs(np.linalg.norm(end - start) - (last - first)) <= 1e-12 * (last - first):
+            return f"1 {_row(start - first * along)} {_row(along)}\n"
+    if edge.shape not in ("circle", "ellipse"):
+        return _curve(edge.curve)
+    frame = f"{_row(edge.origin)} {_row(edge.axis)} {_row(edge.x_axis)} {_row(np.cross(edge.axis, edge.x_axis))}"
+    if edge.shape == "circle":
+        return f"2 {frame} {edge.radii[0]!r}\n"
+    return f"3 {frame} {_row(edge.radii)}\n"
+
+
 class _Writer:
     def __init__(self, model: Model):
-        from ._library import InvalidError
-
         self.model = model
         self.faces = [model.face(index) for index in range(model.n_faces)]
-        if any(face.carrier == "cylinder" for face in self.faces):
-            raise InvalidError("BREP text of cylinders is not written; use write_step or step_text", "wrong_kind")
         self.tolerance = max(_PRECISION, model.measure().curve_deviation)
         self.pcurves: list[str] = []
         self.curves: list[str] = []
@@ -91,11 +108,11 @@ class _Writer:
 
     def _add_geometry(self) -> None:
         for index, face in enumerate(self.faces):
-            surface = self.model.face_surface(index)
-            is_plane = face.carrier == "plane"
-            self.surfaces.append(_plane(face) if is_plane else _surface(surface))
-            if is_plane:
+            if face.carrier == "plane":
+                self.surfaces.append(_plane(face))
                 continue  # OpenCASCADE finds where curves lie in planes by itself
+            is_cylinder = face.carrier == "cylinder"
+            self.surfaces.append(_cylinder(face) if is_cylinder else _surface(self.model.face_surface(index)))
             coedges = [coedge for loop in face.loops for coedge in loop]
             for place, (edge, is_forward) in enumerate(coedges):
                 self.pcurves.append(_curve(self.model.pcurve(index, place)))
@@ -117,12 +134,12 @@ class _Writer:
 
     def _add_edge(self, index: int, vertices: list[int]) -> int:
         edge = self.model.edge(index)
-        self.curves.append(_curve(edge.curve))
+        self.curves.append(_edge_curve(edge))
         ends = _row(edge.curve.domain)
         told = f" {self.tolerance!r} 1 1 0\n1  {len(self.curves)} 0 {ends}\n"
         for face, uses in self.sides[index].items():
-            if len(uses) == 2:  # a seam: first where the face's loop runs along it
-                first, second = (number for _, number in sorted(uses, reverse=True))
+            if len(uses) == 2:  # a seam: first where the loop runs along it, seen from the surface's own side
+                first, second = (number for _, number in sorted(uses, reverse=self.faces[face].is_forward))
                 told += f"3  {first} {second} CN {face + 1} 0 {ends}\n"
             else:
                 told += f"2  {uses[0][1]} {face + 1} 0 {ends}\n"
@@ -157,5 +174,5 @@ class _Writer:
 
 
 def text(model: Model) -> str:
-    """The BREP text of a model; one of cylinders is refused."""
+    """The BREP text of a model."""
     return _Writer(model).text()

@@ -47,6 +47,8 @@ class Edge(NamedTuple):
     """A curve in space between two vertices, which one or two faces share.
 
     faces: the face whose loop runs along it and the one whose loop runs against it; None where there is none.
+    shape: "spline", "line", "circle" or "ellipse"; the curve of the last two is a spline over their angles.
+    origin, axis, x_axis, radii: those of a circle or ellipse, which turns counter-clockwise about its axis.
     """
 
     curve: Curve
@@ -55,6 +57,11 @@ class Edge(NamedTuple):
     is_sharp: bool
     angle: float
     gap: float
+    shape: str
+    origin: tuple[float, float, float]
+    axis: tuple[float, float, float]
+    x_axis: tuple[float, float, float]
+    radii: tuple[float, float]
 
 
 class Shell(NamedTuple):
@@ -167,7 +174,8 @@ class Model(Handle):
             Curve._own(handle),
             (info.vertex_start, info.vertex_end),
             (_or_none(info.face_along), _or_none(info.face_against)),
-            *(bool(info.is_sharp), info.angle, info.gap),
+            *(bool(info.is_sharp), info.angle, info.gap, _word("planish_edge_shape", info.shape)),
+            *(tuple(row) for row in (info.origin, info.axis, info.x_axis, info.radii)),
         )
 
     def shell(self, index: int) -> Shell:
@@ -349,6 +357,7 @@ def model(
     family: str = "auto",
     *,
     absolute: bool = False,
+    labels: Any = None,
     progress: ProgressCallback | None = None,
     **model_options: Any,
 ) -> Model:
@@ -356,7 +365,9 @@ def model(
 
     tolerance: the largest distance allowed between a node and the model, as a fraction of the diagonal of the mesh's box,
         or in its units if `absolute`.
-    family: "auto" takes one chart where one serves, else patches with one tangent plane along their edges.
+    family: "auto" takes one chart where one serves, exact faces of planes and cylinders where they explain a closed mesh,
+        else patches with one tangent plane along their edges.
+    labels: a number for each triangle: edges between different ones are features, and exact faces have it as `label`.
     model_options: those of `planish_model_options`, such as ``patches``.
 
     ``model.report`` tells how it went, also the volume beside the mesh's, the largest normal jump and gap; its ``errors``,
@@ -375,6 +386,9 @@ def model(
         out_uv=uv,
         out_errors=errors,
     )
+    if labels is not None:
+        labels = np.ascontiguousarray(labels, np.uint32).ravel()
+        filled.update(labels=labels, label_count=len(labels))
     record = options("model_options", model_options, **filled)
     arguments = ("planish_model_fit", mesh, by_reference(record), OUT, by_reference(report))
     status, handle = made(*arguments, run=long)

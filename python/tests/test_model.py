@@ -118,3 +118,42 @@ def test_numbers_that_do_not_exist_are_refused(face):
         face.face(1)
     with pytest.raises(IndexError):
         face.edge(face.n_edges)
+
+
+def bar(sides=24, radius=2.0, height=3.0):
+    """A round bar between two lids, and which of them each triangle is on: 1 the wall, 2 below, 3 above."""
+    angles = 2 * np.pi * np.arange(sides) / sides
+    ring = np.c_[radius * np.cos(angles), radius * np.sin(angles)]
+    points = [np.c_[ring, np.full(sides, z)] for z in (0.0, height)] + [[[0, 0, 0], [0, 0, height]]]
+    k = np.arange(sides)
+    after = (k + 1) % sides
+    wall = np.r_[np.c_[k, after, after + sides], np.c_[k, after + sides, k + sides]]
+    low, high = np.c_[after, k, np.full(sides, 2 * sides)], np.c_[k + sides, after + sides, np.full(sides, 2 * sides + 1)]
+    labels = np.repeat([1, 2, 3], [2 * sides, sides, sides])
+    return planish.Mesh(np.concatenate(points), np.concatenate([wall, low, high])), labels
+
+
+def test_planes_and_cylinders_become_exact_faces():
+    mesh, labels = bar()
+    made = planish.model(mesh, labels=labels)
+    assert (made.n_faces, made.report.exact_face_count, made.report.patch_count) == (3, 3, 0)
+    faces = [made.face(index) for index in range(3)]
+    wall = next(face for face in faces if face.carrier == "cylinder")
+    assert abs(wall.radius - 2) <= 1e-12 and abs(abs(wall.axis[2]) - 1) <= 1e-12
+    assert sorted(face.label for face in faces) == [1, 2, 3] and wall.label == 1
+    shapes = sorted(made.edge(index).shape for index in range(made.n_edges))
+    assert shapes == ["circle", "circle", "line"]
+    circle = next(made.edge(index) for index in range(made.n_edges) if made.edge(index).shape == "circle")
+    assert np.allclose(circle.radii, 2, atol=1e-12)
+    t = np.linspace(*circle.curve.domain, 50)
+    assert np.abs(np.hypot(*circle.curve(t)[:, :2].T) - 2).max() <= 1e-10
+    measured = made.measure()
+    assert abs(measured.volume / (12 * np.pi) - 1) <= 1e-12 and measured.free_edge_count == 0
+    # two circles and a line in space, a cylinder and two planes
+    text = made.to_brep()
+    curves = text.split("\nCurves 3\n")[1].splitlines()[:3]
+    assert sorted(line.split()[0] for line in curves) == ["1", "2", "2"]
+    surfaces = text.split("\nSurfaces 3\n")[1].splitlines()[:3]
+    assert sorted(line.split()[0] for line in surfaces) == ["1", "1", "2"]
+    with pytest.raises(planish.InvalidError, match="labels"):
+        planish.model(mesh, labels=labels[1:])

@@ -15,8 +15,8 @@ use crate::export::native::{ModelOrField, Save};
 use crate::export::{native, step};
 use crate::fit::conversion::{ConversionOptions, to_model};
 use crate::model::{
-    Carrier, EdgeId, Face, FaceId, Form, FormOptions, Measure, Model, ModelError, ModelField, NodePlace,
-    Role, ShellId, Use,
+    Carrier, EdgeCurve, EdgeId, Face, FaceId, Form, FormOptions, Measure, Model, ModelError, ModelField,
+    NodePlace, Role, ShellId, Use,
 };
 use crate::surface::AnySurface;
 use glam::DVec2;
@@ -158,9 +158,31 @@ record! {
         pub vertex_end: u32,
         /// 1 if its faces meet at an angle on purpose, else 0.
         pub is_sharp: u32,
-        /// 0.
-        pub reserved: u32,
+        /// A planish_edge_shape, what its curve is.
+        pub shape: u32,
+        /// The middle of a circle or ellipse; zeros for others.
+        pub origin: [f64; 3],
+        /// The direction about which a circle or ellipse turns counter-clockwise, of length 1; zeros for others.
+        pub axis: [f64; 3],
+        /// The direction from the middle where the parameter, an angle in radians, is 0, of length 1; zeros for others.
+        pub x_axis: [f64; 3],
+        /// Half the width of a circle or ellipse along x_axis and across it; zeros for others.
+        pub radii: [f64; 2],
     }
+}
+
+/// What the curve of an edge is.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum planish_edge_shape {
+    /// A spline.
+    Spline = 0,
+    /// A straight line.
+    Line = 1,
+    /// A piece of a circle.
+    Circle = 2,
+    /// A piece of an ellipse, the longer axis first.
+    Ellipse = 3,
 }
 
 record! {
@@ -482,7 +504,8 @@ pub unsafe extern "C" fn planish_model_copy_face(
     })
 }
 
-/// Makes a curve of an edge, and says what the edge is.
+/// Makes a curve of an edge, and says what the edge is. An arc of a circle or ellipse becomes a spline over the same angles
+/// that is off by at most 2e-11 of its radius.
 ///
 /// model:     not NULL.
 /// edge:      below planish_model_edge_count().
@@ -519,13 +542,31 @@ pub unsafe extern "C" fn planish_model_copy_edge(
             vertex_start,
             vertex_end,
             is_sharp: u32::from(edge.is_sharp),
-            ..planish_edge_info::default()
+            ..shape_of(&edge.curve)
         });
         out_curve.into_iter().for_each(|to| {
-            to.write(planish_curve::into_raw(edge.curve.clone()));
+            to.write(planish_curve::into_raw(edge.curve.to_spline()));
         });
         Ok(())
     })
+}
+
+/// What the curve of an edge is, and nothing else.
+fn shape_of(curve: &EdgeCurve) -> planish_edge_info {
+    let mut info = planish_edge_info::default();
+    let shape = match curve {
+        EdgeCurve::Spline(_) if curve.as_line().is_some() => planish_edge_shape::Line,
+        EdgeCurve::Spline(_) => planish_edge_shape::Spline,
+        EdgeCurve::Arc(arc) => {
+            let frame = arc.frame();
+            [info.origin, info.axis, info.x_axis] =
+                [frame.origin(), frame.z(), frame.x()].map(|axis| axis.to_array());
+            info.radii = arc.radii();
+            if arc.is_circle() { planish_edge_shape::Circle } else { planish_edge_shape::Ellipse }
+        }
+    };
+    info.shape = shape as u32;
+    info
 }
 
 /// Copies the loops of a face: their edges in order, loop after loop, the outer loop first. Each edge begins where the
@@ -580,8 +621,7 @@ pub unsafe extern "C" fn planish_model_copy_loops(
 /// face:      below planish_model_face_count().
 /// coedge:    the place of the edge among those of planish_model_copy_loops().
 /// out_curve: receives a new curve of dimension 2; destroy with planish_curve_free().
-/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INDEX (the face, or the place) or
-/// PLANISH_STATUS_WRONG_KIND (the face lies on a cylinder: its parameters are angle and height of a place in space).
+/// Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INDEX (the face, or the place).
 #[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn planish_model_copy_pcurve(

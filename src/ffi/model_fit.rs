@@ -1,6 +1,8 @@
 //! Models fitted to meshes.
 
-use super::arguments::{ArgumentError, ReportOut, choice, deref, flag, options, out, slice_mut_or_none};
+use super::arguments::{
+    ArgumentError, ReportOut, choice, deref, flag, options, out, slice, slice_mut_or_none,
+};
 use super::guard::guard;
 use super::mesh::planish_mesh;
 use super::model::{PLANISH_NONE, planish_model};
@@ -10,6 +12,7 @@ use super::report::{gravest, planish_stop_reason};
 use crate::fit::model::{Family, MeshModelOptions, ModelFit, ModelOptions, fit_mesh};
 use crate::fit::report::{Tolerance, ToleranceScale};
 use crate::layout::of_mesh::{LayoutKind, MeshLayoutOptions};
+use crate::mesh::FeatureOptions;
 use std::ffi::c_void;
 
 /// Which way a mesh becomes a model.
@@ -39,7 +42,7 @@ pub enum planish_model_layout {
 
 record! {
     /// How a mesh becomes a model. Fill with planish_model_options_init(), then change what you need.
-    pub struct planish_model_options (planish_model_options_init; core: ModelOptions, layout_core: MeshLayoutOptions) {
+    pub struct planish_model_options (planish_model_options_init; core: ModelOptions, layout_core: MeshLayoutOptions, feature_core: FeatureOptions) {
         /// Hears of the progress and may cancel; NULL (default) for nobody.
         pub progress: planish_progress,
         /// Handed to progress as it is.
@@ -93,6 +96,20 @@ record! {
         pub level_spread: u32 = 1,
         /// Threads that share the work; 0 (default) for all cores. The result does not depend on it.
         pub thread_count: u32,
+        /// Edges whose facets turn by more than this are sharp, in radians, at most pi; 0 looks for none. Default 0.7, which
+        /// is 40 degrees.
+        pub sharp_angle: f64 = feature_core.sharp_angle.unwrap_or(0.0),
+        /// A number for each triangle, such as the face of a CAD model that it comes from: edges between triangles of
+        /// different numbers are features, and exact faces have the number as their label; NULL (default) for none.
+        /// Array: [label_count].
+        pub labels: *const u32,
+        /// Numbers in labels: planish_mesh_triangle_count(), or 0 (default).
+        pub label_count: usize,
+        /// Whether a mesh of planes and cylinders becomes exact faces instead of patches or a chart, with
+        /// PLANISH_MODEL_FAMILY_AUTO: 0 or 1 (default).
+        pub exact: u32 = 1,
+        /// 1 ignores all features: smooth patches everywhere; 0 (default) does not.
+        pub smooth: u32,
     }
 }
 
@@ -143,7 +160,7 @@ record! {
         pub turned_count: usize,
         /// Handles of all components.
         pub genus: usize,
-        /// Patches of all components; 0 for a chart.
+        /// Patches of all components; 0 for a chart or exact faces.
         pub patch_count: usize,
         /// Control points, four a vertex of the cells of each patch.
         pub coefficient_count: usize,
@@ -163,13 +180,15 @@ record! {
         pub pass_count: u32,
         /// A planish_stop_reason, why the fit ended.
         pub stop_reason: u32,
-        /// 1 for one chart, 0 for patches.
+        /// 1 for one chart, 0 for patches and exact faces.
         pub is_chart: u32,
         /// Pairs of triangles of the mesh that cross.
         pub mesh_crossing_count: usize,
         /// Pairs of triangles of the model that cross, triangulated as finely as the tolerance: walls that are thinner
         /// than that, or folds. SIZE_MAX if the model could not be triangulated.
         pub crossing_count: usize,
+        /// Faces on planes and cylinders.
+        pub exact_face_count: usize,
     }
 }
 
@@ -209,9 +228,10 @@ impl planish_model_report {
             deepest_level: report.deepest_level,
             pass_count: report.passes as u32,
             stop_reason: planish_stop_reason::from(report.stop) as u32,
-            is_chart: u32::from(fit.pieces.is_empty()),
+            is_chart: u32::from(fit.is_chart()),
             mesh_crossing_count: report.mesh_crossings,
             crossing_count: report.crossings.unwrap_or(usize::MAX),
+            exact_face_count: components.iter().map(|component| component.exact_faces).sum(),
         }
     }
 
@@ -225,10 +245,11 @@ impl planish_model_report {
 }
 
 impl planish_model_options {
-    fn core(&self) -> Result<MeshModelOptions, ArgumentError> {
+    fn core<'a>(&self, labels: &'a [u32]) -> Result<MeshModelOptions<'a>, ArgumentError> {
         let scales = [ToleranceScale::Relative, ToleranceScale::Absolute];
         let scale = choice(self.tolerance_scale, &scales, "tolerance_scale")?;
         let kinds = [LayoutKind::Auto, LayoutKind::Cube, LayoutKind::Complex];
+        let is_smooth = flag(self.smooth, "smooth")?;
         Ok(MeshModelOptions {
             family: choice(self.family, &[Family::Auto, Family::Chart, Family::Patches], "family")?,
             fit: ModelOptions {
@@ -249,14 +270,21 @@ impl planish_model_options {
                 sweeps: self.sweeps as usize,
             },
             level_spread: self.level_spread,
+            exact: flag(self.exact, "exact")? && !is_smooth,
+            features: FeatureOptions {
+                sharp_angle: (self.sharp_angle != 0.0 && !is_smooth).then_some(self.sharp_angle),
+                labels: if is_smooth { &[] } else { labels },
+                ..FeatureOptions::default()
+            },
         })
     }
 }
 
-/// Makes a model of any mesh within a tolerance. A closed mesh becomes smooth patches that share position and tangent
-/// plane along all their edges to rounding: a solid of B-spline faces, one inside another its void, several components
-/// several shells. A mesh with a boundary becomes one PHT-spline inside its trims. Components that are inside out are
-/// turned.
+/// Makes a model of any mesh within a tolerance. A mesh of planes and cylinders between sharp edges becomes exact faces
+/// that meet in lines, circles and ellipses; any other closed mesh becomes smooth patches that share position and
+/// tangent plane along all their edges to rounding: a solid of B-spline faces. One inside another becomes its void,
+/// several components several shells. A mesh with a boundary that is not exact becomes one PHT-spline inside its trims.
+/// Components that are inside out are turned.
 ///
 /// mesh:       not NULL; stays as it is.
 /// options:    NULL for the defaults.
@@ -265,7 +293,7 @@ impl planish_model_options {
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_INPUT_REPAIRED (a component was turned), PLANISH_STATUS_FOLDED_PARAMETERS,
 /// PLANISH_STATUS_TOLERANCE_NOT_MET or PLANISH_STATUS_STAGNATED (the best model found is there), or an error:
 /// PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option; a start_level that the layout does not
-/// allow), PLANISH_STATUS_TOPOLOGY (patches for a mesh with a boundary, one of whose nodes is the index; a cube for a mesh
+/// allow; labels that are not as many as the triangles), PLANISH_STATUS_TOPOLOGY (patches for a mesh with a boundary, one of whose nodes is the index; a cube for a mesh
 /// with handles; a node where the surface touches itself), PLANISH_STATUS_DEGENERATE (a component encloses no volume, one
 /// of its nodes is the index; no layout), PLANISH_STATUS_TOO_LARGE (more than 1000 components), PLANISH_STATUS_SINGULAR,
 /// PLANISH_STATUS_VERSION, PLANISH_STATUS_CANCELLED, or for a chart what planish_pht_fit() and
@@ -288,7 +316,8 @@ pub unsafe extern "C" fn planish_model_fit(
         let faces = slice_mut_or_none(given.out_faces, count, "out_faces")?;
         let uv = slice_mut_or_none(given.out_uv, count.saturating_mul(2), "out_uv")?;
         let errors = slice_mut_or_none(given.out_errors, count, "out_errors")?;
-        let core = given.core()?;
+        let labels = slice(given.labels, given.label_count, "labels")?;
+        let core = given.core(labels)?;
         let fit =
             with_control(given.thread_count, listener!(given), |control| fit_mesh(mesh, &core, control))??;
         let filled = planish_model_report::new(&fit);

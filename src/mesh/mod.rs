@@ -25,7 +25,7 @@ pub use decimate::{DecimateError, DecimateOptions, DecimateReport, Decimation};
 pub use error::MeshError;
 pub use features::{Chain, FeatureError, FeatureOptions, Features, Region, Regions, Side};
 pub use polygon::Faces;
-pub use read::{Format, ReadError, read, read_as, read_bytes};
+pub use read::{Format, ReadError, read, read_as, read_bytes, read_face_property};
 pub use repair::{Components, MeshRepairs, Repair};
 pub use topology::{HalfEdge, Topology};
 

@@ -1,8 +1,8 @@
 //! Makes models from their parts, and checks once that they fit together.
 
 use super::{
-    Carrier, Edge, EdgeId, Face, FaceId, Loop, Model, ModelError, Role, Shell, ShellId, SurfaceId, Use,
-    VertexId, places, points_on,
+    Carrier, Edge, EdgeCurve, EdgeId, Face, FaceId, Loop, Model, ModelError, Role, Shell, ShellId, SurfaceId,
+    Use, VertexId, places,
 };
 use crate::curve::Curve;
 use crate::geometry::{Axis, Bounds, Domain};
@@ -41,8 +41,8 @@ impl Builder {
     }
 
     /// Adds an edge across which its faces are smooth.
-    pub fn edge(&mut self, curve: Curve, vertices: [VertexId; 2]) -> EdgeId {
-        self.add_edge(Edge { curve, vertices, is_sharp: false })
+    pub fn edge(&mut self, curve: impl Into<EdgeCurve>, vertices: [VertexId; 2]) -> EdgeId {
+        self.add_edge(Edge { curve: curve.into(), vertices, is_sharp: false })
     }
 
     /// Adds any edge.
@@ -180,7 +180,7 @@ fn check_loops(model: &Model) -> Result<(), ModelError> {
                 if ends(coedge)[1] != ends(&coedges[(place + 1) % coedges.len()])[0] {
                     return Err(ModelError::OpenLoop { face, bound, place });
                 }
-                let domain = model.edge(coedge.edge).curve.knots().domain();
+                let domain = model.edge(coedge.edge).curve.domain();
                 match &coedge.pcurve {
                     None if needs_pcurves => {
                         return Err(ModelError::NoPcurve { face, edge: coedge.edge.index() });
@@ -245,7 +245,7 @@ fn check_shells(model: &Model) -> Result<(), ModelError> {
 fn size(model: &Model) -> f64 {
     let mut rows: Vec<f64> = model.vertices.iter().flat_map(|place| place.to_array()).collect();
     for edge in &model.edges {
-        let places = points_on(&edge.curve, &with_middles(&edge.curve.knots().breaks()));
+        let places = edge.curve.points(&with_middles(&edge.curve.breaks()));
         rows.extend(places.iter().flat_map(|place| place.to_array()));
     }
     for face in model.face_ids() {
@@ -275,13 +275,7 @@ const MEASURE_SAMPLES: usize = 11;
 fn curve_deviation(model: &Model) -> f64 {
     let of_edge = |edge: EdgeId| {
         let Edge { curve, vertices, .. } = model.edge(edge);
-        let points = curve.control_points();
-        // curves begin and end in their control points only if their knots are clamped
-        let (from, to) = curve.knots().domain();
-        let ends = match curve.knots().is_clamped() {
-            true => [&points[..3], &points[points.len() - 3..]].map(DVec3::from_slice),
-            false => [from, to].map(|t| points_on(curve, &[t])[0]),
-        };
+        let ends = curve.ends();
         let at_ends =
             ends[0].distance(model.vertex(vertices[0])).max(ends[1].distance(model.vertex(vertices[1])));
         let beside = model.uses(edge).map(|at| {
@@ -294,8 +288,8 @@ fn curve_deviation(model: &Model) -> f64 {
 }
 
 /// Largest distance of a curve from its image on a surface, at samples of every span of either curve.
-fn deviation(carrier: &Carrier, curve: &Curve, pcurve: Option<&Curve>) -> f64 {
-    let mut breaks = curve.knots().breaks();
+fn deviation(carrier: &Carrier, curve: &EdgeCurve, pcurve: Option<&Curve>) -> f64 {
+    let mut breaks = curve.breaks();
     breaks.extend(pcurve.into_iter().flat_map(|pcurve| pcurve.knots().breaks()));
     breaks.sort_by(f64::total_cmp);
     let parameters: Vec<f64> = breaks
@@ -306,7 +300,7 @@ fn deviation(carrier: &Carrier, curve: &Curve, pcurve: Option<&Curve>) -> f64 {
         })
         .collect();
     let on_surface = carrier.points(&places(carrier, curve, pcurve, &parameters));
-    let in_space = points_on(curve, &parameters);
+    let in_space = curve.points(&parameters);
     on_surface.into_iter().zip(in_space).map(|(a, b)| a.distance(b)).fold(0.0, f64::max)
 }
 
@@ -316,13 +310,15 @@ impl Model {
     pub fn polylines(&self, face: FaceId) -> Vec<Vec<glam::DVec2>> {
         let of_face = self.face(face);
         let polyline = |(bound, coedges): (usize, &Loop)| {
-            let mut points = Vec::new();
+            let mut points: Vec<glam::DVec2> = Vec::new();
             for (place, coedge) in coedges.iter().enumerate() {
                 let mut parameters = parameters_along(&self.edge(coedge.edge).curve, coedge.pcurve.as_ref());
                 if !coedge.is_forward {
                     parameters.reverse();
                 }
-                points.extend(self.places(Use { face, bound, place }, &parameters));
+                let mut places = self.places(Use { face, bound, place }, &parameters);
+                self.carrier(face).go_on(points.last().copied(), &mut places);
+                points.extend(places);
             }
             points.dedup();
             while points.len() > 1 && points.first() == points.last() {
@@ -345,11 +341,11 @@ impl Model {
 const PIECES: usize = 8;
 
 /// Parameters of an edge between which its p-curve is nearly straight.
-fn parameters_along(curve: &Curve, pcurve: Option<&Curve>) -> Vec<f64> {
+fn parameters_along(curve: &EdgeCurve, pcurve: Option<&Curve>) -> Vec<f64> {
     let (breaks, pieces) = match pcurve {
         Some(pcurve) if pcurve.knots().degree() == 1 => (pcurve.knots().breaks(), 1),
         Some(pcurve) => (pcurve.knots().breaks(), PIECES),
-        None => (curve.knots().breaks(), if curve.knots().degree() == 1 { 1 } else { PIECES }),
+        None => (curve.breaks(), if curve.is_polyline() { 1 } else { PIECES }),
     };
     let inner = breaks.windows(2).flat_map(|span| {
         let (from, to) = (span[0], span[1]);

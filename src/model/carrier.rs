@@ -1,5 +1,6 @@
 //! What faces lie on: splines, and surfaces with exact formulas.
 
+use super::EdgeCurve;
 use crate::geometry::Domain;
 use crate::surface::tensor::TensorSurface;
 use crate::surface::{Surface, derivative_rows};
@@ -166,6 +167,12 @@ impl Carrier {
         rows.chunks_exact(3).map(DVec3::from_slice).collect()
     }
 
+    /// The parameters of the place of an exact surface that is nearest to a point; none on a spline, which has no formula
+    /// for them.
+    pub fn nearest(&self, point: DVec3) -> Option<DVec2> {
+        self.spline().is_none().then(|| self.locate_all(&[point])[0])
+    }
+
     /// The parameters of the places of an exact surface that are nearest to points which follow one another: angles
     /// go on from one to the next without a jump. A spline has no formula for them.
     pub(super) fn locate_all(&self, points: &[DVec3]) -> Vec<DVec2> {
@@ -182,6 +189,17 @@ impl Carrier {
             }
         };
         points.iter().map(&mut locate).collect()
+    }
+
+    /// The derivative of a curve's place on a cylinder: angle and height.
+    pub(super) fn speed(&self, curve: &EdgeCurve, t: f64) -> DVec2 {
+        let Self::Cylinder(Cylinder { frame, .. }) = self else { return DVec2::ZERO };
+        let mut row = [0.0; 6];
+        curve.eval_rows(&[t], 1, &mut row);
+        let [place, along] = [0, 3].map(|k| DVec3::from_slice(&row[k..]));
+        let at = frame.coordinates(place);
+        let across = at.x * frame.y() - at.y * frame.x();
+        DVec2::new(along.dot(across) / (at.x * at.x + at.y * at.y), along.dot(frame.z()))
     }
 
     /// Turns angles on a cylinder by whole turns, so that places go on where others ended.

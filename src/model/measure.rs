@@ -12,7 +12,7 @@
 //! ```
 //! Gauss rules on the pieces of a span are exact for the volume of polynomial surfaces up to bicubic ones.
 
-use super::{Carrier, EdgeId, FaceId, Model, Role, points_on};
+use super::{Carrier, EdgeId, FaceId, Model, Role};
 use crate::geometry::{Axis, Bounds};
 use crate::surface::tensor::TensorSurface;
 use crate::surface::{Patches, Surface, normal};
@@ -112,8 +112,8 @@ impl Model {
         let uses: Vec<_> = self.uses(edge).collect();
         let &[a, b] = uses.as_slice() else { return Joint::default() };
         let of_sides = [a, b].map(|at| self.coedge(at).pcurve.as_ref());
-        let curves = of_sides.into_iter().flatten().chain([&self.edge(edge).curve]);
-        let mut breaks: Vec<f64> = curves.flat_map(|curve| curve.knots().breaks()).collect();
+        let in_plane = of_sides.into_iter().flatten().flat_map(|curve| curve.knots().breaks());
+        let mut breaks: Vec<f64> = in_plane.chain(self.edge(edge).curve.breaks()).collect();
         breaks.sort_by(f64::total_cmp);
         breaks.dedup();
         let parameters = between(&breaks, EDGE_SAMPLES);
@@ -139,7 +139,7 @@ impl Model {
     fn bounds(&self) -> Bounds {
         let mut points = self.vertices().to_vec();
         for edge in self.edges() {
-            points.extend(points_on(&edge.curve, &between(&edge.curve.knots().breaks(), BOX_SAMPLES)));
+            points.extend(edge.curve.points(&between(&edge.curve.breaks(), BOX_SAMPLES)));
         }
         for face in self.face_ids() {
             if let (Some(surface), Ok(trims)) = (self.carrier(face).spline(), self.trims(face)) {
@@ -197,7 +197,7 @@ impl Model {
         for coedge in self.face(face).bounds.iter().flatten() {
             let curve = &self.edge(coedge.edge).curve;
             let sense = if coedge.is_forward { 1.0 } else { -1.0 };
-            for span in curve.knots().breaks().windows(2) {
+            for span in curve.breaks().windows(2) {
                 for (t, weight) in gauss(span[0], span[1]) {
                     let mut row = [0.0; 6];
                     curve.eval_rows(&[t], 1, &mut row);

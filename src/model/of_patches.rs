@@ -329,7 +329,7 @@ impl<'a> Stitching<'a> {
                 }
                 _ => false,
             };
-            let id = builder.add_edge(Edge { curve: curve.clone(), vertices, is_sharp });
+            let id = builder.add_edge(Edge { curve: curve.clone().into(), vertices, is_sharp });
             self.edges.insert(piece, KnownEdge { id, start: corners[0], curve, uses: 0 });
             (id, corners[0])
         });
@@ -419,7 +419,7 @@ impl<'a> Stitching<'a> {
                         })
                     });
                     let curve = line(vertices.map(|vertex| builder.place(vertex)));
-                    let id = builder.add_edge(Edge { curve: curve.clone(), vertices, is_sharp: true });
+                    let id = builder.add_edge(Edge { curve: curve.clone().into(), vertices, is_sharp: true });
                     self.edges.insert(piece, KnownEdge { id, start: corners[0], curve, uses: 0 });
                 }
                 vec![(piece, corners[0])]

@@ -5,7 +5,7 @@
 //! of [`query::project`](crate::query::project). On planes and cylinders the foot is exact: it counts if it lies inside
 //! the loops, else the nearest place of an edge does.
 
-use super::{Carrier, Face, FaceId, Model, Use};
+use super::{Carrier, EdgeCurve, Face, FaceId, Model, Use};
 use crate::control::Pool;
 use crate::query::project::{FLAG_NOT_PROVEN, ProjectError, ProjectOptions, Projector};
 use crate::surface::Surface;
@@ -129,7 +129,8 @@ struct Bound {
 
 #[derive(Debug)]
 struct Side {
-    curve: crate::curve::Curve,
+    curve: EdgeCurve,
+    /// Onto a spline that is the curve or very near to it.
     projector: Projector,
     /// Whether the face is on its left.
     is_forward: bool,
@@ -227,7 +228,8 @@ fn face_feet(model: &Model, face: FaceId) -> Result<FaceFeet, ProjectError> {
         bounds
             .iter()
             .flatten()
-            .flat_map(|coedge| model.edge(coedge.edge).curve.control_points().iter().copied())
+            .flat_map(|coedge| model.edge(coedge.edge).curve.bounds())
+            .flat_map(|corner| corner.to_array())
     };
     let ((min, max), feet) = match model.carrier(face) {
         Carrier::Spline(surface) => {
@@ -263,6 +265,22 @@ fn encloses_all(loops: &[Vec<DVec2>], min: DVec2, max: DVec2) -> bool {
         && corners.iter().all(|&corner| polyline.iter().any(|&uv| is_at(uv, corner).all()))
 }
 
+impl Side {
+    /// The parameter and distance of the place of an arc that is nearest, from that of its spline: one step of Newton's
+    /// method, since both differ by roundings.
+    fn exact(&self, place: DVec3, t: f64, distance: f64) -> (f64, f64) {
+        let EdgeCurve::Arc(arc) = &self.curve else { return (t, distance) };
+        let mut row = [0.0; 9];
+        self.curve.eval_rows(&[t], 2, &mut row);
+        let [at, speed, turn] = [0, 3, 6].map(|k| DVec3::from_slice(&row[k..]));
+        let slope = speed.length_squared() + (at - place).dot(turn);
+        let (from, to) = arc.domain();
+        let step = if slope > 0.0 { (place - at).dot(speed) / slope } else { 0.0 };
+        let t = (t + step).clamp(from, to);
+        (t, self.curve.points(&[t])[0].distance(place))
+    }
+}
+
 impl Bound {
     fn new(model: &Model, face: FaceId) -> Self {
         let of_face = model.face(face);
@@ -277,7 +295,7 @@ impl Bound {
             let mut before: Option<DVec2> = None;
             for (place, coedge) in coedges.iter().enumerate() {
                 let curve = &model.edge(coedge.edge).curve;
-                let breaks = curve.knots().breaks();
+                let breaks = curve.breaks();
                 // pieces with their middles between them
                 let fine = super::measure::between(&breaks, 2 * PIECES);
                 let mut places = model.places(Use { face, bound: index, place }, &fine);
@@ -293,8 +311,12 @@ impl Bound {
                     bound.chord_error = bound.chord_error.max(a.distance(b));
                     bound.segments.push(ends);
                 }
+                // a seam bounds nothing: the face goes on behind it
+                if model.uses(coedge.edge).filter(|at| at.face == face).count() == 2 {
+                    continue;
+                }
                 bound.sides.push(Side {
-                    projector: Projector::of_curve(curve),
+                    projector: Projector::of_curve(&curve.to_spline()),
                     curve: curve.clone(),
                     is_forward: coedge.is_forward == of_face.is_forward,
                 });
@@ -315,8 +337,9 @@ impl Bound {
             for (place, best) in [(point, &mut edge), (at_foot, &mut beside)] {
                 let nearest = side.projector.project(&place.to_array(), &options, pool)?;
                 is_proven &= nearest.unproven() == 0;
-                if nearest.distances[0] < best.2 {
-                    *best = (k, nearest.uv[0].x, nearest.distances[0]);
+                let (t, distance) = side.exact(place, nearest.uv[0].x, nearest.distances[0]);
+                if distance < best.2 {
+                    *best = (k, t, distance);
                 }
             }
         }
@@ -328,7 +351,7 @@ impl Bound {
         if is_inside {
             return Ok(Foot { uv: foot, distance: point.distance(at_foot), is_proven });
         }
-        let at_edge = super::points_on(&self.sides[edge.0].curve, &[edge.1])[0];
+        let at_edge = self.sides[edge.0].curve.points(&[edge.1])[0];
         Ok(Foot { uv: carrier.locate_all(&[at_edge])[0], distance: edge.2, is_proven })
     }
 

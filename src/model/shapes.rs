@@ -146,7 +146,7 @@ pub(crate) fn pipe() -> Model {
             let curve =
                 Curve::new(3, line.clone(), points.iter().flat_map(|p| p.to_array()).collect()).unwrap();
             let vertices = [vertices[k], vertices[(k + 1) % ARCS]];
-            builder.add_edge(Edge { curve, vertices, is_sharp: true })
+            builder.add_edge(Edge { curve: curve.into(), vertices, is_sharp: true })
         };
         circles.push((0..ARCS).map(&mut arc).collect::<Vec<_>>());
     }

@@ -10,7 +10,7 @@
 //!   o--o--o--o--o
 //! ```
 
-use super::{Carrier, Edge, FaceId, Model, Use, points_on};
+use super::{Carrier, Edge, FaceId, Model, Use};
 use crate::control::Pool;
 use crate::mesh::Mesh;
 use crate::query::tessellate::{TessellateError, TessellateOptions, distance_to_segment, least_angle};
@@ -134,7 +134,7 @@ impl Nodes {
             nodes.chord_error = nodes.chord_error.max(off);
             let inner = &parameters[1..parameters.len() - 1];
             let first = nodes.points.len() as u32;
-            nodes.points.extend(points_on(&edge.curve, inner));
+            nodes.points.extend(edge.curve.points(inner));
             let [start, end] = edge.vertices.map(|vertex| vertex.index() as u32);
             let along = [start].into_iter().chain(first..first + inner.len() as u32).chain([end]).collect();
             nodes.edges.push((parameters, along));
@@ -175,8 +175,8 @@ fn short_loops(model: &Model) -> Vec<bool> {
 
 /// Parameters along an edge whose chords are near and short enough, and how far places between them are off at most.
 fn samples(edge: &Edge, chord: f64, longest: f64, is_short: bool) -> (Vec<f64>, f64) {
-    let breaks = edge.curve.knots().breaks();
-    let point = |t: f64| points_on(&edge.curve, &[t])[0];
+    let breaks = edge.curve.breaks();
+    let point = |t: f64| edge.curve.points(&[t])[0];
     // the ends of pieces and three places inside each
     let mut fine = vec![(breaks[0], point(breaks[0]))];
     for span in breaks.windows(2) {

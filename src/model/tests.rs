@@ -45,11 +45,11 @@ fn edges_close_and_lie_on_the_surface() {
             let edge = model.edge(coedge.edge);
             assert_ne!(edge.vertices[0], edge.vertices[1]);
             let pcurve = coedge.pcurve.as_ref().unwrap();
-            let (from, to) = edge.curve.knots().domain();
+            let (from, to) = edge.curve.domain();
             let off = |t: f64| {
                 let uv = surface.domain().clamp(DVec2::from_slice(&pcurve.eval(t)));
                 let on_surface = model.surfaces()[0].points(&[uv])[0];
-                on_surface.distance(DVec3::from_slice(&edge.curve.eval(t)))
+                on_surface.distance(edge.curve.points(&[t])[0])
             };
             for k in 0..=777 {
                 let t = from + (to - from) * f64::from(k) / 777.0;

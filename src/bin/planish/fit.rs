@@ -73,9 +73,19 @@ pub struct FitArguments {
     /// Use the equations of Dannenhoffer and Haimes instead of least squares.
     #[arg(long)]
     ferguson: bool,
-    /// Edges whose triangles turn by more than this stay sharp (d1rc).
+    /// Edges whose triangles turn by more than this stay sharp (d1rc, model; 40 for a model if it is left out).
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
-    sharp_angle: Option<f64>,
+    pub sharp_angle: Option<f64>,
+    /// A number for each triangle, edges between different ones stay: a number of the faces of a PLY file by its name, or
+    /// a text file with one a line (model).
+    #[arg(long, value_name = "NAME", conflicts_with = "smooth")]
+    pub labels: Option<String>,
+    /// Make patches of planes and cylinders too (model).
+    #[arg(long)]
+    pub no_exact: bool,
+    /// Ignore sharp edges: smooth patches everywhere (model).
+    #[arg(long)]
+    pub smooth: bool,
     /// Vertices of the control mesh (d1rc); as many as the tolerance takes if it is left out.
     #[arg(long, value_name = "N")]
     control: Option<usize>,
@@ -117,7 +127,7 @@ enum FamilyName {
     D1rc,
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
 pub enum LayoutName {
     /// The cube where there is one and it serves, else a base complex.
     Auto,
@@ -187,9 +197,11 @@ fn check_used(arguments: &FitArguments, family: FamilyName, given: &Given) -> Re
         ("max-grid", FamilyName::Tensor),
         ("free-ends", FamilyName::Tensor),
         ("ferguson", FamilyName::Tensor),
-        ("sharp-angle", FamilyName::D1rc),
         ("control", FamilyName::D1rc),
         ("layout", FamilyName::Model),
+        ("no-exact", FamilyName::Model),
+        ("labels", FamilyName::Model),
+        ("smooth", FamilyName::Model),
         ("patches", FamilyName::Model),
     ] {
         let name = |family: FamilyName| family.to_possible_value().map(|value| value.get_name().to_owned());
@@ -197,6 +209,9 @@ fn check_used(arguments: &FitArguments, family: FamilyName, given: &Given) -> Re
         let why = format!("is not used by --family {other}, only by --family {own}");
         given.refuse(option, family == owner, &why)?;
     }
+    let has_edges = matches!(family, FamilyName::D1rc | FamilyName::Model);
+    given.refuse("sharp-angle", has_edges, "is used by --family d1rc and --family model only")?;
+    given.refuse("sharp-angle", !arguments.smooth, "is not used with --smooth")?;
     given.refuse("free-ends", !arguments.ferguson, "is not used with --ferguson")?;
     let writes_step = arguments.out.iter().any(|path| output::is_step(path));
     for option in StepArguments::OPTIONS {

@@ -10,13 +10,14 @@ use planish::Control;
 use planish::fit::model::{Family, MeshModelOptions, ModelFit, ModelOptions, fit_mesh};
 use planish::fit::report::Remarks;
 use planish::layout::of_mesh::{LayoutKind, MeshLayoutOptions};
-use planish::mesh::{Mesh, MeshRepairs};
+use planish::mesh::{FeatureOptions, Mesh, MeshRepairs, read_face_property};
 use planish::surface::Label;
 use serde_json::json;
 use std::path::Path;
 
 pub fn run(mesh: &Mesh, repairs: &MeshRepairs, arguments: &FitArguments) -> Result<Outcome, Failure> {
-    let options = options(arguments);
+    let labels = labels(mesh, arguments)?;
+    let options = options(arguments, &labels);
     let fit = with_bar(arguments.threads, |control| fit_mesh(mesh, &options, control))?;
     let stem = arguments.mesh.file_stem().unwrap_or_default().to_string_lossy();
     let label = Label::default();
@@ -45,7 +46,35 @@ pub fn run(mesh: &Mesh, repairs: &MeshRepairs, arguments: &FitArguments) -> Resu
     Ok(if is_met { Outcome::Done } else { Outcome::ToleranceNotMet })
 }
 
-fn options(arguments: &FitArguments) -> MeshModelOptions {
+/// The label of each triangle; none without `--labels`.
+fn labels(mesh: &Mesh, arguments: &FitArguments) -> Result<Vec<u32>, Failure> {
+    let Some(name) = &arguments.labels else { return Ok(Vec::new()) };
+    let path = Path::new(name);
+    let (of_faces, told): (Vec<f64>, String) = if path.is_file() {
+        let text = output::read_text(path)?;
+        let number = |(line, word): (usize, &str)| {
+            let wrong = || Failure::new(format!("line {} of {name} is no number: '{word}'", line + 1));
+            word.trim().parse::<f64>().map_err(|_| wrong())
+        };
+        let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
+        (lines.map(number).collect::<Result<_, _>>()?, format!("the file {name}"))
+    } else {
+        (read_face_property(&arguments.mesh, name, 0)?, format!("'{name}'"))
+    };
+    let label = |face: u32| {
+        let Some(&number) = of_faces.get(face as usize) else {
+            let count = of_faces.len();
+            return Err(Failure::new(format!("{told} has {count} labels, none for face {face} of the mesh")));
+        };
+        let is_label = number.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&number);
+        let wrong =
+            || Failure::new(format!("label {number} of face {face} is no whole number from 0 to 4294967295"));
+        if is_label { Ok(number as u32) } else { Err(wrong()) }
+    };
+    mesh.triangle_origins().map(label).collect()
+}
+
+fn options<'a>(arguments: &FitArguments, labels: &'a [u32]) -> MeshModelOptions<'a> {
     let mut fit = ModelOptions::default().with_tolerance(crate::fit::tolerance(arguments));
     if arguments.smoothing > 0.0 {
         fit.smoothing = arguments.smoothing;
@@ -64,7 +93,18 @@ fn options(arguments: &FitArguments) -> MeshModelOptions {
         patches: arguments.patches.unwrap_or(defaults.patches),
         ..defaults
     };
-    MeshModelOptions { family: Family::Auto, fit, layout, level_spread: arguments.step.level_spread }
+    let level_spread = arguments.step.level_spread;
+    let mut features = FeatureOptions::default().with_labels(labels);
+    if let Some(angle) = arguments.sharp_angle {
+        features.sharp_angle = Some(angle.to_radians());
+    }
+    if arguments.smooth {
+        features.sharp_angle = None;
+    }
+    // who asks for a layout wants patches
+    let is_layout_given = arguments.patches.is_some() || arguments.layout != LayoutName::Auto;
+    let exact = !(arguments.no_exact || arguments.smooth || is_layout_given);
+    MeshModelOptions { family: Family::Auto, fit, layout, level_spread, exact, features }
 }
 
 fn write(mesh: &Mesh, fit: &ModelFit, path: &Path, step: &Step) -> Result<(), Failure> {
@@ -94,6 +134,7 @@ fn table(arguments: &FitArguments, mesh: &Mesh, repairs: &MeshRepairs, fit: &Mod
     output::repair_rows(&mut table, repairs);
     for component in &fit.components {
         let layout = match component.layout {
+            None if component.exact_faces > 0 => format!("{} exact faces", component.exact_faces),
             None => "one chart".to_owned(),
             Some(LayoutKind::Cube) => format!("cube, map energy {:.3}", component.map_energy),
             Some(_) => format!("base complex, map energy {:.3}", component.map_energy),
@@ -129,7 +170,7 @@ fn table(arguments: &FitArguments, mesh: &Mesh, repairs: &MeshRepairs, fit: &Mod
         "between nodes",
         format!("{:.3e}, of which facets explain {:.3e}", report.max_interior_error, report.facet_sagitta),
     );
-    if !fit.pieces.is_empty() {
+    if !fit.is_chart() {
         table.row("model to mesh", both(report.max_back_distance));
         table.row("normal jump, gap", format!("{:.1e}, {:.1e}", report.normal_jump, report.gap));
         table.row("volume", format!("{:.6e}, of the mesh {:.6e}", report.volume, report.mesh_volume));
@@ -157,6 +198,7 @@ fn json_report(
         json!({
             "genus": component.genus,
             "layout": component.layout.map(|layout| format!("{layout:?}").to_lowercase()),
+            "exact_face_count": component.exact_faces,
             "map_energy": component.map_energy,
             "fold_count": component.fold_count,
             "void_in": component.void_in,

@@ -2,7 +2,7 @@
 
 use crate::{Failure, Outcome, output};
 use clap::{Args, ValueEnum};
-use planish::samples::{self, rows::RowSet};
+use planish::samples::{self, machine, rows::RowSet};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -38,6 +38,20 @@ enum Shape {
     Hat,
     /// A control mesh with a sharp ridge.
     Roof,
+    /// A round bar.
+    Cylinder,
+    /// A block with a round hole.
+    BoxWithHole,
+    /// An L of plates with a hole.
+    AngleBracket,
+    /// A round plate with a bore and six holes.
+    Flange,
+    /// A shaft of three diameters with a bore.
+    SteppedShaft,
+    /// A wheel of twelve straight teeth.
+    Gear,
+    /// A plate with round ends and a slot.
+    SlottedPlate,
     /// Rows of points round a dustpan.
     DustpanRows,
     /// Rows of points along waves of unlike length.
@@ -45,6 +59,9 @@ enum Shape {
     /// Rows of points round a head, closed.
     HeadRows,
 }
+
+/// Nodes of machine parts, about.
+const PART_NODES: usize = 3000;
 
 pub fn run(arguments: &SampleArguments) -> Result<Outcome, Failure> {
     let seed = arguments.seed;
@@ -58,6 +75,13 @@ pub fn run(arguments: &SampleArguments) -> Result<Outcome, Failure> {
         Shape::RidgedSheet => samples::ridged_sheet(seed),
         Shape::Hat => samples::hat(seed),
         Shape::Roof => samples::roof(seed),
+        Shape::Cylinder => machine::cylinder(PART_NODES, seed).map(|part| part.mesh),
+        Shape::BoxWithHole => machine::box_with_hole(PART_NODES, seed).map(|part| part.mesh),
+        Shape::AngleBracket => machine::angle_bracket(PART_NODES, seed).map(|part| part.mesh),
+        Shape::Flange => machine::flange(PART_NODES, seed).map(|part| part.mesh),
+        Shape::SteppedShaft => machine::stepped_shaft(PART_NODES, seed).map(|part| part.mesh),
+        Shape::Gear => machine::gear(PART_NODES, seed).map(|part| part.mesh),
+        Shape::SlottedPlate => machine::slotted_plate(PART_NODES, seed).map(|part| part.mesh),
         Shape::DustpanRows => return write_rows(&samples::rows::dustpan(), false, &arguments.out),
         Shape::WaveRows => return write_rows(&samples::rows::wave(), false, &arguments.out),
         Shape::HeadRows => return write_rows(&samples::rows::head(), true, &arguments.out),

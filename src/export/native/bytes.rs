@@ -14,10 +14,10 @@ pub struct Writer {
 
 impl Writer {
     /// With the fields of every file; `size` is that of the whole.
-    pub(super) fn new(kind: u32, size: usize) -> Self {
+    pub(super) fn new(version: u32, kind: u32, size: usize) -> Self {
         let mut bytes = Vec::with_capacity(size);
         bytes.extend(MAGIC);
-        bytes.extend(VERSION.to_le_bytes());
+        bytes.extend(version.to_le_bytes());
         bytes.extend(kind.to_le_bytes());
         bytes.extend((size as u64).to_le_bytes());
         Self { bytes, size }

@@ -4,7 +4,7 @@
 //! ```text
 //! offset  type          content
 //!  0      8 bytes       "PLANISH" and a zero
-//!  8      u32           version of the format, 1
+//!  8      u32           version of the format: 1, or 2 for a model with arcs of circles and ellipses
 //! 12      u32           kind: 0 tensor surface, 1 T-spline, 2 PHT-spline, 3 D1RC-spline, 16 curve, 17 model,
 //!                       18 field over a model
 //! 16      u64           size of the whole in bytes
@@ -77,7 +77,10 @@ impl Classify for LoadError {
 }
 
 const MAGIC: [u8; 8] = *b"PLANISH\0";
-const VERSION: u32 = 1;
+/// The latest version. Each file says the first that knows all it holds.
+const VERSION: u32 = 2;
+/// The version of what needs nothing newer.
+const FIRST_VERSION: u32 = 1;
 /// Bytes before the content, and those of the checksum after it.
 const FRAME_SIZE: usize = 24 + 8;
 
@@ -95,6 +98,11 @@ const FIELD: u32 = 18;
 pub trait Save {
     /// Its kind as the file says it.
     fn file_kind(&self) -> u32;
+
+    /// The first version of the format that knows it.
+    fn version(&self) -> u32 {
+        FIRST_VERSION
+    }
 
     /// Bytes that [`Save::write`] adds.
     fn content_size(&self) -> usize;
@@ -122,7 +130,7 @@ impl AnySurface {
 
 /// The bytes of a surface or curve.
 pub fn save<S: Save + ?Sized>(surface: &S) -> Vec<u8> {
-    let mut writer = Writer::new(surface.file_kind(), save_size(surface));
+    let mut writer = Writer::new(surface.version(), surface.file_kind(), save_size(surface));
     surface.write(&mut writer);
     if let Some(label) = told_label(surface) {
         writer.label(label);

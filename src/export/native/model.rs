@@ -8,8 +8,9 @@
 //!                       or u64 1 (plane) or 2 (cylinder), f64 x 9 origin, first and third axis, for a cylinder
 //!                       its f64 radius
 //!                       for each vertex: f64 x 3
-//!                       for each edge: u64 x 2 its vertices, u64 1 if it is sharp, else 0, and what follows dim
-//!                       (included) in a curve
+//!                       for each edge: u64 x 2 its vertices, u64 1 if it is sharp, else 0, plus 2 for an arc of a
+//!                       circle or ellipse; then what follows dim (included) in a curve, or for an arc f64 x 9 centre,
+//!                       first and third axis, f64 x 2 radii, f64 x 2 the parameters at its ends
 //!                       for each face: u64 its surface, u64 1 if it is not turned, u64 label, u64 number of loops;
 //!                       for each loop: u64 number of edges; for each of them: u64 the edge, u64 1 if it runs along
 //!                       it, u64 1 if there is a p-curve, and then the p-curve as a curve
@@ -25,17 +26,21 @@
 //! ```
 
 use super::bytes::{Reader, Writer};
-use super::{LoadError, MODEL, Save, curve, pht, tensor};
+use super::{FIRST_VERSION, LoadError, MODEL, Save, curve, pht, tensor};
 use crate::curve::Curve;
 use crate::layout::{Creases, Layout, Sector, Side};
 use crate::model::{
-    Builder, Carrier, Coedge, Cylinder, Edge, EdgeId, Face, FaceId, Frame, Loop, Model, NodePlace, Origin,
-    PatchPiece, Plane, Role, ShellId, SurfaceId, VertexId,
+    Arc, Builder, Carrier, Coedge, Cylinder, Edge, EdgeCurve, EdgeId, Face, FaceId, Frame, Loop, Model,
+    NodePlace, Origin, PatchPiece, Plane, Role, ShellId, SurfaceId, VertexId,
 };
 use glam::{DVec2, DVec3};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
 
+/// The first version that knows arcs.
+const VERSION_OF_ARCS: u32 = 2;
+/// Added to the flag of a sharp edge that is an arc.
+const ARC: usize = 2;
 /// Bytes of a count, flag, number or double.
 const FIELD: usize = 8;
 
@@ -44,11 +49,20 @@ impl Save for Model {
         MODEL
     }
 
+    fn version(&self) -> u32 {
+        let has_arcs = self.edges().iter().any(|edge| edge.curve.spline().is_none());
+        if has_arcs { VERSION_OF_ARCS } else { FIRST_VERSION }
+    }
+
     fn content_size(&self) -> usize {
         let surface = |carrier: &Carrier| match carrier {
             Carrier::Spline(spline) => FIELD + spline.content_size(),
             Carrier::Plane(_) => 10 * FIELD,
             Carrier::Cylinder(_) => 11 * FIELD,
+        };
+        let edge = |edge: &Edge| match &edge.curve {
+            EdgeCurve::Spline(curve) => 3 * FIELD + curve.content_size(),
+            EdgeCurve::Arc(_) => 16 * FIELD,
         };
         let coedge = |coedge: &Coedge| 3 * FIELD + coedge.pcurve.as_ref().map_or(0, Save::content_size);
         let bound = |bound: &Loop| FIELD + bound.iter().map(coedge).sum::<usize>();
@@ -56,7 +70,7 @@ impl Save for Model {
         6 * FIELD
             + self.surfaces().iter().map(surface).sum::<usize>()
             + 3 * FIELD * self.vertices().len()
-            + self.edges().iter().map(|edge| 3 * FIELD + edge.curve.content_size()).sum::<usize>()
+            + self.edges().iter().map(edge).sum::<usize>()
             + self.faces().iter().map(face).sum::<usize>()
             + self.shells().iter().map(|shell| (3 + shell.faces.len()) * FIELD).sum::<usize>()
             + self.origin().map_or(0, origin_size)
@@ -72,8 +86,18 @@ impl Save for Model {
         self.vertices().iter().for_each(|place| writer.doubles(&place.to_array()));
         for edge in self.edges() {
             edge.vertices.iter().for_each(|vertex| writer.count(vertex.index()));
-            writer.count(usize::from(edge.is_sharp));
-            edge.curve.write(writer);
+            match &edge.curve {
+                EdgeCurve::Spline(curve) => {
+                    writer.count(usize::from(edge.is_sharp));
+                    curve.write(writer);
+                }
+                EdgeCurve::Arc(arc) => {
+                    writer.count(usize::from(edge.is_sharp) + ARC);
+                    write_frame(arc.frame(), writer);
+                    let (from, to) = arc.domain();
+                    writer.doubles(&[arc.radii()[0], arc.radii()[1], from, to]);
+                }
+            }
         }
         self.faces().iter().for_each(|face| write_face(face, writer));
         for shell in self.shells() {
@@ -145,10 +169,11 @@ fn write_origin(origin: &Origin, writer: &mut Writer) {
     }
 }
 
+fn write_frame(frame: &Frame, writer: &mut Writer) {
+    [frame.origin(), frame.x(), frame.z()].iter().for_each(|axis| writer.doubles(&axis.to_array()));
+}
+
 fn write_carrier(carrier: &Carrier, writer: &mut Writer) {
-    let frame = |frame: &Frame, writer: &mut Writer| {
-        [frame.origin(), frame.x(), frame.z()].iter().for_each(|axis| writer.doubles(&axis.to_array()));
-    };
     match carrier {
         Carrier::Spline(spline) => {
             writer.count(0);
@@ -156,11 +181,11 @@ fn write_carrier(carrier: &Carrier, writer: &mut Writer) {
         }
         Carrier::Plane(plane) => {
             writer.count(1);
-            frame(&plane.0, writer);
+            write_frame(&plane.0, writer);
         }
         Carrier::Cylinder(cylinder) => {
             writer.count(2);
-            frame(cylinder.frame(), writer);
+            write_frame(cylinder.frame(), writer);
             writer.doubles(&[cylinder.radius()]);
         }
     }
@@ -198,8 +223,8 @@ pub(super) fn read(reader: &mut Reader) -> Result<Model, LoadError> {
     }
     for _ in 0..edges {
         let vertices = [reader.number()?, reader.number()?].map(VertexId::new);
-        let is_sharp = reader.flag()?;
-        builder.add_edge(Edge { curve: curve::read(reader)?, vertices, is_sharp });
+        let (is_sharp, curve) = read_edge_curve(reader)?;
+        builder.add_edge(Edge { curve, vertices, is_sharp });
     }
     for _ in 0..faces {
         builder.add_face(read_face(reader)?);
@@ -281,6 +306,21 @@ fn read_patches(reader: &mut Reader) -> Result<PatchPiece, LoadError> {
 
 fn read_place(reader: &mut Reader) -> Result<DVec3, LoadError> {
     Ok(DVec3::from_slice(&reader.doubles(3)?))
+}
+
+fn read_edge_curve(reader: &mut Reader) -> Result<(bool, EdgeCurve), LoadError> {
+    let flags = reader.count()?;
+    if flags < ARC {
+        return Ok((flags == 1, curve::read(reader)?.into()));
+    }
+    if flags > ARC + 1 {
+        return Err(reader.wrong(format!("the flags {flags} of an edge are unknown")));
+    }
+    let frame = read_frame(reader)?;
+    let numbers = reader.doubles(4)?;
+    let arc = Arc::new(frame, [numbers[0], numbers[1]], [numbers[2], numbers[3]]);
+    let arc = arc.ok_or_else(|| reader.wrong("radii or ends of an arc are none"))?;
+    Ok((flags == ARC + 1, arc.into()))
 }
 
 fn read_carrier(reader: &mut Reader) -> Result<Carrier, LoadError> {

@@ -119,8 +119,8 @@ fn forged_sizes_are_refused_before_memory_is_asked_for() {
 
 #[test]
 fn later_versions_and_unknown_kinds_are_named() {
-    let later = load(&forge(&tensor(), 8, &2u32.to_le_bytes()));
-    assert_eq!(later.unwrap_err(), LoadError::Version { version: 2 });
+    let later = load(&forge(&tensor(), 8, &3u32.to_le_bytes()));
+    assert_eq!(later.unwrap_err(), LoadError::Version { version: 3 });
     let unknown = load(&forge(&tensor(), 12, &77u32.to_le_bytes()));
     assert!(unknown.unwrap_err().to_string().contains("kind 77"));
 }

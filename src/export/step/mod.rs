@@ -2,7 +2,7 @@
 //!
 //! ISO 10303-21 (clear text), 10303-42 (geometry and topology), application protocols 214 and 242. Faces lie on a
 //! `B_SPLINE_SURFACE_WITH_KNOTS` (rational where the surface has weights), a `PLANE` or a `CYLINDRICAL_SURFACE`. Edges
-//! are written once, with their curve in space and the p-curves of both sides. A solid is a `MANIFOLD_SOLID_BREP`, or a
+//! are written once, with their curve in space (a `LINE`, `CIRCLE`, `ELLIPSE` or spline) and the p-curves of both sides. A solid is a `MANIFOLD_SOLID_BREP`, or a
 //! `BREP_WITH_VOIDS`; open shells are a `SHELL_BASED_SURFACE_MODEL`.
 //!
 //! Equal input gives equal bytes.

@@ -4,7 +4,7 @@ use super::net::Net;
 use super::part21::{Id, Part21, Real, Text, list};
 use super::{Schema, StepError, StepOptions, StepReport, Unit};
 use crate::curve::Curve;
-use crate::model::{Carrier, EdgeId, Face, Frame, Model, Role, Shell};
+use crate::model::{Arc, Carrier, EdgeCurve, EdgeId, Face, Frame, Model, Role, Shell};
 use glam::DVec3;
 
 /// The whole file.
@@ -60,7 +60,13 @@ fn items(out: &mut Part21, model: &Model, faces: &[Id]) -> Vec<Id> {
 
 fn header(model: &Model, options: &StepOptions) -> [String; 3] {
     let is_open = model.shells().iter().all(|shell| shell.role == Role::Open);
-    let content = if is_open { "trimmed spline surface" } else { "solid of spline surfaces" };
+    let has_splines = model.surfaces().iter().any(|surface| surface.spline().is_some());
+    let content = match (is_open, has_splines) {
+        (true, true) => "trimmed spline surface",
+        (false, true) => "solid of spline surfaces",
+        (true, false) => "shell of planes and cylinders",
+        (false, false) => "solid of planes and cylinders",
+    };
     let schema = match options.schema {
         Schema::Ap214 => "AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }",
         Schema::Ap242 => "AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF { 1 0 10303 442 1 1 4 }",
@@ -237,7 +243,10 @@ fn vertex(out: &mut Part21, p: DVec3) -> Id {
 /// with equal p-curves, such as those of one cut surface, share one.
 fn edge(out: &mut Part21, model: &Model, id: EdgeId, shared: Shared) -> Id {
     let edge = model.edge(id);
-    let in_space = curve(out, &edge.curve);
+    let in_space = match &edge.curve {
+        EdgeCurve::Spline(spline) => curve(out, spline),
+        EdgeCurve::Arc(arc) => conic(out, arc),
+    };
     let mut definitions: Vec<(&Curve, Id)> = Vec::new();
     let mut pcurves = Vec::new();
     let mut surfaces = Vec::new();
@@ -277,6 +286,16 @@ fn curve(out: &mut Part21, curve: &Curve) -> Id {
         curve.knots().degree(),
         list(ids)
     ))
+}
+
+/// The whole circle or ellipse of an arc, over the same parameters.
+fn conic(out: &mut Part21, arc: &Arc) -> Id {
+    let (frame, [a, b]) = (arc.frame(), arc.radii());
+    let axes = axes(out, frame.origin(), frame.z(), frame.x());
+    match arc.is_circle() {
+        true => out.add(format!("CIRCLE('',{axes},{})", Real(a))),
+        false => out.add(format!("ELLIPSE('',{axes},{},{})", Real(a), Real(b))),
+    }
 }
 
 /// A straight edge, over the parameters of its curve.

@@ -14,6 +14,8 @@ pub struct Body {
     pub mesh: Mesh,
     /// The node of the whole mesh that each of its nodes is.
     pub nodes: Vec<u32>,
+    /// The triangle of the whole mesh that each of its triangles is.
+    pub triangles: Vec<u32>,
     /// The body in which it is a void, by its number among all.
     pub void_in: Option<usize>,
     /// Whether it was turned inside out.
@@ -34,6 +36,7 @@ pub fn bodies(mesh: &Mesh) -> Result<Vec<Body>, ModelFitError> {
         return Err(ModelFitError::Components { count: mesh.component_count(), limit: MAX_COMPONENTS });
     }
     let parts = mesh.split_components().expect("a component of a mesh is one");
+    let mut triangles = triangles_of_components(mesh);
     let boxes: Vec<Bounds> = parts.iter().map(|part| part.mesh.bounds()).collect();
     let around = |inner: usize| -> Vec<usize> {
         let place = parts[inner].mesh.points()[0];
@@ -62,9 +65,37 @@ pub fn bodies(mesh: &Mesh) -> Result<Vec<Body>, ModelFitError> {
         let innermost = around[part].iter().copied().max_by_key(|&outer| around[outer].len());
         let is_turned = (volume < 0.0) != is_void;
         let mesh = if is_turned { turned(&mesh) } else { mesh };
-        Ok(Body { mesh, nodes, void_in: innermost.filter(|_| is_void).map(|outer| number[outer]), is_turned })
+        let triangles = std::mem::take(&mut triangles[part]);
+        Ok(Body {
+            mesh,
+            nodes,
+            triangles,
+            void_in: innermost.filter(|_| is_void).map(|outer| number[outer]),
+            is_turned,
+        })
     };
     order.iter().map(body).collect()
+}
+
+/// The components of a mesh as they are: shells that may have borders.
+pub fn shells(mesh: &Mesh) -> Vec<Body> {
+    let parts = mesh.split_components().expect("a component of a mesh is one");
+    let triangles = triangles_of_components(mesh);
+    let shell = |(part, triangles): (Piece, Vec<u32>)| Body {
+        mesh: part.mesh,
+        nodes: part.nodes,
+        triangles,
+        void_in: None,
+        is_turned: false,
+    };
+    parts.into_iter().zip(triangles).map(shell).collect()
+}
+
+fn triangles_of_components(mesh: &Mesh) -> Vec<Vec<u32>> {
+    let (component, count) = mesh.topology().components();
+    let mut triangles = vec![Vec::new(); count];
+    (0..).zip(component).for_each(|(triangle, part)| triangles[part as usize].push(triangle));
+    triangles
 }
 
 /// The same with all triangles turned over.

@@ -4,6 +4,7 @@ use crate::control::Cancelled;
 use crate::failure::{Classify, ErrorKind};
 use crate::fit::common::FitError;
 use crate::layout::of_mesh::MeshLayoutError;
+use crate::mesh::FeatureError;
 use crate::model::ModelError;
 use crate::parameterize::sphere::SphereError;
 use crate::surface::g1::SpaceError;
@@ -47,6 +48,9 @@ pub enum ModelFitError {
         /// One of its nodes.
         node: usize,
     },
+    /// The features cannot be found as asked.
+    #[error(transparent)]
+    Features(#[from] FeatureError),
     /// The mesh cannot be mapped on to the sphere.
     #[error(transparent)]
     Sphere(#[from] SphereError),
@@ -79,6 +83,7 @@ impl Classify for ModelFitError {
             Self::Open { .. } => ErrorKind::Topology,
             Self::Components { .. } => ErrorKind::TooLarge,
             Self::ZeroVolume { .. } => ErrorKind::Degenerate,
+            Self::Features(error) => error.kind(),
             Self::Sphere(error) => error.kind(),
             Self::Layout(error) => error.kind(),
             Self::Model(error) => error.kind(),
@@ -92,6 +97,7 @@ impl Classify for ModelFitError {
             Self::Fit(error) => error.index(),
             Self::Space(error) => error.index(),
             Self::TMesh(error) => error.index(),
+            Self::Features(error) => error.index(),
             Self::Sphere(error) => error.index(),
             Self::Layout(error) => error.index(),
             Self::Model(error) => error.index(),

@@ -16,6 +16,7 @@ mod constraints;
 #[cfg(test)]
 mod crease_tests;
 mod error;
+mod exact;
 pub mod field;
 mod folds;
 mod foot;
@@ -33,6 +34,7 @@ mod whole;
 
 pub use constraints::{Constraints, PlaneEquation};
 pub use error::ModelFitError;
+pub use exact::{ExactFit, Limits, Obstacle, Recognized, fit_exact, recognize};
 pub use options::ModelOptions;
 pub use report::{ModelReport, PatchReport};
 pub use samples::NodePlaces;

@@ -1,14 +1,17 @@
 //! From any mesh to a model: the one place that chooses how.
 //!
 //! ```text
+//! closed, exact       planes and cylinders that explain all of it, without a patch
 //! closed, genus 0     over the cube; where that misses the tolerance, over a base complex too, and the better is kept
 //! closed, handles     over a base complex
+//! open, exact         shells of planes and cylinders
 //! open                one chart: a PHT-spline inside its trims
 //! ```
 //! Several closed components become several shells, one inside another a void.
 
-use super::bodies::{Body, bodies};
+use super::bodies::{self, Body, bodies};
 use super::error::ModelFitError;
+use super::exact::{self, ExactFit, Obstacle};
 use super::{LayoutFit, ModelOptions, ModelReport, NodePlaces, fit_over_layout};
 use crate::control::{Cancelled, Control};
 use crate::failure::Classify;
@@ -16,10 +19,10 @@ use crate::fit::common::report::{FitReport, Remarks, Tolerance, ToleranceScale};
 use crate::fit::pht::{self, PhtOptions};
 use crate::layout::Layout;
 use crate::layout::of_mesh::{LayoutKind, MeshLayout, MeshLayoutError, MeshLayoutOptions, layout_of_mesh};
-use crate::mesh::Mesh;
+use crate::mesh::{FeatureOptions, Mesh};
 use crate::model::{
-    FaceId, Form, FormOptions, Model, NodePlace, Origin, PatchModel, PatchPiece, Patchwork, of_patches,
-    of_surface,
+    FaceId, Form, FormOptions, Model, NodePlace, Origin, PatchModel, PatchPiece, Patchwork, Role, ShellId,
+    of_patches, of_surface,
 };
 use crate::parameterize::sphere::{SphereOptions, map_to_sphere};
 use crate::query::crossings::crossings;
@@ -44,9 +47,13 @@ pub enum Family {
 
 /// How any mesh becomes a model.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MeshModelOptions {
+pub struct MeshModelOptions<'a> {
     /// Chart or patches.
     pub family: Family,
+    /// Whether a mesh of planes and cylinders becomes exact faces, unless a chart or patches are asked for. Default: yes.
+    pub exact: bool,
+    /// What its sharp edges are.
+    pub features: FeatureOptions<'a>,
     /// How patches are fitted; the tolerance holds for a chart too.
     pub fit: ModelOptions,
     /// Which layout patches have.
@@ -56,10 +63,12 @@ pub struct MeshModelOptions {
     pub level_spread: u32,
 }
 
-impl Default for MeshModelOptions {
+impl Default for MeshModelOptions<'_> {
     fn default() -> Self {
         Self {
             family: Family::default(),
+            exact: true,
+            features: FeatureOptions::default(),
             fit: ModelOptions::default(),
             layout: MeshLayoutOptions::default(),
             level_spread: 1,
@@ -72,8 +81,10 @@ impl Default for MeshModelOptions {
 pub struct ComponentReport {
     /// Handles.
     pub genus: usize,
-    /// Which layout it has; None for a chart.
+    /// Which layout it has; None for a chart or exact faces.
     pub layout: Option<LayoutKind>,
+    /// Faces on planes and cylinders.
+    pub exact_faces: usize,
     /// Symmetric Dirichlet energy of the node map by area: 4 for an isometry.
     pub map_energy: f64,
     /// Nodes or triangles that the map folds.
@@ -115,7 +126,7 @@ fn origins(places: &[Option<(FaceId, DVec2)>], errors: &[f64]) -> Vec<Option<Nod
 pub struct ModelFit {
     /// The model.
     pub model: Model,
-    /// The patches it was made of; none for a chart.
+    /// The patches it was made of; none for a chart or exact faces.
     pub pieces: Vec<Piece>,
     /// The face and parameters of each node; None for a node without triangles.
     pub places: Vec<Option<(FaceId, DVec2)>>,
@@ -127,6 +138,13 @@ pub struct ModelFit {
     pub report: ModelReport,
     /// Seconds in all.
     pub seconds: f64,
+}
+
+impl ModelFit {
+    /// Whether it is one chart.
+    pub fn is_chart(&self) -> bool {
+        self.pieces.is_empty() && self.components.iter().all(|component| component.exact_faces == 0)
+    }
 }
 
 /// Makes a model of a mesh.
@@ -141,7 +159,13 @@ pub fn fit_mesh(
         Family::Patches => false,
     };
     let start = Instant::now();
-    let mut fit = if is_chart { chart(mesh, options, control) } else { patches(mesh, options, control) }?;
+    let mut fit = match is_chart {
+        true => match open_parts(mesh, options, control)? {
+            Some(exact) => exact,
+            None => chart(mesh, options, control)?,
+        },
+        false => patches(mesh, options, control)?,
+    };
     count_crossings(mesh, &mut fit, control)?;
     fit.seconds = start.elapsed().as_secs_f64();
     Ok(fit)
@@ -175,9 +199,16 @@ fn patches(
     control: &mut Control,
 ) -> Result<ModelFit, ModelFitError> {
     options.fit.check(1)?;
+    options.features.check(mesh)?;
     let bodies = bodies(mesh)?;
     // the tolerance is that of the whole
     let (value, _) = options.fit.tolerance.absolute(&mesh.bounds());
+    if options.exact
+        && options.family == Family::Auto
+        && let Some(fit) = exact_parts(mesh, &bodies, value, options, control)?
+    {
+        return Ok(fit);
+    }
     let absolute = Tolerance { value, scale: ToleranceScale::Absolute };
     let options = MeshModelOptions { fit: options.fit.with_tolerance(absolute), ..*options };
     let mut places = vec![None; mesh.points().len()];
@@ -223,6 +254,84 @@ fn patches(
     Ok(ModelFit { model, pieces, places, errors, components, report, seconds: 0.0 })
 }
 
+/// A mesh with a border as shells of exact faces, if they explain all of it.
+fn open_parts(
+    mesh: &Mesh,
+    options: &MeshModelOptions,
+    control: &mut Control,
+) -> Result<Option<ModelFit>, ModelFitError> {
+    if !options.exact || options.family != Family::Auto || mesh.component_count() > bodies::MAX_COMPONENTS {
+        return Ok(None);
+    }
+    options.features.check(mesh)?;
+    let (value, _) = options.fit.tolerance.absolute(&mesh.bounds());
+    exact_parts(mesh, &bodies::shells(mesh), value, options, control)
+}
+
+/// Exact faces, if they explain all bodies.
+fn exact_parts(
+    mesh: &Mesh,
+    bodies: &[Body],
+    tolerance: f64,
+    options: &MeshModelOptions,
+    control: &mut Control,
+) -> Result<Option<ModelFit>, ModelFitError> {
+    let mut fits: Vec<ExactFit> = Vec::new();
+    for body in bodies {
+        let (labels, sharp_edges) = of_body(&options.features, body);
+        let features = FeatureOptions { labels: &labels, sharp_edges: &sharp_edges, ..options.features };
+        match control.watch(|_, watch| exact::fit_exact(&body.mesh, tolerance, &features, watch))? {
+            Ok(fit) => fits.push(fit),
+            Err(Obstacle::Features(error)) => return Err(error.into()),
+            Err(Obstacle::Cancelled(cancelled)) => return Err(cancelled.into()),
+            // what is not exact throughout is left to patches
+            Err(_) => return Ok(None),
+        }
+    }
+    let role = |body: &Body| match body.void_in {
+        Some(solid) => Role::VoidIn(ShellId::new(solid as u32)),
+        None if body.mesh.loops().is_empty() => Role::Solid,
+        None => Role::Open,
+    };
+    let roles: Vec<Role> = bodies.iter().map(role).collect();
+    let (model, starts) = exact::together(&fits.iter().collect::<Vec<_>>(), &roles)?;
+    let mut places = vec![None; mesh.points().len()];
+    let mut errors = vec![f64::NAN; mesh.points().len()];
+    let mut components = Vec::new();
+    for ((body, fit), start) in bodies.iter().zip(&fits).zip(starts) {
+        for ((&node, place), &error) in body.nodes.iter().zip(&fit.places).zip(&fit.errors) {
+            let moved = |(face, uv): (FaceId, DVec2)| (FaceId::new((face.index() + start) as u32), uv);
+            places[node as usize] = place.map(moved);
+            errors[node as usize] = error;
+        }
+        components.push(ComponentReport {
+            genus: body.mesh.genus(),
+            layout: None,
+            exact_faces: fit.model.faces().len(),
+            map_energy: f64::NAN,
+            fold_count: 0,
+            void_in: body.void_in,
+            is_turned: body.is_turned,
+            map_seconds: 0.0,
+            fit: fit.report.clone(),
+        });
+    }
+    let report = together(mesh, &components, &errors);
+    let nodes = origins(&places, &errors);
+    let model = model.with_origin(Origin { nodes, pieces: Vec::new(), patch_of_face: Vec::new() })?;
+    Ok(Some(ModelFit { model, pieces: Vec::new(), places, errors, components, report, seconds: 0.0 }))
+}
+
+/// The labels and sharp edges of a body, by its own triangles and nodes.
+fn of_body(features: &FeatureOptions, body: &Body) -> (Vec<u32>, Vec<[u32; 2]>) {
+    let label = |&triangle: &u32| features.labels.get(triangle as usize).copied();
+    let labels = body.triangles.iter().filter_map(label).collect();
+    // nodes of a part keep their order
+    let own = |node: u32| body.nodes.binary_search(&node).ok().map(|node| node as u32);
+    let both = |&[a, b]: &[u32; 2]| Some([own(a)?, own(b)?]);
+    (labels, features.sharp_edges.iter().filter_map(both).collect())
+}
+
 type Component = (Piece, LayoutFit, ComponentReport);
 
 /// One component: over the cube, over a base complex, or the better of both.
@@ -266,6 +375,7 @@ fn over_cube(
     let report = ComponentReport {
         genus: 0,
         layout: Some(LayoutKind::Cube),
+        exact_faces: 0,
         map_energy: sphere.report.energy,
         fold_count: sphere.report.folded_triangles,
         void_in: body.void_in,
@@ -289,6 +399,7 @@ fn over_complex(
     let report = ComponentReport {
         genus: body.mesh.genus(),
         layout: Some(LayoutKind::Complex),
+        exact_faces: 0,
         map_energy: made.report.energy,
         fold_count: made.report.folded_nodes,
         void_in: body.void_in,
@@ -392,6 +503,7 @@ fn chart(mesh: &Mesh, options: &MeshModelOptions, control: &mut Control) -> Resu
     let component = ComponentReport {
         genus: mesh.genus(),
         layout: None,
+        exact_faces: 0,
         map_energy: f64::NAN,
         fold_count: fit.report.flipped_count,
         void_in: None,

@@ -78,7 +78,9 @@ impl<'a> FeatureOptions<'a> {
         Self { labels, ..self }
     }
 
-    fn check(&self, mesh: &Mesh) -> Result<(), FeatureError> {
+    /// Refuses options out of their ranges, labels that are not as many as triangles, and sharp edges that the mesh does
+    /// not have.
+    pub fn check(&self, mesh: &Mesh) -> Result<(), FeatureError> {
         let angles = [
             ("sharp_angle", self.sharp_angle.unwrap_or(0.0)),
             ("weak_angle", self.weak_angle),
@@ -94,6 +96,15 @@ impl<'a> FeatureOptions<'a> {
         let (given, count) = (self.labels.len(), mesh.triangles().len());
         if given != 0 && given != count {
             return Err(FeatureError::LabelCount { given, count });
+        }
+        let count = mesh.points().len();
+        for (index, &nodes) in self.sharp_edges.iter().enumerate() {
+            if let Some(node) = nodes.into_iter().find(|&node| node as usize >= count) {
+                return Err(FeatureError::NoSuchNode { index, node, count });
+            }
+            if mesh.edge_between(nodes[0], nodes[1]).is_none() {
+                return Err(FeatureError::NotAnEdge { index, nodes });
+            }
         }
         Ok(())
     }
@@ -196,7 +207,7 @@ impl Mesh {
         let noise = noise::estimate(self);
         let is_noisy = options.filter_noise && noise > noise::WORTH_FILTERING;
         let turns = turns(self, is_noisy);
-        let kept = given_edges(self, options)?;
+        let kept = given_edges(self, options);
         let is_sharp = |edge: &HalfEdge| options.sharp_angle.is_some_and(|angle| turns[edge.index()] > angle);
         let mut net = Net::new(self, |edge| is_sharp(&edge), kept);
         let is_searched = options.sharp_angle.is_some();
@@ -229,25 +240,17 @@ fn turns(mesh: &Mesh, is_noisy: bool) -> Vec<f64> {
     half_edges(mesh).map(|edge| turn(edge).unwrap_or(0.0)).collect()
 }
 
-/// The half-edges that are features whatever their angle: border, between labels, given by the caller.
-fn given_edges(mesh: &Mesh, options: &FeatureOptions) -> Result<Vec<bool>, FeatureError> {
+/// The half-edges that are features whatever their angle: border, between labels, given by the caller and checked.
+fn given_edges(mesh: &Mesh, options: &FeatureOptions) -> Vec<bool> {
     let label = |edge: HalfEdge| options.labels.get(edge.triangle());
     let is_kept = |edge: HalfEdge| match mesh.topology().twin(edge) {
         None => true,
         Some(twin) => label(edge) != label(twin),
     };
     let mut kept: Vec<bool> = half_edges(mesh).map(is_kept).collect();
-    let count = mesh.points().len();
-    for (index, &nodes) in options.sharp_edges.iter().enumerate() {
-        if let Some(node) = nodes.into_iter().find(|&node| node as usize >= count) {
-            return Err(FeatureError::NoSuchNode { index, node, count });
-        }
-        let edge = mesh.edge_between(nodes[0], nodes[1]);
-        let edge = edge.ok_or(FeatureError::NotAnEdge { index, nodes })?;
-        [Some(edge), mesh.topology().twin(edge)]
-            .into_iter()
-            .flatten()
-            .for_each(|side| kept[side.index()] = true);
+    for edge in options.sharp_edges.iter().filter_map(|&[a, b]| mesh.edge_between(a, b)) {
+        let sides = [Some(edge), mesh.topology().twin(edge)];
+        sides.into_iter().flatten().for_each(|side| kept[side.index()] = true);
     }
-    Ok(kept)
+    kept
 }

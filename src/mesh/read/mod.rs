@@ -33,6 +33,12 @@ pub enum ReadError {
         /// The path as given.
         path: String,
     },
+    /// Only PLY files have numbers on faces.
+    #[error("'{path}' is no PLY file, which alone has numbers on faces")]
+    NoFaceProperties {
+        /// The path as given.
+        path: String,
+    },
     /// The content is not that of a known format.
     #[error("the bytes are none of OFF, OBJ, PLY and STL")]
     UnknownContent,
@@ -156,6 +162,20 @@ pub fn read_as(
     let format = format.or_else(|| Format::of_path(path)).or_else(|| Format::of_bytes(&content));
     let format = format.ok_or_else(|| ReadError::UnknownFormat { path: path.display().to_string() })?;
     parse(&content, format, options)
+}
+
+/// A number of each face of a PLY file by its name, such as a label; at most `max_memory` bytes are read, 0 for three
+/// quarters of the machine's.
+pub fn read_face_property(path: &Path, name: &str, max_memory: u64) -> Result<Vec<f64>, ReadError> {
+    let limit = memory::limit(max_memory);
+    let bytes = file::read(path, limit).map_err(ReadError::from)?;
+    let content = unpack::unpacked(&bytes, limit)?;
+    match Format::of_bytes(&content) {
+        Some(Format::Ply) => {
+            ply::face_property(content.strip_prefix(BYTE_ORDER_MARK).unwrap_or(&content), name)
+        }
+        _ => Err(ReadError::NoFaceProperties { path: path.display().to_string() }),
+    }
 }
 
 /// Reads a mesh from the content of a file, in the format that it begins like if none is given;

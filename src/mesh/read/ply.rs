@@ -27,6 +27,23 @@ pub(super) fn read(bytes: &[u8]) -> Result<Soup, ReadError> {
     }
 }
 
+/// A number of each face by its name.
+pub(super) fn face_property(bytes: &[u8], name: &str) -> Result<Vec<f64>, ReadError> {
+    let mut scanner = Scanner::new(bytes, None);
+    let (encoding, elements) = read_header(&mut scanner)?;
+    match encoding {
+        Encoding::Ascii => read_face_property(&mut Text(scanner), &elements, name),
+        Encoding::LittleEndian => {
+            let mut source = Binary::<false> { bytes, position: scanner.position() };
+            read_face_property(&mut source, &elements, name)
+        }
+        Encoding::BigEndian => {
+            let mut source = Binary::<true> { bytes, position: scanner.position() };
+            read_face_property(&mut source, &elements, name)
+        }
+    }
+}
+
 #[derive(Debug, Clone, Copy)]
 enum Encoding {
     Ascii,
@@ -267,6 +284,31 @@ fn read_body(source: &mut impl Source, elements: &[Element]) -> Result<Soup, Rea
         }
     }
     Ok(soup)
+}
+
+fn read_face_property(
+    source: &mut impl Source,
+    elements: &[Element],
+    name: &str,
+) -> Result<Vec<f64>, ReadError> {
+    for element in elements.iter().filter(|element| !element.properties.is_empty()) {
+        source.check_room(element.count, element)?;
+        let is_asked = |property: &Property| property.name == name && property.length.is_none();
+        let asked = element.properties.iter().position(is_asked).filter(|_| element.name == "face");
+        let mut values = Vec::with_capacity(if asked.is_some() { element.count } else { 0 });
+        for _ in 0..element.count {
+            for (place, property) in element.properties.iter().enumerate() {
+                match asked {
+                    Some(asked) if asked == place => values.push(source.number(property.kind)?),
+                    _ => skip(source, property)?,
+                }
+            }
+        }
+        if asked.is_some() {
+            return Ok(values);
+        }
+    }
+    Err(source.error(format!("the faces have no number '{name}'")))
 }
 
 fn skip(source: &mut impl Source, property: &Property) -> Result<(), ReadError> {

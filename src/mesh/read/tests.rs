@@ -400,3 +400,13 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn numbers_on_faces_of_ply_are_found_by_name() {
+    let text = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
+        element face 2\nproperty list uchar int vertex_indices\nproperty int label\nend_header\n\
+        0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 7\n3 0 2 3 9\n";
+    assert_eq!(ply::face_property(text.as_bytes(), "label").unwrap(), [7.0, 9.0]);
+    let none = ply::face_property(text.as_bytes(), "colour").unwrap_err();
+    assert!(none.to_string().contains("'colour'"), "{none}");
+}

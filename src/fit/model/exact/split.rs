@@ -1,0 +1,265 @@
+//! Smooth regions of several carriers: the ends of a slot, the rounded edges of a block.
+//!
+//! ```text
+//!  ( ======== )    Cylinders grow from edges whose facets turn, as far as nodes lie on them. What is left must be
+//!                  planes. It counts only if all of the region is explained.
+//! ```
+
+use super::evidence::{Evidence, Limits, gradient, signed_distance};
+use super::recognize::{Recognized, recognize_region};
+use crate::mesh::{HalfEdge, Mesh};
+use crate::model::Carrier;
+use glam::DVec3;
+use std::collections::BTreeSet;
+
+/// Facets of one plane turn by less: half a degree.
+const FLAT: f64 = 0.009;
+/// Facets look along their cylinder's normal up to this angle: half the turn of a coarse chord.
+const LARGEST_TURN: f64 = 0.35;
+/// Starts that come to nothing before the region is given up: those beside planes do, and no other should.
+const MOST_FAILURES: usize = 100;
+/// Times that a cylinder is fitted anew while it grows.
+const ROUNDS: usize = 12;
+/// Rings of triangles around a start: enough to hold four lines of a wall.
+const START_RINGS: usize = 3;
+/// Steps through the edges, so that starts are spread over a region: a prime that no region's edges are a multiple of.
+const STRIDE: usize = 7919;
+
+/// Triangles with the carrier that explains them.
+#[derive(Debug, Clone)]
+pub struct Part {
+    pub triangles: Vec<u32>,
+    pub found: Recognized,
+}
+
+/// Planes and cylinders that explain all of a region; none if they do not.
+pub fn split(mesh: &Mesh, triangles: &[u32], limits: &Limits) -> Option<Vec<Part>> {
+    let mut region = Region::new(mesh, triangles);
+    let mut parts: Vec<Part> = Vec::new();
+    let edges = region.turning_edges();
+    let mut failures = 0;
+    for k in 0..edges.len() {
+        let [a, b] = edges[k * STRIDE % edges.len()];
+        if !(region.is_free(a) && region.is_free(b)) {
+            continue;
+        }
+        match region.cylinder_from([a, b], limits) {
+            Some(part) => {
+                part.triangles.iter().for_each(|&triangle| region.take(triangle));
+                parts.push(part);
+            }
+            None if failures == MOST_FAILURES => return None,
+            None => failures += 1,
+        }
+    }
+    let cylinders = parts.len();
+    for piece in region.pieces(None) {
+        let evidence = Evidence::new(mesh, &piece)?;
+        let carrier = Carrier::Plane(evidence.plane()?);
+        if !evidence.accepts(&carrier, limits) {
+            return None;
+        }
+        parts.push(Part { triangles: piece, found: Recognized { carrier, evidence } });
+    }
+    (cylinders > 0).then(|| settled(mesh, parts))
+}
+
+/// Angles that part blunt edges, the largest first, and whether only planes with nodes inside count: chords of a cylinder
+/// turn by less than the third, and the strips between them have none.
+const BLUNT: [(f64, bool); 5] = [(0.5, false), (0.35, false), (0.27, false), (0.05, true), (FLAT, true)];
+
+/// The parts of a region between edges that turn by less than sharp ones, if all of them are explained.
+pub fn split_at_blunt_edges(mesh: &Mesh, triangles: &[u32], limits: &Limits) -> Option<Vec<Part>> {
+    BLUNT.into_iter().find_map(|(angle, needs_inner)| {
+        let pieces = Region::new(mesh, triangles).pieces(Some(angle));
+        if pieces.len() < 2 || (needs_inner && !pieces.iter().all(|piece| has_inner_node(mesh, piece))) {
+            return None;
+        }
+        let of_piece = |piece: Vec<u32>| match recognize_region(mesh, &piece, limits) {
+            Some(found) => Some(vec![Part { triangles: piece, found }]),
+            None => split(mesh, &piece, limits),
+        };
+        let parts: Option<Vec<Vec<Part>>> = pieces.into_iter().map(of_piece).collect();
+        Some(parts?.into_iter().flatten().collect())
+    })
+}
+
+/// Whether some node has no triangle outside of a piece, whose triangles are in increasing order.
+fn has_inner_node(mesh: &Mesh, piece: &[u32]) -> bool {
+    let is_inner = |&node: &u32| {
+        !mesh.is_boundary(node)
+            && mesh.outgoing(node).all(|edge| piece.binary_search(&(edge.triangle() as u32)).is_ok())
+    };
+    piece.iter().flat_map(|&triangle| &mesh.triangles()[triangle as usize]).any(is_inner)
+}
+
+/// The triangles that no part has taken yet.
+struct Region<'a> {
+    mesh: &'a Mesh,
+    triangles: &'a [u32],
+    free: BTreeSet<u32>,
+}
+
+impl<'a> Region<'a> {
+    fn new(mesh: &'a Mesh, triangles: &'a [u32]) -> Self {
+        Self { mesh, triangles, free: triangles.iter().copied().collect() }
+    }
+
+    fn is_free(&self, triangle: u32) -> bool {
+        self.free.contains(&triangle)
+    }
+
+    fn take(&mut self, triangle: u32) {
+        self.free.remove(&triangle);
+    }
+
+    fn normal(&self, triangle: u32) -> DVec3 {
+        let [a, b, c] =
+            self.mesh.triangles()[triangle as usize].map(|node| self.mesh.points()[node as usize]);
+        (b - a).cross(c - a).normalize_or_zero()
+    }
+
+    /// The free triangles beside one.
+    fn beside(&self, triangle: u32) -> impl Iterator<Item = u32> + '_ {
+        let across = move |corner| self.mesh.topology().twin(HalfEdge::new(triangle as usize, corner));
+        (0..3).filter_map(across).map(|edge| edge.triangle() as u32).filter(|&other| self.is_free(other))
+    }
+
+    /// Neighbours that turn, as pairs.
+    fn turning_edges(&self) -> Vec<[u32; 2]> {
+        let mut pairs = Vec::new();
+        for &triangle in self.triangles {
+            let turns = |&other: &u32| {
+                let (m, n) = (self.normal(triangle), self.normal(other));
+                other > triangle && m.cross(n).length().atan2(m.dot(n)) > FLAT
+            };
+            pairs.extend(self.beside(triangle).filter(turns).map(|other| [triangle, other]));
+        }
+        pairs
+    }
+
+    /// A cylinder on both triangles and those around them, grown as far as it goes.
+    fn cylinder_from(&self, start: [u32; 2], limits: &Limits) -> Option<Part> {
+        let mut set: BTreeSet<u32> = start.into_iter().collect();
+        for _ in 0..START_RINGS {
+            let ring: Vec<u32> = set.iter().flat_map(|&triangle| self.beside(triangle)).collect();
+            set.extend(ring);
+        }
+        let mut found = self.fitted(&set, limits)?;
+        for _ in 0..ROUNDS {
+            let grown = self.grown(start[0], &found.carrier, limits);
+            if grown == set || !grown.contains(&start[1]) {
+                break;
+            }
+            found = self.fitted(&grown, limits)?;
+            set = grown;
+        }
+        Some(Part { triangles: set.into_iter().collect(), found })
+    }
+
+    fn fitted(&self, set: &BTreeSet<u32>, limits: &Limits) -> Option<Recognized> {
+        let evidence = Evidence::new(self.mesh, &set.iter().copied().collect::<Vec<_>>())?;
+        let cylinder = evidence.cylinder().filter(|cylinder| evidence.tells_roundness(cylinder))?;
+        let carrier = Carrier::Cylinder(cylinder);
+        evidence.accepts(&carrier, limits).then_some(Recognized { carrier, evidence })
+    }
+
+    /// The free triangles around a start that lie on a carrier.
+    fn grown(&self, start: u32, carrier: &Carrier, limits: &Limits) -> BTreeSet<u32> {
+        let place = |node: u32| self.mesh.points()[node as usize];
+        let fits = |triangle: u32| {
+            let nodes = self.mesh.triangles()[triangle as usize];
+            let middle = nodes.iter().map(|&node| place(node)).sum::<DVec3>() / 3.0;
+            let along = self.normal(triangle).dot(gradient(carrier, middle)).abs();
+            along >= LARGEST_TURN.cos()
+                && nodes.iter().all(|&node| signed_distance(carrier, place(node)).abs() <= limits.max)
+        };
+        let mut set = BTreeSet::from([start]);
+        let mut stack = vec![start];
+        while let Some(triangle) = stack.pop() {
+            for other in self.beside(triangle) {
+                if !set.contains(&other) && fits(other) {
+                    set.insert(other);
+                    stack.push(other);
+                }
+            }
+        }
+        set
+    }
+
+    /// Free triangles that hang together, by edges that do not turn by more than an angle if there is one.
+    fn pieces(&self, most: Option<f64>) -> Vec<Vec<u32>> {
+        let is_joined = |a: u32, b: u32| {
+            most.is_none_or(|most| {
+                let (m, n) = (self.normal(a), self.normal(b));
+                m.cross(n).length().atan2(m.dot(n)) <= most
+            })
+        };
+        let mut left = self.free.clone();
+        let mut pieces = Vec::new();
+        while let Some(start) = left.pop_first() {
+            let mut piece = vec![start];
+            let mut done = 0;
+            while done < piece.len() {
+                for other in self.beside(piece[done]) {
+                    if is_joined(piece[done], other) && left.remove(&other) {
+                        piece.push(other);
+                    }
+                }
+                done += 1;
+            }
+            piece.sort_unstable();
+            pieces.push(piece);
+        }
+        pieces
+    }
+}
+
+/// Parts whose triangles lie nearer to them than to the parts beside: a cylinder grows on to its tangent plane as far as
+/// the limits let it.
+fn settled(mesh: &Mesh, mut parts: Vec<Part>) -> Vec<Part> {
+    let mut part_of = std::collections::BTreeMap::new();
+    for (number, part) in parts.iter().enumerate() {
+        part_of.extend(part.triangles.iter().map(|&triangle| (triangle, number)));
+    }
+    let off = |triangle: u32, part: usize| {
+        let nodes = mesh.triangles()[triangle as usize];
+        let distance =
+            |node: u32| signed_distance(&parts[part].found.carrier, mesh.points()[node as usize]).abs();
+        nodes.into_iter().map(distance).fold(0.0, f64::max)
+    };
+    let mut stack: Vec<u32> = part_of.keys().copied().collect();
+    let mut moves = 4 * stack.len();
+    while let Some(triangle) = stack.pop() {
+        let own = part_of[&triangle];
+        let sides =
+            (0..3).filter_map(|corner| mesh.topology().twin(HalfEdge::new(triangle as usize, corner)));
+        let beside: Vec<u32> = sides.map(|edge| edge.triangle() as u32).collect();
+        let others =
+            beside.iter().filter_map(|other| part_of.get(other)).copied().filter(|&part| part != own);
+        let best = others.min_by(|&a, &b| off(triangle, a).total_cmp(&off(triangle, b)));
+        // half as far: of two that are equal to rounding a triangle stays where it is
+        if let Some(better) = best.filter(|&part| 2.0 * off(triangle, part) < off(triangle, own))
+            && moves > 0
+        {
+            moves -= 1;
+            part_of.insert(triangle, better);
+            stack.extend(beside.into_iter().filter(|other| part_of.contains_key(other)));
+        }
+    }
+    for (number, part) in parts.iter_mut().enumerate() {
+        part.triangles =
+            part_of.iter().filter(|(_, of)| **of == number).map(|(&triangle, _)| triangle).collect();
+        if let Some(evidence) = Evidence::new(mesh, &part.triangles) {
+            let better: Option<Carrier> = match part.found.carrier {
+                Carrier::Plane(_) => evidence.plane().map(Carrier::Plane),
+                _ => evidence.cylinder().map(Carrier::Cylinder),
+            };
+            if let Some(carrier) = better {
+                part.found = Recognized { carrier, evidence };
+            }
+        }
+    }
+    parts.retain(|part| !part.triangles.is_empty());
+    parts
+}
