@@ -297,6 +297,13 @@ module planish_records
   integer(c_int32_t), parameter, public :: PLANISH_SHELL_ROLE_SOLID = 1 !! A solid, from outside
   integer(c_int32_t), parameter, public :: PLANISH_SHELL_ROLE_VOID = 2 !! A void inside a solid
 
+  !> What the curve of an edge is.
+  integer(c_int32_t), parameter, public :: PLANISH_EDGE_SHAPE_SPLINE = 0 !! A spline
+  integer(c_int32_t), parameter, public :: PLANISH_EDGE_SHAPE_LINE = 1 !! A straight line
+  integer(c_int32_t), parameter, public :: PLANISH_EDGE_SHAPE_CIRCLE = 2 !! A piece of a circle
+  !> A piece of an ellipse, the longer axis first
+  integer(c_int32_t), parameter, public :: PLANISH_EDGE_SHAPE_ELLIPSE = 3
+
   !> Which way a mesh becomes a model.
   !> One chart for a mesh with a boundary, patches for a closed one
   integer(c_int32_t), parameter, public :: PLANISH_MODEL_FAMILY_AUTO = 0
@@ -1099,7 +1106,7 @@ module planish_records
 
   !> What an edge is.
   type, bind(c), public :: planish_edge_info
-    integer(c_size_t) :: struct_size = 1 * word + 40
+    integer(c_size_t) :: struct_size = 1 * word + 128
     !> Largest angle between the normals of both faces along it, in radians; 0 for an edge of one face
     real(c_double) :: angle = 0
     !> Largest distance between its images on the surfaces of both faces; 0 for an edge of one face
@@ -1109,7 +1116,14 @@ module planish_records
     integer(c_int32_t) :: vertex_start = 0 !! The vertex where it begins
     integer(c_int32_t) :: vertex_end = 0 !! The vertex where it ends
     integer(c_int32_t) :: is_sharp = 0 !! 1 if its faces meet at an angle on purpose, else 0
-    integer(c_int32_t) :: reserved = 0
+    integer(c_int32_t) :: shape = 0 !! A planish_edge_shape, what its curve is
+    real(c_double) :: origin(3) = 0 !! The middle of a circle or ellipse; zeros for others
+    !> The direction about which a circle or ellipse turns counter-clockwise, of length 1; zeros for others
+    real(c_double) :: axis(3) = 0
+    !> The direction from the middle where the parameter, an angle in radians, is 0, of length 1; zeros for others
+    real(c_double) :: x_axis(3) = 0
+    !> Half the width of a circle or ellipse along x_axis and across it; zeros for others
+    real(c_double) :: radii(2) = 0
   end type
 
   !> What a face is.
@@ -1168,7 +1182,7 @@ module planish_records
 
   !> How a mesh becomes a model.
   type, bind(c), public :: planish_model_options
-    integer(c_size_t) :: struct_size = 11 * word + 64
+    integer(c_size_t) :: struct_size = 13 * word + 80
     type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
     type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
     !> Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag
@@ -1202,11 +1216,21 @@ module planish_records
     integer(c_int32_t) :: sweeps = 300 !! Most sweeps over all nodes while a base complex is laid
     integer(c_int32_t) :: level_spread = 1 !! By how much the levels of the cells in one face may differ
     integer(c_int32_t) :: thread_count = 0 !! Threads that share the work; 0 (default) for all cores
+    !> Edges whose facets turn by more than this are sharp, in radians, at most pi; 0 looks for none
+    real(c_double) :: sharp_angle = 0.7_c_double
+    !> A number for each triangle, such as the face of a CAD model that it comes from: edges between triangles of
+    !> different numbers are features, and exact faces have the number as their label; NULL (default) for none
+    type(c_ptr) :: labels = c_null_ptr
+    integer(c_size_t) :: label_count = 0 !! Numbers in labels: planish_mesh_triangle_count(), or 0 (default)
+    !> Whether a mesh of planes and cylinders becomes exact faces instead of patches or a chart, with
+    !> PLANISH_MODEL_FAMILY_AUTO: 0 or 1 (default)
+    integer(c_int32_t) :: exact = 1
+    integer(c_int32_t) :: smooth = 0 !! 1 ignores all features: smooth patches everywhere; 0 (default) does not
   end type
 
   !> What a fit of a model did and how good it is, of all components together.
   type, bind(c), public :: planish_model_report
-    integer(c_size_t) :: struct_size = 14 * word + 152
+    integer(c_size_t) :: struct_size = 15 * word + 152
     !> Largest distance between a node and the model at the node's place: what the tolerance bounds
     real(c_double) :: max_error = 0
     real(c_double) :: rms_error = 0 !! Square root of the mean of its square
@@ -1232,7 +1256,7 @@ module planish_records
     integer(c_size_t) :: void_count = 0 !! Components that are voids in others
     integer(c_size_t) :: turned_count = 0 !! Components that were inside out and have been turned
     integer(c_size_t) :: genus = 0 !! Handles of all components
-    integer(c_size_t) :: patch_count = 0 !! Patches of all components; 0 for a chart
+    integer(c_size_t) :: patch_count = 0 !! Patches of all components; 0 for a chart or exact faces
     integer(c_size_t) :: coefficient_count = 0 !! Control points, four a vertex of the cells of each patch
     integer(c_size_t) :: free_count = 0 !! Unknowns a coordinate that remain when patches meet smoothly
     integer(c_size_t) :: cell_count = 0 !! Cells of all patches
@@ -1242,11 +1266,12 @@ module planish_records
     integer(c_int32_t) :: deepest_level = 0 !! The deepest level of a cell
     integer(c_int32_t) :: pass_count = 0 !! Rounds of fitting and measuring of the component that took most
     integer(c_int32_t) :: stop_reason = 0 !! A planish_stop_reason, why the fit ended
-    integer(c_int32_t) :: is_chart = 0 !! 1 for one chart, 0 for patches
+    integer(c_int32_t) :: is_chart = 0 !! 1 for one chart, 0 for patches and exact faces
     integer(c_size_t) :: mesh_crossing_count = 0 !! Pairs of triangles of the mesh that cross
     !> Pairs of triangles of the model that cross, triangulated as finely as the tolerance: walls that are thinner
     !> than that, or folds
     integer(c_size_t) :: crossing_count = 0
+    integer(c_size_t) :: exact_face_count = 0 !! Faces on planes and cylinders
   end type
 
   !> Options of curve fits.

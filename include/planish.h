@@ -779,6 +779,28 @@ typedef enum planish_shell_role {
 } planish_shell_role;
 
 /**
+ * What the curve of an edge is.
+ */
+typedef enum planish_edge_shape {
+    /**
+     * A spline.
+     */
+    PLANISH_EDGE_SHAPE_SPLINE = 0,
+    /**
+     * A straight line.
+     */
+    PLANISH_EDGE_SHAPE_LINE = 1,
+    /**
+     * A piece of a circle.
+     */
+    PLANISH_EDGE_SHAPE_CIRCLE = 2,
+    /**
+     * A piece of an ellipse, the longer axis first.
+     */
+    PLANISH_EDGE_SHAPE_ELLIPSE = 3,
+} planish_edge_shape;
+
+/**
  * Which way a mesh becomes a model.
  */
 typedef enum planish_model_family {
@@ -3119,9 +3141,25 @@ typedef struct planish_edge_info {
      */
     uint32_t is_sharp;
     /**
-     * 0.
+     * A planish_edge_shape, what its curve is.
      */
-    uint32_t reserved;
+    uint32_t shape;
+    /**
+     * The middle of a circle or ellipse; zeros for others.
+     */
+    double origin[3];
+    /**
+     * The direction about which a circle or ellipse turns counter-clockwise, of length 1; zeros for others.
+     */
+    double axis[3];
+    /**
+     * The direction from the middle where the parameter, an angle in radians, is 0, of length 1; zeros for others.
+     */
+    double x_axis[3];
+    /**
+     * Half the width of a circle or ellipse along x_axis and across it; zeros for others.
+     */
+    double radii[2];
 } planish_edge_info;
 
 /**
@@ -3319,6 +3357,30 @@ typedef struct planish_model_options {
      * Threads that share the work; 0 (default) for all cores. The result does not depend on it.
      */
     uint32_t thread_count;
+    /**
+     * Edges whose facets turn by more than this are sharp, in radians, at most pi; 0 looks for none. Default 0.7, which
+     * is 40 degrees.
+     */
+    double sharp_angle;
+    /**
+     * A number for each triangle, such as the face of a CAD model that it comes from: edges between triangles of
+     * different numbers are features, and exact faces have the number as their label; NULL (default) for none.
+     * Array: [label_count].
+     */
+    const uint32_t *labels;
+    /**
+     * Numbers in labels: planish_mesh_triangle_count(), or 0 (default).
+     */
+    size_t label_count;
+    /**
+     * Whether a mesh of planes and cylinders becomes exact faces instead of patches or a chart, with
+     * PLANISH_MODEL_FAMILY_AUTO: 0 or 1 (default).
+     */
+    uint32_t exact;
+    /**
+     * 1 ignores all features: smooth patches everywhere; 0 (default) does not.
+     */
+    uint32_t smooth;
 } planish_model_options;
 
 /**
@@ -3416,7 +3478,7 @@ typedef struct planish_model_report {
      */
     size_t genus;
     /**
-     * Patches of all components; 0 for a chart.
+     * Patches of all components; 0 for a chart or exact faces.
      */
     size_t patch_count;
     /**
@@ -3456,7 +3518,7 @@ typedef struct planish_model_report {
      */
     uint32_t stop_reason;
     /**
-     * 1 for one chart, 0 for patches.
+     * 1 for one chart, 0 for patches and exact faces.
      */
     uint32_t is_chart;
     /**
@@ -3468,6 +3530,10 @@ typedef struct planish_model_report {
      * than that, or folds. SIZE_MAX if the model could not be triangulated.
      */
     size_t crossing_count;
+    /**
+     * Faces on planes and cylinders.
+     */
+    size_t exact_face_count;
 } planish_model_report;
 
 /**
@@ -6486,7 +6552,8 @@ enum planish_status planish_model_copy_face(const struct planish_model *model,
                                             struct planish_surface **out_surface);
 
 /**
- * Makes a curve of an edge, and says what the edge is.
+ * Makes a curve of an edge, and says what the edge is. An arc of a circle or ellipse becomes a spline over the same angles
+ * that is off by at most 2e-11 of its radius.
  *
  * model:     not NULL.
  * edge:      below planish_model_edge_count().
@@ -6536,8 +6603,7 @@ enum planish_status planish_model_copy_loops(const struct planish_model *model,
  * face:      below planish_model_face_count().
  * coedge:    the place of the edge among those of planish_model_copy_loops().
  * out_curve: receives a new curve of dimension 2; destroy with planish_curve_free().
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INDEX (the face, or the place) or
- * PLANISH_STATUS_WRONG_KIND (the face lies on a cylinder: its parameters are angle and height of a place in space).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INDEX (the face, or the place).
  */
 PLANISH_API
 PLANISH_NODISCARD
@@ -6729,10 +6795,11 @@ enum planish_status planish_model_options_init(struct planish_model_options *opt
                                                size_t struct_size);
 
 /**
- * Makes a model of any mesh within a tolerance. A closed mesh becomes smooth patches that share position and tangent
- * plane along all their edges to rounding: a solid of B-spline faces, one inside another its void, several components
- * several shells. A mesh with a boundary becomes one PHT-spline inside its trims. Components that are inside out are
- * turned.
+ * Makes a model of any mesh within a tolerance. A mesh of planes and cylinders between sharp edges becomes exact faces
+ * that meet in lines, circles and ellipses; any other closed mesh becomes smooth patches that share position and
+ * tangent plane along all their edges to rounding: a solid of B-spline faces. One inside another becomes its void,
+ * several components several shells. A mesh with a boundary that is not exact becomes one PHT-spline inside its trims.
+ * Components that are inside out are turned.
  *
  * mesh:       not NULL; stays as it is.
  * options:    NULL for the defaults.
@@ -6741,7 +6808,7 @@ enum planish_status planish_model_options_init(struct planish_model_options *opt
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_INPUT_REPAIRED (a component was turned), PLANISH_STATUS_FOLDED_PARAMETERS,
  * PLANISH_STATUS_TOLERANCE_NOT_MET or PLANISH_STATUS_STAGNATED (the best model found is there), or an error:
  * PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option; a start_level that the layout does not
- * allow), PLANISH_STATUS_TOPOLOGY (patches for a mesh with a boundary, one of whose nodes is the index; a cube for a mesh
+ * allow; labels that are not as many as the triangles), PLANISH_STATUS_TOPOLOGY (patches for a mesh with a boundary, one of whose nodes is the index; a cube for a mesh
  * with handles; a node where the surface touches itself), PLANISH_STATUS_DEGENERATE (a component encloses no volume, one
  * of its nodes is the index; no layout), PLANISH_STATUS_TOO_LARGE (more than 1000 components), PLANISH_STATUS_SINGULAR,
  * PLANISH_STATUS_VERSION, PLANISH_STATUS_CANCELLED, or for a chart what planish_pht_fit() and

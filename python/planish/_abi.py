@@ -204,6 +204,12 @@ ENUMERATIONS = {
         "solid": 1,
         "void": 2,
     },
+    "planish_edge_shape": {
+        "spline": 0,
+        "line": 1,
+        "circle": 2,
+        "ellipse": 3,
+    },
     "planish_model_family": {
         "auto": 0,
         "chart": 1,
@@ -1123,8 +1129,15 @@ class planish_edge_info(Structure):
         ("vertex_start", c_uint32),
         ("vertex_end", c_uint32),
         ("is_sharp", c_uint32),
-        ("reserved", c_uint32),
+        ("shape", c_uint32),
+        ("origin", c_double * 3),
+        ("axis", c_double * 3),
+        ("x_axis", c_double * 3),
+        ("radii", c_double * 2),
     ]
+    choices = {
+        "shape": "planish_edge_shape",
+    }
 
 
 class planish_face_info(Structure):
@@ -1207,6 +1220,11 @@ class planish_model_options(Structure):
         ("sweeps", c_uint32),
         ("level_spread", c_uint32),
         ("thread_count", c_uint32),
+        ("sharp_angle", c_double),
+        ("labels", c_void_p),
+        ("label_count", c_size_t),
+        ("exact", c_uint32),
+        ("smooth", c_uint32),
     ]
     choices = {
         "out_stage": "planish_stage",
@@ -1219,12 +1237,14 @@ class planish_model_options(Structure):
         "out_faces": c_uint32,
         "out_uv": c_double,
         "out_errors": c_double,
+        "labels": c_uint32,
     }
     arrays = {
         "out_stage": ("1",),
         "out_faces": ("mesh_point_count",),
         "out_uv": ("mesh_point_count", "2",),
         "out_errors": ("mesh_point_count",),
+        "labels": ("label_count",),
     }
 
 
@@ -1265,6 +1285,7 @@ class planish_model_report(Structure):
         ("is_chart", c_uint32),
         ("mesh_crossing_count", c_size_t),
         ("crossing_count", c_size_t),
+        ("exact_face_count", c_size_t),
     ]
     choices = {
         "stop_reason": "planish_stop_reason",
@@ -1613,12 +1634,12 @@ SIZES = {
     planish_step_report: 64,
     planish_step_options: 120,
     planish_report_options: 80,
-    planish_edge_info: 48,
+    planish_edge_info: 136,
     planish_face_info: 144,
     planish_shell_info: 24,
     planish_measure_report: 144,
-    planish_model_options: 152,
-    planish_model_report: 264,
+    planish_model_options: 184,
+    planish_model_report: 272,
     planish_curve_options: 104,
     planish_interpolate_options: 24,
     planish_skin_report: 112,
