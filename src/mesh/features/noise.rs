@@ -28,8 +28,13 @@ const MEDIAN_OF_UNIT_NOISE: f64 = 0.917;
 /// The difference of a node from the mean of its neighbours, differenced again, forgets slope and curvature; the median
 /// of its part along the normal is that of noise, and creases, which few nodes have, do not count.
 pub(super) fn estimate(mesh: &Mesh) -> f64 {
+    estimate_of(mesh, |_| true)
+}
+
+/// The same of nodes that are asked for, and so are all their neighbours.
+pub(super) fn estimate_of(mesh: &Mesh, is_asked: impl Fn(u32) -> bool) -> f64 {
     let points = mesh.points();
-    let inner = |node: u32| mesh.is_used(node) && !mesh.is_boundary(node);
+    let inner = |node: u32| mesh.is_used(node) && !mesh.is_boundary(node) && is_asked(node);
     let difference = |values: &[DVec3], node: u32| {
         let (count, sum) = mesh
             .neighbours(node)

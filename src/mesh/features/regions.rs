@@ -63,6 +63,16 @@ impl Regions {
         neighbours
     }
 
+    /// Noise along the normal away from the bounds of regions, as standard deviation by mean edge length: an estimate, 0
+    /// if no region is so large.
+    pub fn noise(&self, mesh: &Mesh) -> f64 {
+        let region = |edge: HalfEdge| self.of_triangle[edge.triangle()];
+        super::noise::estimate_of(mesh, |node| {
+            let mut around = mesh.outgoing(node).map(region);
+            around.next().is_some_and(|first| around.all(|other| other == first))
+        })
+    }
+
     /// Whether a chain has the same region on both sides.
     pub fn is_inside(&self, chain: u32) -> bool {
         let [left, right] = self.beside[chain as usize];

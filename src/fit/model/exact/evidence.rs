@@ -26,6 +26,8 @@ pub struct Limits {
     pub percentile: f64,
     /// Root of the mean square.
     pub rms: f64,
+    /// Standard deviation of the nodes' noise.
+    pub noise: f64,
 }
 
 /// The largest error of a node may be this share of the tolerance: edges and facets need the rest.
@@ -45,12 +47,13 @@ impl Limits {
             max: max.max(NOISE_MAX * noise),
             percentile: max.max(NOISE_PERCENTILE * noise),
             rms: (SHARE_OF_RMS * tolerance).max(NOISE_RMS * noise),
+            noise,
         }
     }
 
     /// All limits times a factor.
     pub fn scaled(self, factor: f64) -> Self {
-        Self { max: factor * self.max, percentile: factor * self.percentile, rms: factor * self.rms }
+        Self { max: factor * self.max, percentile: factor * self.percentile, rms: factor * self.rms, ..self }
     }
 
     fn hold(&self, mut distances: Vec<f64>) -> bool {
@@ -170,7 +173,7 @@ impl Evidence {
 
     /// Whether nodes stand at enough angles about the axis of a cylinder: through three lines there always is one, and
     /// the corners of a polygon lie near many; of few lines it must be told more exactly than by their chords.
-    pub fn tells_roundness(&self, cylinder: &Cylinder) -> bool {
+    pub fn tells_roundness(&self, cylinder: &Cylinder, limits: &Limits) -> bool {
         const LEAST: usize = 4;
         const FEW: usize = 12;
         const SAME: f64 = 1e-3;
@@ -190,7 +193,8 @@ impl Evidence {
         let carrier = Carrier::Cylinder(*cylinder);
         let off = || self.distances(&carrier).into_iter().fold(0.0, f64::max);
         gaps.len() + 1 >= LEAST
-            && (gaps.len() >= FEW || off() <= SHARE_OF_SAGITTA * sagitta + ROUNDING * self.extent)
+            && (gaps.len() >= FEW
+                || off() <= SHARE_OF_SAGITTA * sagitta + ROUNDING * self.extent + NOISE_MAX * limits.noise)
     }
 
     /// With the axis turned and moved to the least squares of distances.

@@ -99,10 +99,10 @@ pub fn fit_exact(
     let scale = Scale { tolerance, noise: 0.0, diagonal: mesh.diagonal() };
     let mut fit = fit_segments(mesh, &found, &scale, features, watch);
     // on coarse round walls the estimate finds noise where there is none
-    if found.noise > LEAST_NOISE
-        && matches!(&fit, Err(obstacle) if !matches!(obstacle, Obstacle::Cancelled(_)))
-    {
-        let scale = Scale { noise: found.noise * mean_edge(mesh), ..scale };
+    let is_open_question = matches!(&fit, Err(obstacle) if !matches!(obstacle, Obstacle::Cancelled(_)));
+    let noise = if is_open_question { found.regions(mesh).noise(mesh) * mean_edge(mesh) } else { 0.0 };
+    if noise > 0.0 {
+        let scale = Scale { noise, ..scale };
         fit = fit_segments(mesh, &found, &scale, features, watch);
     }
     let mut fit = fit?;
@@ -155,9 +155,6 @@ struct Segmented {
     regions: Regions,
     found: Vec<Recognized>,
 }
-
-/// Noise by mean edge length below which there is no use in allowing for it.
-const LEAST_NOISE: f64 = 0.02;
 
 fn segment(
     mesh: &Mesh,

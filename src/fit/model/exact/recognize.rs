@@ -45,7 +45,7 @@ pub fn recognize_region(mesh: &Mesh, triangles: &[u32], limits: &Limits) -> Opti
 fn carrier(evidence: &Evidence, limits: &Limits) -> Option<Carrier> {
     let plane = evidence.plane().map(Carrier::Plane).filter(|plane| evidence.accepts(plane, limits));
     plane.or_else(|| {
-        let cylinder = evidence.cylinder().filter(|cylinder| evidence.tells_roundness(cylinder))?;
+        let cylinder = evidence.cylinder().filter(|cylinder| evidence.tells_roundness(cylinder, limits))?;
         Some(Carrier::Cylinder(cylinder)).filter(|cylinder| evidence.accepts(cylinder, limits))
     })
 }

@@ -159,7 +159,7 @@ impl<'a> Region<'a> {
 
     fn fitted(&self, set: &BTreeSet<u32>, limits: &Limits) -> Option<Recognized> {
         let evidence = Evidence::new(self.mesh, &set.iter().copied().collect::<Vec<_>>())?;
-        let cylinder = evidence.cylinder().filter(|cylinder| evidence.tells_roundness(cylinder))?;
+        let cylinder = evidence.cylinder().filter(|cylinder| evidence.tells_roundness(cylinder, limits))?;
         let carrier = Carrier::Cylinder(cylinder);
         evidence.accepts(&carrier, limits).then_some(Recognized { carrier, evidence })
     }
