@@ -41,7 +41,7 @@ def test_edges_run_along_their_faces(face):
 
 
 def test_patches_share_their_edges(mesh):
-    model = planish.Model.from_surface(planish.fit(mesh, 1e-3, "pht"))
+    model = planish.Model.from_surface(planish.fit(mesh, 3e-4, "pht"))
     shared = [index for index in range(model.n_edges) if None not in model.edge(index).faces]
     assert model.n_faces > 1 and shared
     assert model.measure().max_gap <= 1e-12

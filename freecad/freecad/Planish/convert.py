@@ -107,19 +107,6 @@ def _smoothed(surface, border, distance):
     return curve(low, np.arange(nodes) * length / nodes)
 
 
-def signed_distances(thing, points):
-    """The distances of points from a planish.Surface or planish.Model: positive on the side of the normals."""
-    if isinstance(thing, planish.Model):
-        faces, uv, distances = thing.project(points)
-        places = thing.eval(faces, uv, outside="extrapolate")
-        normals = thing.normals(faces, uv, outside="extrapolate")
-    else:
-        uv, distances = thing.project(points)
-        places = thing.eval(uv, outside="extrapolate")
-        normals = thing.normals(uv, outside="extrapolate")
-    return np.where(np.einsum("ij,ij->i", points - places, normals) < 0, -distances, distances)
-
-
 def to_spline(surface):
     """A surface as one Part.BSplineSurface without trims."""
     tensor = surface if surface.kind == "tensor" else surface.to_tensor()

@@ -325,11 +325,13 @@ class Deviation(Proxy):
         proxy = obj.Fitted.Proxy
         if proxy.result is None:  # after reopening: shapes are saved, fits are not
             proxy.execute(obj.Fitted)
-        points, _ = convert.nodes_of(source)
+        points, triangles = convert.nodes_of(source)
         try:
-            distances = convert.signed_distances(proxy.result, points)
+            mesh = planish.Mesh(points, triangles, orient=True)  # repair may append nodes; the others keep their numbers
+            distances = proxy.result.deviation(mesh)[1].signed[: len(points)]
         except planish.Error as error:
             raise RuntimeError(f"{obj.Label}: {error}") from None
+        distances = np.nan_to_num(distances)  # a node without triangles has no distance
         obj.Distances = distances.tolist()
         obj.LargestOutside, obj.LargestInside = max(distances.max(), 0.0), min(distances.min(), 0.0)
         obj.RmsDistance = math.sqrt(np.mean(distances**2))
