@@ -5,7 +5,7 @@ mod common;
 use glam::DVec2;
 use planish::Control;
 use planish::fit::pht::{self, PhtOptions};
-use planish::fit::report::{FitReport, Tolerance};
+use planish::fit::report::{FitReport, Remarks, Tolerance};
 use planish::fit::tensor::{self, Knots, TensorOptions};
 use planish::geometry::Bounds;
 use planish::mesh::Mesh;
@@ -60,7 +60,9 @@ fn check(name: &str, mesh: &Mesh, tolerance: f64) {
             report.seconds,
         );
         if false {
-            assert!(away <= 0.1, "{name}, {family}: {away}");
+            // a mesh that one chart does not suit is missed by more than that where there are data
+            let most = if report.remarks.has(Remarks::SEGMENTATION_ADVISED) { 0.2 } else { 0.1 };
+            assert!(away <= most, "{name}, {family}: {away}");
         }
     }
 }

@@ -35,7 +35,11 @@ impl Refinement<'_> {
         let wild = this.wild_cells(&round.surface, control.pool());
         let first = this.with_split(&this.mesh, |cell| has_border(cell, &trims) || wild.contains(cell));
         let finer = |mesh: &TMesh| this.with_split(mesh, |cell| has_border(cell, &trims));
-        let finer = std::iter::successors(first, finer).take(SPLITS);
+        // between scattered points nothing is known: no more unknowns than there are
+        let is_allowed = |mesh: &TMesh| {
+            this.data.mesh.is_some() || 4 * Topology::new(mesh).basis.len() <= this.data.uv.len()
+        };
+        let finer = std::iter::successors(first, finer).take(SPLITS).take_while(is_allowed);
         let meshes: Vec<TMesh> = [this.mesh.clone()].into_iter().chain(finer).collect();
         let judge = |round: &Round, pool: &Pool| Standing {
             excursion: this.excursion(&round.surface, pool),
