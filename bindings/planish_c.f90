@@ -211,6 +211,12 @@ module planish_records
   !> smaller
   integer(c_int8_t), parameter, public :: PLANISH_FLAG_NOT_PROVEN = 16
 
+  !> Whether the fit of a mesh's shape is its own mirror image.
+  integer(c_int32_t), parameter, public :: PLANISH_SYMMETRY_NONE = 0 !! As it comes
+  integer(c_int32_t), parameter, public :: PLANISH_SYMMETRY_ABOUT = 1 !! About a plane that is given
+  !> About the plane for which the mesh is nearest to its image
+  integer(c_int32_t), parameter, public :: PLANISH_SYMMETRY_FOUND = 2
+
   !> A parameter direction.
   integer(c_int32_t), parameter, public :: PLANISH_AXIS_U = 0 !! The first parameter
   integer(c_int32_t), parameter, public :: PLANISH_AXIS_V = 1 !! The second parameter
@@ -260,6 +266,16 @@ module planish_records
   !> What the rows of planish_mesh_sample_rows() lie between.
   integer(c_int32_t), parameter, public :: PLANISH_ROW_SOURCE_LOOP = 0 !! A boundary loop
   integer(c_int32_t), parameter, public :: PLANISH_ROW_SOURCE_NODE = 1 !! A node
+
+  !> Which energy of a surface is lowered.
+  integer(c_int32_t), parameter, public :: PLANISH_FAIRNESS_THIN_PLATE = 0 !! Bending: flat is best
+  !> Change of bending: round is as good as flat
+  integer(c_int32_t), parameter, public :: PLANISH_FAIRNESS_CURVATURE_VARIATION = 1
+
+  !> What of the border of a surface's domain stays as it is.
+  integer(c_int32_t), parameter, public :: PLANISH_KEPT_BORDER_NONE = 0 !! Nothing
+  integer(c_int32_t), parameter, public :: PLANISH_KEPT_BORDER_POSITION = 1 !! Its place
+  integer(c_int32_t), parameter, public :: PLANISH_KEPT_BORDER_TANGENT = 2 !! Its place and its tangent planes
 
   !> What a VTK file holds of a surface.
   !> Triangles of the part inside the trims, or of deviation_from
@@ -646,7 +662,7 @@ module planish_records
 
   !> What a fit did and how good it is.
   type, bind(c), public :: planish_fit_report
-    integer(c_size_t) :: struct_size = 9 * word + 120
+    integer(c_size_t) :: struct_size = 10 * word + 160
     !> Largest distance between a datum and the surface at the datum's (u,v): what the tolerance bounds
     real(c_double) :: max_error = 0
     real(c_double) :: rms_error = 0 !! Square root of the mean of its square
@@ -677,6 +693,17 @@ module planish_records
     integer(c_size_t) :: rough_cell_count = 0 !! Cells of it in which an error exceeds the tolerance
     integer(c_int32_t) :: deepest_level = 0 !! The deepest level of its cells: how often one of the first was halved
     integer(c_int32_t) :: reserved = 0
+    real(c_double) :: max_fixed_error = 0 !! Largest error of a fixed datum; 0 without any
+    !> Largest error of the other data as a share of the tolerance of its own: at most 1 where all are met
+    real(c_double) :: max_tolerance_share = 0
+    integer(c_size_t) :: left_out_count = 0 !! Data that were taken for gross errors and left out
+    !> Largest distance of the mirror image of a node to the mesh, if symmetry was asked for; else 0
+    real(c_double) :: mirror_distance = 0
+    !> Largest distance of the surface to the curves of sides that were given; 0 without any
+    real(c_double) :: max_side_error = 0
+    !> Largest angle between the tangent planes of the surface and those of its neighbours along such sides, in
+    !> radians
+    real(c_double) :: max_side_angle = 0
   end type
 
   !> How points are evaluated.
@@ -722,7 +749,7 @@ module planish_records
 
   !> Options of tensor fits.
   type, bind(c), public :: planish_tensor_options
-    integer(c_size_t) :: struct_size = 10 * word + 80
+    integer(c_size_t) :: struct_size = 24 * word + 96
     !> The largest error allowed at the data, positive, measured in tolerance_scale
     real(c_double) :: tolerance = 1e-3_c_double
     !> Weight of the bending energy; 0 (default) finds one: of uniform knots the largest of 1e-3, 1e-4, 1e-5, 1e-6
@@ -763,7 +790,45 @@ module planish_records
     integer(c_int32_t) :: knots = PLANISH_KNOTS_ADAPTIVE !! A planish_knots
     !> A planish_missing: what values of points and fields mean that are NaN
     integer(c_int32_t) :: missing = PLANISH_MISSING_REFUSED
-    integer(c_int32_t) :: reserved = 0
+    !> A planish_symmetry, for the shape of a mesh over adaptive knots
+    integer(c_int32_t) :: symmetry = PLANISH_SYMMETRY_NONE
+    !> A tolerance for each datum in tolerance_scale, positive, in place of tolerance; infinity leaves the datum out:
+    !> it is not fitted, and its error does not count
+    type(c_ptr) :: tolerances = c_null_ptr
+    !> Numbers of data that the surface passes through, to 1e-12 of the diagonal of the data's box, by linear
+    !> conditions on its coefficients
+    type(c_ptr) :: fixed = c_null_ptr
+    !> Receives 1 for each datum that was taken for a gross error and left out, else 0; NULL (default) for no such
+    !> list
+    type(c_ptr) :: out_left_out = c_null_ptr
+    !> The largest share of the data that may be gross errors, at most 0.25: those that stand out most from their
+    !> neighbours are left out of the fit
+    real(c_double) :: outlier_share = 0
+    !> A gross error misses the surface of the other data by more than this, in tolerance_scale: such data are left
+    !> out
+    real(c_double) :: outlier_scale = 0
+    integer(c_size_t) :: fixed_count = 0 !! Numbers in fixed
+    !> A place in the plane of symmetry and a normal of it, for PLANISH_SYMMETRY_ABOUT; else NULL (default)
+    type(c_ptr) :: plane = c_null_ptr
+    !> Receives a place in the plane of symmetry and its unit normal, if symmetry was asked for; NULL (default) for
+    !> nobody
+    type(c_ptr) :: out_plane = c_null_ptr
+    !> The curve that the side at the least u is, exactly; NULL (default) for a free side
+    type(c_ptr) :: curve_u_low = c_null_ptr
+    !> The curve that the side at the largest u is, exactly; NULL (default) for a free side
+    type(c_ptr) :: curve_u_high = c_null_ptr
+    !> The curve that the side at the least v is, exactly; NULL (default) for a free side
+    type(c_ptr) :: curve_v_low = c_null_ptr
+    !> The curve that the side at the largest v is, exactly; NULL (default) for a free side
+    type(c_ptr) :: curve_v_high = c_null_ptr
+    !> The tensor surface beyond the side at the least u; NULL (default) for none
+    type(c_ptr) :: neighbour_u_low = c_null_ptr
+    !> The tensor surface beyond the side at the largest u; NULL (default) for none
+    type(c_ptr) :: neighbour_u_high = c_null_ptr
+    !> The tensor surface beyond the side at the least v; NULL (default) for none
+    type(c_ptr) :: neighbour_v_low = c_null_ptr
+    !> The tensor surface beyond the side at the largest v; NULL (default) for none
+    type(c_ptr) :: neighbour_v_high = c_null_ptr
   end type
 
   !> How fields are fitted.
@@ -1017,6 +1082,44 @@ module planish_records
     type(c_ptr) :: out_stage = c_null_ptr
     integer(c_int32_t) :: begin = PLANISH_ROW_SOURCE_LOOP !! A planish_row_source: what begin_index counts
     integer(c_int32_t) :: end = PLANISH_ROW_SOURCE_LOOP !! A planish_row_source: what end_index counts
+  end type
+
+  !> How a surface is made fair.
+  type, bind(c), public :: planish_fair_options
+    integer(c_size_t) :: struct_size = 5 * word + 24
+    !> How far the surface may come to lie from itself, or from the data, positive, measured in tolerance_scale
+    real(c_double) :: tolerance = 1e-3_c_double
+    type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
+    type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag
+    type(c_ptr) :: cancel = c_null_ptr
+    !> Shows what the call is doing, before progress hears of it: a planish_stage
+    type(c_ptr) :: out_stage = c_null_ptr
+    !> A planish_tolerance_scale; relative is to the diagonal of the box of the control points, or of the data
+    integer(c_int32_t) :: tolerance_scale = PLANISH_TOLERANCE_SCALE_RELATIVE
+    integer(c_int32_t) :: energy = PLANISH_FAIRNESS_THIN_PLATE !! A planish_fairness
+    integer(c_int32_t) :: border = PLANISH_KEPT_BORDER_NONE !! A planish_kept_border
+    integer(c_int32_t) :: reserved = 0
+  end type
+
+  !> What fairing did.
+  type, bind(c), public :: planish_fair_report
+    integer(c_size_t) :: struct_size = 2 * word + 72
+    !> Energy before: the integral over the surface, in its own parameters, which count as much as their lines are
+    !> long on the average
+    real(c_double) :: energy_before = 0
+    real(c_double) :: energy_after = 0 !! Energy after; never more
+    !> Largest distance to the reference at equal (u,v): of data an error, of the surface itself a proven bound
+    real(c_double) :: max_deviation = 0
+    !> Root mean square of the errors of the data; without data, of the bounds of the cells
+    real(c_double) :: rms_deviation = 0
+    real(c_double) :: max_movement = 0 !! No place of the surface moved by more
+    real(c_double) :: tolerance = 0 !! The tolerance
+    real(c_double) :: diagonal = 0 !! What a relative tolerance is measured in
+    !> The weight of the energy against the square of distances; 0 if nothing was gained
+    real(c_double) :: smoothing = 0
+    real(c_double) :: seconds = 0 !! Wall time in seconds
+    integer(c_size_t) :: pass_count = 0 !! Systems solved
   end type
 
   !> What a VTK file shows.
@@ -1385,7 +1488,7 @@ module planish_records
 
   !> Options of PHT fits.
   type, bind(c), public :: planish_pht_options
-    integer(c_size_t) :: struct_size = 10 * word + 72
+    integer(c_size_t) :: struct_size = 16 * word + 88
     !> The largest error allowed at the data, positive, measured in tolerance_scale
     real(c_double) :: tolerance = 1e-3_c_double
     !> Weight of the bending energy of each cell, mapped to the unit cell; lowered where cells cannot be split any
@@ -1417,10 +1520,31 @@ module planish_records
     integer(c_int32_t) :: correction_sweeps = 1 !! Sweeps of parameter correction in each round of the fit of a shape
     integer(c_int32_t) :: measure_distance = 0 !! 1 measures the closest-point distance of the nodes for the report
     integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 (default) for all cores
-    integer(c_int32_t) :: reserved = 0
+    integer(c_int32_t) :: symmetry = PLANISH_SYMMETRY_NONE !! A planish_symmetry, for the shape of a mesh
     !> A planish_missing: what values of points and fields mean that are NaN
     integer(c_int32_t) :: missing = PLANISH_MISSING_REFUSED
     integer(c_int32_t) :: reserved_end = 0 !! 0
+    !> A tolerance for each datum in tolerance_scale, positive, in place of tolerance; infinity leaves the datum out:
+    !> it is not fitted, and its error does not count
+    type(c_ptr) :: tolerances = c_null_ptr
+    !> Numbers of data that the surface passes through, to 1e-12 of the diagonal of the data's box, by linear
+    !> conditions on its coefficients
+    type(c_ptr) :: fixed = c_null_ptr
+    !> Receives 1 for each datum that was taken for a gross error and left out, else 0; NULL (default) for no such
+    !> list
+    type(c_ptr) :: out_left_out = c_null_ptr
+    !> The largest share of the data that may be gross errors, at most 0.25: those that stand out most from their
+    !> neighbours are left out of the fit
+    real(c_double) :: outlier_share = 0
+    !> A gross error misses the surface of the other data by more than this, in tolerance_scale: such data are left
+    !> out
+    real(c_double) :: outlier_scale = 0
+    integer(c_size_t) :: fixed_count = 0 !! Numbers in fixed
+    !> A place in the plane of symmetry and a normal of it, for PLANISH_SYMMETRY_ABOUT; else NULL (default)
+    type(c_ptr) :: plane = c_null_ptr
+    !> Receives a place in the plane of symmetry and its unit normal, if symmetry was asked for; NULL (default) for
+    !> nobody
+    type(c_ptr) :: out_plane = c_null_ptr
   end type
 
   !> How a PHT-spline is simplified.
@@ -2754,6 +2878,27 @@ module planish_calls
       integer(c_int32_t), value :: axis
     end function
 
+    integer(c_int) function c_fair_options_init(options, struct_size) bind(c, name="planish_fair_options_init")
+      import
+      implicit none
+      type(planish_fair_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_surface_fair( &
+        surface, uv, values, count, options, out_surface, out_report) &
+        bind(c, name="planish_surface_fair")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(in), optional :: uv(*)
+      real(c_double), intent(in), optional :: values(*)
+      integer(c_size_t), value :: count
+      type(planish_fair_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: out_surface
+      type(planish_fair_report), intent(inout), optional :: out_report
+    end function
+
     integer(c_size_t) function c_surface_name(surface, name, size) bind(c, name="planish_surface_name")
       import
       implicit none
@@ -3959,6 +4104,7 @@ module planish_calls
     module procedure init_project_options
     module procedure init_deviation_options
     module procedure init_sample_rows_options
+    module procedure init_fair_options
     module procedure init_vtk_options
     module procedure init_step_options
     module procedure init_report_options
@@ -3991,6 +4137,7 @@ module planish_calls
   private :: init_project_options
   private :: init_deviation_options
   private :: init_sample_rows_options
+  private :: init_fair_options
   private :: init_vtk_options
   private :: init_step_options
   private :: init_report_options
@@ -4118,6 +4265,12 @@ contains
     type(planish_sample_rows_options), intent(inout) :: options
     integer(c_int) :: status
     status = c_sample_rows_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_fair_options(options)
+    type(planish_fair_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_fair_options_init(options, c_sizeof(options)) ! which cannot fail
   end subroutine
 
   subroutine init_vtk_options(options)

@@ -228,6 +228,26 @@ TEST(TensorFit, RefusesByName) {
   options = defaults();
   options.thread_count = 1025;
   refuse(options, invalid, -1, "thread_count is 1025");
+  const std::uint32_t missing[] = {3, static_cast<std::uint32_t>(all.point_count())};
+  options = defaults();
+  options.fixed = missing;
+  options.fixed_count = 2;
+  refuse(options, PLANISH_STATUS_INDEX, static_cast<long long>(all.point_count()), "is to be fixed");
+  options.fixed = nullptr;
+  refuse(options, null, -1, "fixed");
+  options = defaults();
+  options.outlier_share = 0.5;
+  refuse(options, invalid, -1, "outlier_share is 0.5");
+  options.outlier_share = 0.1;
+  options.outlier_scale = 0.1;
+  refuse(options, invalid, -1, "outlier_scale");
+  std::vector<double> tolerances(all.point_count(), 1e-3);
+  tolerances[9] = 0;
+  options = defaults();
+  options.tolerances = tolerances.data();
+  refuse(options, invalid, 9, "tolerance 9 is 0");
+  tolerances[9] = nan_;
+  refuse(options, PLANISH_STATUS_NOT_FINITE, 9, "tolerance 9");
   std::vector<double> weights(all.point_count(), 1.0);
   options = defaults();
   options.weights = weights.data();
@@ -435,6 +455,186 @@ TEST(Progress, IsHeardAndCancels) {
     // 50 milliseconds are promised; a busy machine gets ten times as long
     CHECK(after.count() < 0.5);
   }
+}
+
+TEST(Demands, AreMetBySingleNodes) {
+  arrays all = shapes::graph(30, 30, 0.2, 7);
+  const std::size_t count = all.point_count(), spike = 400;
+  all.points[3 * spike + 2] += 0.5;
+  const Mesh mesh = make(all, true);
+  const std::uint32_t fixed[] = {0, 77, 451};
+  std::vector<double> tolerances(count, 1e-2), errors(count);
+  for (std::size_t k = 0; k < count / 2; ++k) tolerances[k] = 1e-3;
+  std::vector<std::uint8_t> left_out(count, 9);
+  planish_tensor_options options = tensor_options();
+  options.fixed = fixed;
+  options.fixed_count = 3;
+  options.tolerances = tolerances.data();
+  options.out_errors = errors.data();
+  options.out_left_out = left_out.data();
+  options.outlier_share = 0.01;
+  const Fit found = fit(mesh.get(), options);
+  CHECK(found.status == PLANISH_STATUS_OK);
+  const double diagonal = found.report.diagonal;
+  CHECK(found.report.max_fixed_error <= 1e-12 * diagonal);
+  CHECK(found.report.max_tolerance_share <= 1);
+  CHECK_EQUAL(found.report.left_out_count, std::size_t{1});
+  for (std::size_t k = 0; k < count; ++k) {
+    CHECK_EQUAL(int(left_out[k]), int(k == spike));
+    CHECK(k == spike ? errors[k] > 0.1 : errors[k] <= tolerances[k] * diagonal);
+  }
+  for (std::uint32_t node : fixed) CHECK(errors[node] <= found.report.max_fixed_error);
+
+  // two at one place cannot both be fixed
+  const double uv[] = {0, 0, 1, 0, 0, 1, 1, 1, 0.5, 0.5, 0.5, 0.5}, values[] = {0, 0, 0, 0, 1, 2};
+  const std::uint32_t both[] = {5, 4};
+  planish_pht_options pht = fresh<planish_pht_options>();
+  CHECK(planish_pht_options_init(&pht, sizeof pht) == PLANISH_STATUS_OK);
+  pht.fixed = both;
+  pht.fixed_count = 2;
+  planish_surface *surface = sentinel<planish_surface>();
+  CHECK_FAILS(planish_pht_fit_points(uv, values, 6, 1, &pht, &surface, nullptr), PLANISH_STATUS_INVALID_ARGUMENT, 5,
+              "4 and 5");
+  CHECK(surface == sentinel<planish_surface>());
+}
+
+TEST(Symmetry, MakesASurfaceItsOwnImage) {
+  arrays all = shapes::graph(31, 24, 0.2, 3);
+  for (std::size_t k = 0; k < all.point_count(); ++k) {
+    double *p = &all.points[3 * k];
+    p[0] = 2 * all.uv[2 * k] - 1;
+    p[1] = all.uv[2 * k + 1];
+    p[2] = 0.3 * std::cos(2.5 * p[0]) * (1 + p[1]);
+  }
+  const Mesh mesh = make(all, false);
+  const double plane[] = {0, 0, 0, 1, 0, 0};
+  double found_plane[6] = {9, 9, 9, 9, 9, 9};
+  planish_tensor_options options = tensor_options();
+  options.tolerance = 3e-3;
+  options.symmetry = PLANISH_SYMMETRY_ABOUT;
+  options.plane = plane;
+  options.out_plane = found_plane;
+  const Fit found = fit(mesh.get(), options);
+  CHECK(found.status == PLANISH_STATUS_OK);
+  CHECK(std::memcmp(plane, found_plane, sizeof plane) == 0);
+  CHECK(found.report.mirror_distance <= found.report.tolerance);
+  const double uv[] = {-0.3, 0.6, 0.3, 0.6};
+  double values[6];
+  CHECK(planish_surface_eval(found.surface.get(), uv, 2, nullptr, values) == PLANISH_STATUS_OK);
+  CHECK_NEAR(values[0], -values[3], 1e-14);
+  CHECK_NEAR(values[1], values[4], 1e-14);
+  CHECK_NEAR(values[2], values[5], 1e-14);
+
+  planish_surface *surface = sentinel<planish_surface>();
+  const double tilted[] = {0, 0, 0, 1, 0.2, 0};
+  options.plane = tilted;
+  CHECK_FAILS(planish_tensor_fit(mesh.get(), &options, &surface, nullptr), PLANISH_STATUS_INVALID_ARGUMENT, -1,
+              "not symmetric");
+  options.plane = nullptr;
+  CHECK_FAILS(planish_tensor_fit(mesh.get(), &options, &surface, nullptr), PLANISH_STATUS_NULL_POINTER, -1, "plane");
+  options.symmetry = 3;
+  CHECK_FAILS(planish_tensor_fit(mesh.get(), &options, &surface, nullptr), PLANISH_STATUS_INVALID_ARGUMENT, -1,
+              "symmetry is 3");
+  CHECK(surface == sentinel<planish_surface>());
+}
+
+TEST(Sides, AreTakenOverFromANeighbour) {
+  const std::size_t side = 40;
+  std::vector<double> uv, low, high;
+  for (std::size_t i = 0; i < side; ++i) {
+    for (std::size_t j = 0; j < side; ++j) {
+      const double u = double(i) / (side - 1), v = double(j) / (side - 1);
+      uv.insert(uv.end(), {u, v});
+      const auto add = [&](std::vector<double> &to, double x) {
+        to.insert(to.end(), {x, v, 0.3 * std::sin(1.7 * x) * (1 + v)});
+      };
+      add(low, u);
+      add(high, 1 + u);
+    }
+  }
+  planish_tensor_options options = tensor_options();
+  options.tolerance = 1e-4;
+  options.buffer = 0;
+  planish_surface *handle = nullptr;
+  CHECK(planish_tensor_fit_points(uv.data(), low.data(), side * side, 3, &options, &handle, nullptr) ==
+        PLANISH_STATUS_OK);
+  const Surface first(handle);
+  options.neighbour_u_low = first.get();
+  planish_fit_report report = fresh<planish_fit_report>();
+  CHECK(planish_tensor_fit_points(uv.data(), high.data(), side * side, 3, &options, &handle, &report) ==
+        PLANISH_STATUS_OK);
+  const Surface second(handle);
+  CHECK(report.max_side_error <= 1e-12 * report.diagonal && report.max_side_angle <= 1e-10);
+  const double here[] = {1, 0.37}, there[] = {0, 0.37};
+  double a[9], b[9];
+  CHECK(planish_surface_eval_derivatives(first.get(), here, 1, 1, nullptr, a) == PLANISH_STATUS_OK);
+  CHECK(planish_surface_eval_derivatives(second.get(), there, 1, 1, nullptr, b) == PLANISH_STATUS_OK);
+  for (int k = 0; k < 3; ++k) CHECK_NEAR(a[k], b[k], 1e-12);
+  // the slopes across are parallel
+  CHECK_NEAR(a[3] * b[4] - a[4] * b[3], 0, 1e-10);
+  CHECK_NEAR(a[3] * b[5] - a[5] * b[3], 0, 1e-10);
+
+  planish_surface *surface = sentinel<planish_surface>();
+  options.neighbour_u_high = first.get(); // it lies at the other end
+  CHECK_FAILS(planish_tensor_fit_points(uv.data(), high.data(), side * side, 3, &options, &surface, nullptr),
+              PLANISH_STATUS_INVALID_ARGUMENT, 1599, "the largest u");
+  CHECK(surface == sentinel<planish_surface>());
+}
+
+TEST(Fairness, LowersTheEnergyWithinTheTolerance) {
+  const arrays all = shapes::graph(30, 30, 0.2, 4);
+  const Mesh mesh = make(all, true);
+  planish_tensor_options fitting = tensor_options();
+  fitting.grid_u = fitting.grid_v = 20;
+  fitting.tolerance = 1e-2;
+  const Fit before = fit(mesh.get(), fitting);
+  planish_fair_options options = fresh<planish_fair_options>();
+  CHECK(planish_fair_options_init(&options, sizeof options) == PLANISH_STATUS_OK);
+  options.tolerance = 1e-2;
+  for (const bool has_data : {false, true}) {
+    const std::size_t count = has_data ? all.point_count() : 0;
+    planish_surface *handle = nullptr;
+    planish_fair_report report = fresh<planish_fair_report>();
+    CHECK(planish_surface_fair(before.surface.get(), all.uv.data(), all.points.data(), count, &options, &handle, &report) ==
+          PLANISH_STATUS_OK);
+    const Surface after(handle);
+    CHECK(report.energy_after < report.energy_before && report.energy_after >= 0);
+    CHECK(report.max_deviation <= report.tolerance && report.rms_deviation <= report.max_deviation);
+    CHECK(report.pass_count > 0 && report.smoothing > 0 && report.max_movement > 0);
+    std::vector<double> a(all.points.size()), b(all.points.size());
+    CHECK(planish_surface_eval(before.surface.get(), all.uv.data(), all.point_count(), nullptr, a.data()) ==
+          PLANISH_STATUS_OK);
+    CHECK(planish_surface_eval(after.get(), all.uv.data(), all.point_count(), nullptr, b.data()) == PLANISH_STATUS_OK);
+    for (std::size_t k = 0; k < a.size(); k += 3) {
+      const double moved = std::hypot(a[k] - b[k], a[k + 1] - b[k + 1], a[k + 2] - b[k + 2]);
+      CHECK(moved <= report.max_movement * (1 + 1e-9));
+    }
+  }
+  planish_surface *surface = sentinel<planish_surface>();
+  const auto refuse = [&](planish_status status, long long index, const char *words) {
+    CHECK_FAILS(planish_surface_fair(before.surface.get(), all.uv.data(), all.points.data(), all.point_count(), &options,
+                                     &surface, nullptr),
+                status, index, words);
+    CHECK(surface == sentinel<planish_surface>());
+  };
+  options.tolerance = 0;
+  refuse(PLANISH_STATUS_INVALID_ARGUMENT, -1, "tolerance is 0");
+  options.tolerance = 1e-12;
+  refuse(PLANISH_STATUS_INVALID_ARGUMENT, static_cast<long long>(before.report.worst_index), "more than the tolerance");
+  options.tolerance = 1e-2;
+  options.energy = 2;
+  refuse(PLANISH_STATUS_INVALID_ARGUMENT, -1, "energy is 2");
+  options.energy = PLANISH_FAIRNESS_CURVATURE_VARIATION;
+  options.border = 3;
+  refuse(PLANISH_STATUS_INVALID_ARGUMENT, -1, "border is 3");
+  options.border = PLANISH_KEPT_BORDER_TANGENT;
+  const double outside[] = {7, 0};
+  CHECK_FAILS(planish_surface_fair(before.surface.get(), outside, all.points.data(), 1, &options, &surface, nullptr),
+              PLANISH_STATUS_OUTSIDE, 0, "outside");
+  CHECK_FAILS(planish_surface_fair(nullptr, nullptr, nullptr, 0, nullptr, &surface, nullptr), PLANISH_STATUS_NULL_POINTER,
+              -1, "surface");
+  CHECK_FAILS(planish_surface_fair(before.surface.get(), nullptr, nullptr, 0, nullptr, nullptr, nullptr),
+              PLANISH_STATUS_NULL_POINTER, -1, "out_surface");
 }
 
 // Everything that a fit hands out but its seconds.

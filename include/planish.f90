@@ -186,6 +186,7 @@ module planish_types
     procedure :: tessellate => surface_tessellate
     procedure :: project => surface_project
     procedure :: deviation => surface_deviation
+    procedure :: fair => surface_fair
     procedure :: write_vtk => surface_write_vtk
     procedure :: write_step => surface_write_step
     procedure :: write_report => surface_write_report
@@ -2002,6 +2003,41 @@ contains
       call_options%out_flags = c_loc(flags)
     end if
     call conclude(c_surface_project(self%get(), points, count, call_options, uv, distances), stat, errmsg)
+  end subroutine
+
+  !> Makes a surface of less energy that stays within a tolerance of this one, or of values(dim,n) at uv(2,n).
+  subroutine surface_fair(self, faired, options, uv, values, report, progress, stat, errmsg)
+    class(planish_surface_t), intent(in) :: self
+    class(planish_surface_t), intent(inout) :: faired
+    type(planish_fair_options), intent(in), optional :: options
+    real(c_double), intent(in), optional, contiguous :: uv(:, :), values(:, :)
+    type(planish_fair_report), intent(inout), optional :: report
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_fair_options) :: call_options
+    type(listener), target :: user
+    type(c_ptr) :: handle
+    integer(c_size_t) :: count
+    integer(c_int) :: status
+    if (present(options)) call_options = options
+    count = 0
+    if (present(uv)) then
+      count = size(uv, 2, c_size_t)
+      if (refuse_extent(size(uv, 1, c_size_t), 2_c_size_t, "the first extent of uv", stat, errmsg)) return
+    end if
+    if (present(values)) then
+      if (refuse_dim(size(values, 1, c_size_t), self%dim(), "values", stat, errmsg)) return
+      if (refuse_extent(size(values, 2, c_size_t), count, "the number of values", stat, errmsg)) return
+    end if
+    if (present(progress)) then
+      user%hear => progress
+      call_options%progress = c_funloc(relay)
+      call_options%user = c_loc(user)
+    end if
+    status = c_surface_fair(self%get(), uv, values, count, call_options, handle, report)
+    if (status >= 0) call faired%take(handle)
+    call conclude(status, stat, errmsg)
   end subroutine
 
   !> Measures how far the nodes of a mesh lie from the surface. worst_index of the report counts from 1.

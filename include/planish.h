@@ -529,6 +529,25 @@ typedef enum planish_flag {
 } planish_flag;
 
 /**
+ * Whether the fit of a mesh's shape is its own mirror image.
+ */
+typedef enum planish_symmetry {
+    /**
+     * As it comes.
+     */
+    PLANISH_SYMMETRY_NONE = 0,
+    /**
+     * About a plane that is given. The mesh must be its own image within the tolerance, and the plane must cut it into
+     * two halves along one line from border to border.
+     */
+    PLANISH_SYMMETRY_ABOUT = 1,
+    /**
+     * About the plane for which the mesh is nearest to its image.
+     */
+    PLANISH_SYMMETRY_FOUND = 2,
+} planish_symmetry;
+
+/**
  * A parameter direction.
  */
 typedef enum planish_axis {
@@ -671,6 +690,38 @@ typedef enum planish_row_source {
      */
     PLANISH_ROW_SOURCE_NODE = 1,
 } planish_row_source;
+
+/**
+ * Which energy of a surface is lowered.
+ */
+typedef enum planish_fairness {
+    /**
+     * Bending: flat is best.
+     */
+    PLANISH_FAIRNESS_THIN_PLATE = 0,
+    /**
+     * Change of bending: round is as good as flat. For surfaces of continuous curvature: no PHT-splines.
+     */
+    PLANISH_FAIRNESS_CURVATURE_VARIATION = 1,
+} planish_fairness;
+
+/**
+ * What of the border of a surface's domain stays as it is.
+ */
+typedef enum planish_kept_border {
+    /**
+     * Nothing.
+     */
+    PLANISH_KEPT_BORDER_NONE = 0,
+    /**
+     * Its place.
+     */
+    PLANISH_KEPT_BORDER_POSITION = 1,
+    /**
+     * Its place and its tangent planes.
+     */
+    PLANISH_KEPT_BORDER_TANGENT = 2,
+} planish_kept_border;
 
 /**
  * What a VTK file holds of a surface.
@@ -1993,9 +2044,86 @@ typedef struct planish_tensor_options {
      */
     uint32_t missing;
     /**
-     * 0.
+     * A planish_symmetry, for the shape of a mesh over adaptive knots. Default PLANISH_SYMMETRY_NONE.
      */
-    uint32_t reserved;
+    uint32_t symmetry;
+    /**
+     * A tolerance for each datum in tolerance_scale, positive, in place of tolerance; infinity leaves the datum
+     * out: it is not fitted, and its error does not count. NULL (default): tolerance for all.
+     * Array: [data].
+     */
+    const double *tolerances;
+    /**
+     * Numbers of data that the surface passes through, to 1e-12 of the diagonal of the data's box, by linear
+     * conditions on its coefficients. Default NULL.
+     * Array: [fixed_count].
+     */
+    const uint32_t *fixed;
+    /**
+     * Receives 1 for each datum that was taken for a gross error and left out, else 0; NULL (default) for no such
+     * list. Written on success only.
+     * Array: [data].
+     */
+    uint8_t *out_left_out;
+    /**
+     * The largest share of the data that may be gross errors, at most 0.25: those that stand out most from their
+     * neighbours are left out of the fit. 0 (default) for none.
+     */
+    double outlier_share;
+    /**
+     * A gross error misses the surface of the other data by more than this, in tolerance_scale: such data are
+     * left out. 0 (default) for none; not together with outlier_share.
+     */
+    double outlier_scale;
+    /**
+     * Numbers in fixed. Default 0.
+     */
+    size_t fixed_count;
+    /**
+     * A place in the plane of symmetry and a normal of it, for PLANISH_SYMMETRY_ABOUT; else NULL (default).
+     * Array: [6].
+     */
+    const double *plane;
+    /**
+     * Receives a place in the plane of symmetry and its unit normal, if symmetry was asked for; NULL (default) for
+     * nobody. Written on success only.
+     * Array: [6].
+     */
+    double *out_plane;
+    /**
+     * The curve that the side at the least u is, exactly; NULL (default) for a free side. A clamped curve of degree 3 at most, without knots of more than one inside; with
+     * sides that are given knots are adaptive and there is no buffer.
+     */
+    const struct planish_curve *curve_u_low;
+    /**
+     * The curve that the side at the largest u is, exactly; NULL (default) for a free side. As curve_u_low.
+     */
+    const struct planish_curve *curve_u_high;
+    /**
+     * The curve that the side at the least v is, exactly; NULL (default) for a free side. As curve_u_low.
+     */
+    const struct planish_curve *curve_v_low;
+    /**
+     * The curve that the side at the largest v is, exactly; NULL (default) for a free side. As curve_u_low.
+     */
+    const struct planish_curve *curve_v_high;
+    /**
+     * The tensor surface beyond the side at the least u; NULL (default) for none. Bicubic, clamped, without weights: the side takes over
+     * its side that lies nearest to the data, and its tangent planes there.
+     */
+    const struct planish_surface *neighbour_u_low;
+    /**
+     * The tensor surface beyond the side at the largest u; NULL (default) for none. As neighbour_u_low.
+     */
+    const struct planish_surface *neighbour_u_high;
+    /**
+     * The tensor surface beyond the side at the least v; NULL (default) for none. As neighbour_u_low.
+     */
+    const struct planish_surface *neighbour_v_low;
+    /**
+     * The tensor surface beyond the side at the largest v; NULL (default) for none. As neighbour_u_low.
+     */
+    const struct planish_surface *neighbour_v_high;
 } planish_tensor_options;
 
 /**
@@ -2110,6 +2238,31 @@ typedef struct planish_fit_report {
      * 0.
      */
     uint32_t reserved;
+    /**
+     * Largest error of a fixed datum; 0 without any.
+     */
+    double max_fixed_error;
+    /**
+     * Largest error of the other data as a share of the tolerance of its own: at most 1 where all are met.
+     */
+    double max_tolerance_share;
+    /**
+     * Data that were taken for gross errors and left out.
+     */
+    size_t left_out_count;
+    /**
+     * Largest distance of the mirror image of a node to the mesh, if symmetry was asked for; else 0.
+     */
+    double mirror_distance;
+    /**
+     * Largest distance of the surface to the curves of sides that were given; 0 without any.
+     */
+    double max_side_error;
+    /**
+     * Largest angle between the tangent planes of the surface and those of its neighbours along such sides, in
+     * radians.
+     */
+    double max_side_angle;
 } planish_fit_report;
 
 /**
@@ -2820,6 +2973,107 @@ typedef struct planish_sample_rows_options {
      */
     uint32_t end;
 } planish_sample_rows_options;
+
+/**
+ * How a surface is made fair. Fill with planish_fair_options_init(), then change what you need.
+ */
+typedef struct planish_fair_options {
+    /**
+     * Set by planish_fair_options_init().
+     */
+    size_t struct_size;
+    /**
+     * How far the surface may come to lie from itself, or from the data, positive, measured in tolerance_scale.
+     * Default 1e-3.
+     */
+    double tolerance;
+    /**
+     * Hears of the progress and may cancel; NULL (default) for nobody.
+     */
+    planish_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *user;
+    /**
+     * Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+     */
+    const volatile int32_t *cancel;
+    /**
+     * Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+     * Array: [1].
+     */
+    uint32_t *out_stage;
+    /**
+     * A planish_tolerance_scale; relative is to the diagonal of the box of the control points, or of the data.
+     * Default PLANISH_TOLERANCE_SCALE_RELATIVE.
+     */
+    uint32_t tolerance_scale;
+    /**
+     * A planish_fairness. Default PLANISH_FAIRNESS_THIN_PLATE.
+     */
+    uint32_t energy;
+    /**
+     * A planish_kept_border. Default PLANISH_KEPT_BORDER_NONE.
+     */
+    uint32_t border;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} planish_fair_options;
+
+/**
+ * What fairing did. Set struct_size to sizeof(planish_fair_report) before the call; the report is filled as far as
+ * that goes, on success only. Lengths are in model units.
+ */
+typedef struct planish_fair_report {
+    /**
+     * sizeof(planish_fair_report) as the caller sees it.
+     */
+    size_t struct_size;
+    /**
+     * Energy before: the integral over the surface, in its own parameters, which count as much as their lines are
+     * long on the average.
+     */
+    double energy_before;
+    /**
+     * Energy after; never more.
+     */
+    double energy_after;
+    /**
+     * Largest distance to the reference at equal (u,v): of data an error, of the surface itself a proven bound.
+     */
+    double max_deviation;
+    /**
+     * Root mean square of the errors of the data; without data, of the bounds of the cells.
+     */
+    double rms_deviation;
+    /**
+     * No place of the surface moved by more.
+     */
+    double max_movement;
+    /**
+     * The tolerance.
+     */
+    double tolerance;
+    /**
+     * What a relative tolerance is measured in.
+     */
+    double diagonal;
+    /**
+     * The weight of the energy against the square of distances; 0 if nothing was gained.
+     */
+    double smoothing;
+    /**
+     * Wall time in seconds.
+     */
+    double seconds;
+    /**
+     * Systems solved.
+     */
+    size_t pass_count;
+} planish_fair_report;
 
 /**
  * What a VTK file shows. Fill with planish_vtk_options_init(), then change what you need.
@@ -3942,9 +4196,9 @@ typedef struct planish_pht_options {
      */
     uint32_t thread_count;
     /**
-     * 0.
+     * A planish_symmetry, for the shape of a mesh. Default PLANISH_SYMMETRY_NONE.
      */
-    uint32_t reserved;
+    uint32_t symmetry;
     /**
      * A planish_missing: what values of points and fields mean that are NaN. Default PLANISH_MISSING_REFUSED. Not
      * used for the shape of a mesh.
@@ -3954,6 +4208,49 @@ typedef struct planish_pht_options {
      * 0.
      */
     uint32_t reserved_end;
+    /**
+     * A tolerance for each datum in tolerance_scale, positive, in place of tolerance; infinity leaves the datum
+     * out: it is not fitted, and its error does not count. NULL (default): tolerance for all.
+     * Array: [data].
+     */
+    const double *tolerances;
+    /**
+     * Numbers of data that the surface passes through, to 1e-12 of the diagonal of the data's box, by linear
+     * conditions on its coefficients. Default NULL.
+     * Array: [fixed_count].
+     */
+    const uint32_t *fixed;
+    /**
+     * Receives 1 for each datum that was taken for a gross error and left out, else 0; NULL (default) for no such
+     * list. Written on success only.
+     * Array: [data].
+     */
+    uint8_t *out_left_out;
+    /**
+     * The largest share of the data that may be gross errors, at most 0.25: those that stand out most from their
+     * neighbours are left out of the fit. 0 (default) for none.
+     */
+    double outlier_share;
+    /**
+     * A gross error misses the surface of the other data by more than this, in tolerance_scale: such data are
+     * left out. 0 (default) for none; not together with outlier_share.
+     */
+    double outlier_scale;
+    /**
+     * Numbers in fixed. Default 0.
+     */
+    size_t fixed_count;
+    /**
+     * A place in the plane of symmetry and a normal of it, for PLANISH_SYMMETRY_ABOUT; else NULL (default).
+     * Array: [6].
+     */
+    const double *plane;
+    /**
+     * Receives a place in the plane of symmetry and its unit normal, if symmetry was asked for; NULL (default) for
+     * nobody. Written on success only.
+     * Array: [6].
+     */
+    double *out_plane;
 } planish_pht_options;
 
 /**
@@ -5328,8 +5625,10 @@ enum planish_status planish_tensor_options_init(struct planish_tensor_options *o
  * out_report:  receives what the fit did and how good it is; NULL for no report.
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_FOLDED_PARAMETERS, PLANISH_STATUS_TOLERANCE_NOT_MET,
  * PLANISH_STATUS_STAGNATED (all three with the best surface found) or an error: PLANISH_STATUS_NULL_POINTER,
- * PLANISH_STATUS_INVALID_ARGUMENT (an option, or fewer than 3 data), PLANISH_STATUS_NOT_FINITE (a weight; the
- * index is the datum), PLANISH_STATUS_DEGENERATE (all data have the same u or the same v),
+ * PLANISH_STATUS_INVALID_ARGUMENT (an option, or fewer than 3 data; fixed data or sides that contradict each other; a side
+ * that is not where the data are; a mesh that is not symmetric), PLANISH_STATUS_INDEX (a fixed datum that does not
+ * exist), PLANISH_STATUS_NOT_FINITE (a weight or a tolerance; the index is the datum), PLANISH_STATUS_TOPOLOGY (a plane
+ * of symmetry that does not cut the mesh in two), PLANISH_STATUS_DEGENERATE (all data have the same u or the same v),
  * PLANISH_STATUS_SINGULAR (the data do not determine a surface), PLANISH_STATUS_VERSION or
  * PLANISH_STATUS_CANCELLED; for a mesh without parameters also what planish_mesh_parameterize() returns.
  */
@@ -6217,6 +6516,46 @@ enum planish_status planish_surface_area(const struct planish_surface *surface,
 PLANISH_API
 uint32_t planish_surface_is_closed(const struct planish_surface *surface,
                                    uint32_t axis);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_fair_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+ */
+PLANISH_API
+enum planish_status planish_fair_options_init(struct planish_fair_options *options,
+                                              size_t struct_size);
+
+/**
+ * Makes a surface of less energy that stays within a tolerance of the surface, or of data: of the same family, over the
+ * same knots or cells, with the same trims. For tensor surfaces and PHT-splines without weights.
+ *
+ * surface:     not NULL; stays as it is.
+ * uv:          count rows of u, v in the domain, at which the surface is to stay near the data; NULL for no data: near
+ *              itself.
+ * values:      count rows of planish_surface_dim() numbers; NULL for no data.
+ * count:       number of data; 0 for none.
+ * options:     NULL for the defaults.
+ * out_surface: receives a new surface; destroy with planish_surface_free().
+ * out_report:  receives what was done; NULL for no report.
+ * Arrays: uv[count, 2], values[count, surface_dim].
+ * Returns PLANISH_STATUS_OK or an error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option; the
+ * surface misses a datum by more than the tolerance, which is the index; or curvature jumps and its variation was
+ * asked for), PLANISH_STATUS_NOT_FINITE (uv or values; the index is the datum), PLANISH_STATUS_OUTSIDE (the datum is
+ * the index), PLANISH_STATUS_WRONG_KIND (the family, or weights), PLANISH_STATUS_SINGULAR, PLANISH_STATUS_TOO_LARGE,
+ * PLANISH_STATUS_OUT_OF_MEMORY, PLANISH_STATUS_VERSION or PLANISH_STATUS_CANCELLED.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_fair(const struct planish_surface *surface,
+                                         const double *uv,
+                                         const double *values,
+                                         size_t count,
+                                         const struct planish_fair_options *options,
+                                         struct planish_surface **out_surface,
+                                         struct planish_fair_report *out_report);
 
 /**
  * The name of a surface, which copies, parts and saved files have too and STEP files take for the product's. A surface is
@@ -7502,8 +7841,10 @@ enum planish_status planish_pht_options_init(struct planish_pht_options *options
  * out_report:  receives what the fit did and how good it is; NULL for no report.
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_FOLDED_PARAMETERS, PLANISH_STATUS_TOLERANCE_NOT_MET,
  * PLANISH_STATUS_STAGNATED (all three with the best surface found) or an error: PLANISH_STATUS_NULL_POINTER,
- * PLANISH_STATUS_INVALID_ARGUMENT (an option, or fewer than 3 data), PLANISH_STATUS_NOT_FINITE (a weight; the
- * index is the datum), PLANISH_STATUS_DEGENERATE (all data have the same u or the same v),
+ * PLANISH_STATUS_INVALID_ARGUMENT (an option, or fewer than 3 data; fixed data that contradict each other; a mesh that
+ * is not symmetric), PLANISH_STATUS_INDEX (a fixed datum that does not exist), PLANISH_STATUS_NOT_FINITE (a weight or a
+ * tolerance; the index is the datum), PLANISH_STATUS_TOPOLOGY (a plane of symmetry that does not cut the mesh in two),
+ * PLANISH_STATUS_DEGENERATE (all data have the same u or the same v),
  * PLANISH_STATUS_SINGULAR (the data do not determine a surface), PLANISH_STATUS_VERSION or
  * PLANISH_STATUS_CANCELLED; for a mesh without parameters also what planish_mesh_parameterize() returns.
  */

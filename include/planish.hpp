@@ -151,6 +151,9 @@ inline planish_status init(planish_decimate_options &options) {
 inline planish_status init(planish_tensor_options &options) {
   return planish_tensor_options_init(&options, sizeof options);
 }
+inline planish_status init(planish_fair_options &options) {
+  return planish_fair_options_init(&options, sizeof options);
+}
 inline planish_status init(planish_sample_rows_options &options) {
   return planish_sample_rows_options_init(&options, sizeof options);
 }
@@ -1548,6 +1551,31 @@ inline fitted tensor_fit_field(const mesh &mesh, const values<double> &values, s
   return detail::fit(options, hear, [&](const planish_tensor_options *given, auto out, auto report) {
     return planish_tensor_fit_field(mesh.get(), values.data(), count, dim, given, out, report);
   });
+}
+
+/// What came of fairing.
+struct faired {
+  /// The surface of less energy.
+  planish::surface surface;
+  /// What was done.
+  planish_fair_report report;
+};
+
+/// Lowers the energy of a surface within a tolerance of it, or of rows of data at places in its domain.
+inline faired fair(const surface &surface, const planish_fair_options &given = defaults<planish_fair_options>(),
+                   const rows<double, 2> &uv = rows<double, 2>(nullptr, 0),
+                   const values<double> &values = planish::values<double>(nullptr, 0), const progress &hear = {}) {
+  detail::check_rows(values.count(), uv.count(), surface.dim());
+  planish_fair_options options = given;
+  detail::listener listener(hear);
+  listener.attach(options);
+  auto report = detail::sized<planish_fair_report>();
+  planish_surface *made = nullptr;
+  const planish_status status =
+      planish_surface_fair(surface.get(), uv.data(), values.data(), uv.count(), &options, &made, &report);
+  planish::surface owner(made); // freed even if the callback's last call has thrown
+  listener.checked(status);
+  return {std::move(owner), report};
 }
 
 /// Fits a D1RC-spline to the shape of a mesh: a triangular control mesh, sharp edges kept. A mesh without parameters

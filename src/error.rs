@@ -11,6 +11,7 @@ use crate::failure::{Classify, ErrorKind};
 use crate::fit::common::FitError;
 use crate::fit::conversion::ConversionError;
 use crate::fit::d1rc::D1rcFitError;
+use crate::fit::fair::FairError;
 use crate::fit::field::FieldError;
 use crate::fit::field::transfer::TransferError;
 use crate::fit::model::ModelFitError;
@@ -73,6 +74,8 @@ union! {
     Sphere(SphereError),
     /// A fit is not possible.
     Fit(FitError),
+    /// A surface cannot be faired.
+    Fair(FairError),
     /// A mesh does not become a model.
     ModelFit(ModelFitError),
     /// Patches make no smooth model.

@@ -359,6 +359,19 @@ pub fn ridged_sheet(seed: u64) -> Result<Mesh, MeshError> {
     mesh_over(grid([200, 200], 0.3, seed, |_| true), |uv| (surface(uv), uv))
 }
 
+/// A wavy sheet of 3,600 nodes with parameters, each node off by up to 0.002 in every direction.
+pub fn noisy_sheet(seed: u64) -> Result<Mesh, MeshError> {
+    let mut random = Random::new(seed);
+    let mut error = move || 0.002 * random.signed();
+    let sheet = |uv: DVec2| DVec3::new(2.0 * uv.x, uv.y, 0.2 * (3.0 * uv.x).sin() * (2.0 * uv.y + 0.4).cos());
+    let (places, triangles) = grid([60, 60], 0.3, seed, |_| true);
+    let errors: Vec<DVec3> = places.iter().map(|_| DVec3::new(error(), error(), error())).collect();
+    let points = places.iter().zip(errors).map(|(&uv, error)| sheet(uv) + error).collect();
+    let mut mesh = Mesh::new(points, triangles)?;
+    mesh.set_parameters(places)?;
+    Ok(mesh)
+}
+
 /// A coarse plane control mesh with one node raised in its middle: its surface is that node's blending function.
 pub fn hat(seed: u64) -> Result<Mesh, MeshError> {
     const COUNT: usize = 11;
@@ -401,6 +414,7 @@ mod tests {
             (sphere_with_holes(5000, 5), 3, 5000..5500),
             (fuselage_panel(1), 3, 5000..6600),
             (ridged_sheet(1), 0, 40_000..40_001),
+            (noisy_sheet(1), 0, 3600..3601),
             (hat(1), 0, 121..122),
             (roof(1), 0, 143..144),
             (cylinder_patch(4321, 1), 0, 4321..4322),

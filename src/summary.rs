@@ -7,6 +7,8 @@ pub struct DataErrors {
     pub each: Vec<f64>,
     /// The largest; 0 without data.
     pub max: f64,
+    /// The largest measured by what each datum demands: [`DataErrors::max`] where all demand alike.
+    pub demand: f64,
     /// Square root of the mean square.
     pub rms: f64,
     /// The mean.
@@ -26,7 +28,14 @@ pub fn summarize(each: Vec<f64>) -> DataErrors {
     let scale = if max > 0.0 { max } else { 1.0 };
     let squares: f64 = each.iter().map(|e| (e / scale) * (e / scale)).sum();
     let sum: f64 = each.iter().sum();
-    DataErrors { rms: scale * (squares / count).sqrt(), mean: sum / count, max, worst_index, each }
+    DataErrors {
+        rms: scale * (squares / count).sqrt(),
+        mean: sum / count,
+        max,
+        demand: max,
+        worst_index,
+        each,
+    }
 }
 
 /// How large numbers are without their signs, the least first; what is no number is left out.

@@ -23,7 +23,7 @@ contains
 end module
 
 program test_calls
-  use, intrinsic :: iso_c_binding, only: c_size_t
+  use, intrinsic :: iso_c_binding, only: c_loc, c_size_t
   use, intrinsic :: iso_fortran_env, only: real64, int8, int32
   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_value, ieee_positive_inf
   use planish
@@ -52,6 +52,7 @@ program test_calls
   call shapes_are_fitted()
   call scattered_points_are_fitted()
   call fields_are_fitted()
+  call single_points_are_obeyed()
   call fits_are_heard_and_cancelled()
   call tensor_surfaces_have_parts()
   call values_come_in_columns()
@@ -327,6 +328,51 @@ contains
     call check(maxval(abs(values - field)) <= report%max_error + roundoff, "a field of numbers")
     call surface%eval(uv, rows)
     call check(all(rows(1, :) == values), "numbers or rows of one")
+  end subroutine
+
+  subroutine single_points_are_obeyed()
+    type(planish_surface_t) :: surface, fair
+    type(planish_tensor_options) :: options
+    type(planish_fair_options) :: fairness
+    type(planish_fit_report) :: report
+    type(planish_fair_report) :: faired
+    real(real64) :: uv(2, 400), values(400)
+    real(real64), target :: tolerances(400)
+    integer(int32), target :: fixed(2)
+    integer(int8), target :: left_out(400)
+    integer :: i, stat
+    character(100) :: errmsg
+    do i = 1, 400
+      uv(:, i) = [mod(i - 1, 20), (i - 1) / 20] / 19.0_real64
+    end do
+    values = sin(3 * uv(1, :)) * uv(2, :)
+    values(150) = values(150) + 1
+    tolerances = 1e-2_real64
+    fixed = [0, 399] ! as in C, numbers in options count from 0
+    left_out = 9_int8
+    options%tolerance_scale = PLANISH_TOLERANCE_SCALE_ABSOLUTE
+    options%fixed = c_loc(fixed)
+    options%fixed_count = 2_c_size_t
+    options%tolerances = c_loc(tolerances)
+    options%out_left_out = c_loc(left_out)
+    options%outlier_scale = 0.2_real64
+    call planish_tensor_fit_points(uv, values, surface, options, report)
+    call check(report%max_fixed_error <= 1e-12_real64 .and. report%max_tolerance_share <= 1, "demands are met")
+    call check(report%left_out_count == 1 .and. left_out(150) == 1 .and. sum(int(left_out)) == 1, "left out")
+    fixed(2) = 400
+    call planish_tensor_fit_points(uv, values, surface, options, report, stat=stat, errmsg=errmsg)
+    call check_fails(stat, errmsg, PLANISH_STATUS_INDEX, "datum 400")
+    fairness%tolerance = 1e-2_real64
+    fairness%tolerance_scale = PLANISH_TOLERANCE_SCALE_ABSOLUTE
+    fairness%border = PLANISH_KEPT_BORDER_POSITION
+    call surface%fair(fair, fairness, report=faired)
+    call check(faired%energy_after < faired%energy_before .and. faired%max_movement <= 1e-2_real64, "fair")
+    values(150) = values(150) - 1
+    fairness%tolerance = 2e-2_real64
+    call surface%fair(fair, fairness, uv, reshape(values, [1, 400]), faired)
+    call check(faired%max_deviation <= 2e-2_real64, "fair near data")
+    call surface%fair(fair, fairness, uv, reshape(values, [1, 399]), stat=stat, errmsg=errmsg)
+    call check_fails(stat, errmsg, PLANISH_STATUS_INVALID_ARGUMENT, "the number of values")
   end subroutine
 
   subroutine fits_are_heard_and_cancelled()

@@ -134,6 +134,11 @@ ENUMERATIONS = {
         "no_normal": 8,
         "not_proven": 16,
     },
+    "planish_symmetry": {
+        "none": 0,
+        "about": 1,
+        "found": 2,
+    },
     "planish_axis": {
         "u": 0,
         "v": 1,
@@ -174,6 +179,15 @@ ENUMERATIONS = {
     "planish_row_source": {
         "loop": 0,
         "node": 1,
+    },
+    "planish_fairness": {
+        "thin_plate": 0,
+        "curvature_variation": 1,
+    },
+    "planish_kept_border": {
+        "none": 0,
+        "position": 1,
+        "tangent": 2,
     },
     "planish_vtk_content": {
         "triangles": 0,
@@ -594,6 +608,12 @@ class planish_fit_report(Structure):
         ("rough_cell_count", c_size_t),
         ("deepest_level", c_uint32),
         ("reserved", c_uint32),
+        ("max_fixed_error", c_double),
+        ("max_tolerance_share", c_double),
+        ("left_out_count", c_size_t),
+        ("mirror_distance", c_double),
+        ("max_side_error", c_double),
+        ("max_side_angle", c_double),
     ]
     choices = {
         "stop_reason": "planish_stop_reason",
@@ -690,7 +710,23 @@ class planish_tensor_options(Structure):
         ("thread_count", c_uint32),
         ("knots", c_uint32),
         ("missing", c_uint32),
-        ("reserved", c_uint32),
+        ("symmetry", c_uint32),
+        ("tolerances", c_void_p),
+        ("fixed", c_void_p),
+        ("out_left_out", c_void_p),
+        ("outlier_share", c_double),
+        ("outlier_scale", c_double),
+        ("fixed_count", c_size_t),
+        ("plane", c_void_p),
+        ("out_plane", c_void_p),
+        ("curve_u_low", c_void_p),
+        ("curve_u_high", c_void_p),
+        ("curve_v_low", c_void_p),
+        ("curve_v_high", c_void_p),
+        ("neighbour_u_low", c_void_p),
+        ("neighbour_u_high", c_void_p),
+        ("neighbour_v_low", c_void_p),
+        ("neighbour_v_high", c_void_p),
     ]
     choices = {
         "out_stage": "planish_stage",
@@ -701,18 +737,29 @@ class planish_tensor_options(Structure):
         "regularize": "planish_regularize",
         "knots": "planish_knots",
         "missing": "planish_missing",
+        "symmetry": "planish_symmetry",
     }
     elements = {
         "weights": c_double,
         "out_stage": c_uint32,
         "out_parameters": c_double,
         "out_errors": c_double,
+        "tolerances": c_double,
+        "fixed": c_uint32,
+        "out_left_out": c_uint8,
+        "plane": c_double,
+        "out_plane": c_double,
     }
     arrays = {
         "weights": ("data",),
         "out_stage": ("1",),
         "out_parameters": ("data", "2",),
         "out_errors": ("data",),
+        "tolerances": ("data",),
+        "fixed": ("fixed_count",),
+        "out_left_out": ("data",),
+        "plane": ("6",),
+        "out_plane": ("6",),
     }
 
 
@@ -1016,6 +1063,49 @@ class planish_sample_rows_options(Structure):
     arrays = {
         "out_stage": ("1",),
     }
+
+
+class planish_fair_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("tolerance", c_double),
+        ("progress", planish_progress),
+        ("user", c_void_p),
+        ("cancel", c_void_p),
+        ("out_stage", c_void_p),
+        ("tolerance_scale", c_uint32),
+        ("energy", c_uint32),
+        ("border", c_uint32),
+        ("reserved", c_uint32),
+    ]
+    choices = {
+        "out_stage": "planish_stage",
+        "tolerance_scale": "planish_tolerance_scale",
+        "energy": "planish_fairness",
+        "border": "planish_kept_border",
+    }
+    elements = {
+        "out_stage": c_uint32,
+    }
+    arrays = {
+        "out_stage": ("1",),
+    }
+
+
+class planish_fair_report(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("energy_before", c_double),
+        ("energy_after", c_double),
+        ("max_deviation", c_double),
+        ("rms_deviation", c_double),
+        ("max_movement", c_double),
+        ("tolerance", c_double),
+        ("diagonal", c_double),
+        ("smoothing", c_double),
+        ("seconds", c_double),
+        ("pass_count", c_size_t),
+    ]
 
 
 class planish_vtk_options(Structure):
@@ -1452,15 +1542,24 @@ class planish_pht_options(Structure):
         ("correction_sweeps", c_uint32),
         ("measure_distance", c_uint32),
         ("thread_count", c_uint32),
-        ("reserved", c_uint32),
+        ("symmetry", c_uint32),
         ("missing", c_uint32),
         ("reserved_end", c_uint32),
+        ("tolerances", c_void_p),
+        ("fixed", c_void_p),
+        ("out_left_out", c_void_p),
+        ("outlier_share", c_double),
+        ("outlier_scale", c_double),
+        ("fixed_count", c_size_t),
+        ("plane", c_void_p),
+        ("out_plane", c_void_p),
     ]
     choices = {
         "out_stage": "planish_stage",
         "tolerance_scale": "planish_tolerance_scale",
         "estimator": "planish_pht_estimator",
         "regularize": "planish_regularize",
+        "symmetry": "planish_symmetry",
         "missing": "planish_missing",
     }
     elements = {
@@ -1468,12 +1567,22 @@ class planish_pht_options(Structure):
         "out_stage": c_uint32,
         "out_parameters": c_double,
         "out_errors": c_double,
+        "tolerances": c_double,
+        "fixed": c_uint32,
+        "out_left_out": c_uint8,
+        "plane": c_double,
+        "out_plane": c_double,
     }
     arrays = {
         "weights": ("data",),
         "out_stage": ("1",),
         "out_parameters": ("data", "2",),
         "out_errors": ("data",),
+        "tolerances": ("data",),
+        "fixed": ("fixed_count",),
+        "out_left_out": ("data",),
+        "plane": ("6",),
+        "out_plane": ("6",),
     }
 
 
@@ -1612,11 +1721,11 @@ SIZES = {
     planish_layout_options: 16,
     planish_mesh_layout_options: 56,
     planish_mesh_layout_report: 72,
-    planish_fit_report: 192,
+    planish_fit_report: 240,
     planish_eval_options: 40,
     planish_patch: 72,
     planish_convert_options: 48,
-    planish_tensor_options: 160,
+    planish_tensor_options: 288,
     planish_field_options: 128,
     planish_gradient_options: 24,
     planish_smooth_options: 88,
@@ -1630,6 +1739,8 @@ SIZES = {
     planish_deviation_options: 96,
     planish_deviation_report: 104,
     planish_sample_rows_options: 72,
+    planish_fair_options: 64,
+    planish_fair_report: 88,
     planish_vtk_options: 64,
     planish_step_report: 64,
     planish_step_options: 120,
@@ -1644,7 +1755,7 @@ SIZES = {
     planish_interpolate_options: 24,
     planish_skin_report: 112,
     planish_skin_options: 168,
-    planish_pht_options: 152,
+    planish_pht_options: 216,
     planish_pht_simplify_options: 40,
     planish_pht_convert_options: 64,
     planish_pht_patches_options: 48,
@@ -1793,6 +1904,8 @@ FUNCTIONS = {
     "planish_surface_box": (c_int32, c_void_p, c_void_p),
     "planish_surface_area": (c_int32, c_void_p, c_void_p, c_void_p),
     "planish_surface_is_closed": (c_uint32, c_void_p, c_uint32),
+    "planish_fair_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_surface_fair": (c_int32, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p, c_void_p, c_void_p),
     "planish_surface_name": (c_size_t, c_void_p, c_void_p, c_size_t),
     "planish_surface_set_name": (c_int32, c_void_p, c_char_p),
     "planish_surface_unit": (c_uint32, c_void_p),

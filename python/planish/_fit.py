@@ -13,7 +13,7 @@ from ._calls import LongCall, ProgressCallback
 from ._curve import Curve
 from ._library import OUT, InvalidError, array, made, pointer, read_only
 from ._mesh import Mesh, read_mesh
-from ._records import Report, by_reference, options, report_record
+from ._records import Report, by_reference, option_names, options, report_record
 from ._surface import Surface
 
 _FAMILIES = ("auto", "tensor", "pht", "d1rc")
@@ -35,11 +35,21 @@ def _run(
     report = report_record("fit_report")
     errors, uv = np.empty(count), np.empty((count, 2))
     filled.update(long.fields(record), out_errors=errors, out_parameters=uv)
+    left_out = None
+    if "outlier_share" in option_names(record):
+        filled["out_left_out"] = left_out = np.zeros(count, np.uint8)
+    plane = None
+    if given.get("symmetry"):
+        filled["out_plane"] = plane = np.zeros(6)
     filled.update(tolerance=tolerance, tolerance_scale="absolute" if absolute else "relative")
     options_record = options(record, given, **filled)
     status, handle = made(function, *data, by_reference(options_record), OUT, by_reference(report), run=long)
     surface = Surface._own(handle, Report(report, status))
     surface.report.errors, surface.report.uv = read_only(errors), read_only(uv)
+    if plane is not None:
+        surface.report.plane = (read_only(plane[:3]), read_only(plane[3:]))
+    if left_out is not None:
+        surface.report.left_out = read_only(np.flatnonzero(left_out))
     return surface
 
 
@@ -60,6 +70,12 @@ def fit(
         "auto": "tensor" if it meets the tolerance, else the better of "tensor" and "pht".
     progress: called as ``progress(fraction, error, ...)``; False cancels.
     fit_options: those of the family's record, such as ``smoothing``.
+
+    What single nodes demand: ``fixed`` (numbers of nodes that the surface passes through), ``tolerances`` and ``weights``
+    (one for each node; a tolerance of infinity leaves a node out), ``outlier_share`` or ``outlier_scale`` (gross errors are
+    found and left out; ``surface.report.left_out`` lists them).
+    ``symmetry``: "about" the ``plane`` (a place and a normal, six numbers) or "found" makes the surface its own mirror
+    image; ``surface.report.plane`` is the place and the normal.
 
     A missed tolerance is no exception: ``surface.report.status`` says so, and ``surface.report.errors`` has the error of
     each node. Closed meshes and meshes with handles become solids by `model`.

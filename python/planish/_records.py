@@ -56,6 +56,9 @@ def options(record: str, _given: Mapping[str, Any] | None = None, **values: Any)
                 raise TypeError(f"unknown option {name!r}; there are: {', '.join(known)}")
         for name, value in _given.items():
             _set(filled, kind, name, value)
+            count = f"{name}_count"
+            if count in known and count not in _given and value is not None and not isinstance(value, int):
+                setattr(filled, count, len(value))
     for name, value in values.items():
         _set(filled, kind, name, value)
     return filled

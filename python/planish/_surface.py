@@ -233,6 +233,34 @@ class Surface(Handle):
         )
         return uv, distances
 
+    def fair(
+        self,
+        tolerance: float = 1e-3,
+        *,
+        uv: Any = None,
+        values: Any = None,
+        absolute: bool = False,
+        progress: ProgressCallback | None = None,
+        **fair_options: Any,
+    ) -> Surface:
+        """A surface of less energy within a tolerance of this one, or of values (n, dim) at uv (n, 2).
+
+        ``energy`` is "thin_plate" or "curvature_variation", ``border`` "none", "position" or "tangent".
+        """
+        uv = np.empty((0, 2)) if uv is None else array(uv, width=2, what="uv")
+        values = np.empty((0, self.dim)) if values is None else array(values, what="values")
+        if values.size != len(uv) * self.dim:
+            raise InvalidError(f"values needs {len(uv)} rows of {self.dim}, its shape is {values.shape}")
+        long = LongCall(progress)
+        report = report_record("fair_report")
+        filled = long.fields("fair_options")
+        filled.update(tolerance=tolerance, tolerance_scale="absolute" if absolute else "relative")
+        record = options("fair_options", fair_options, **filled)
+        data = (pointer(uv), pointer(values), len(uv))
+        arguments = (self, *data, by_reference(record), OUT, by_reference(report))
+        status, handle = made("planish_surface_fair", *arguments, run=long)
+        return Surface._own(handle, Report(report, status))
+
     def deviation(
         self, mesh: Mesh, *, progress: ProgressCallback | None = None, **deviation_options: Any
     ) -> tuple[np.ndarray, Report]:

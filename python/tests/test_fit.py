@@ -145,3 +145,59 @@ def test_transfers_conserve_sums(mesh):
     forces = np.random.default_rng(0).random((len(targets), 3))
     nodal = transfer.apply_transpose(forces)
     assert np.abs(nodal.sum(axis=0) - forces.sum(axis=0)).max() <= 1e-12 * len(targets)
+
+
+@pytest.mark.parametrize("family", ["tensor", "pht"])
+def test_single_data_have_demands_of_their_own(family):
+    uv, values = wave(1500)
+    fixed = [3, 700, 41]
+    surface = planish.fit_points(uv, values, 1e-2, family, fixed=fixed)
+    assert surface.report.errors[fixed].max() <= 1e-12 * surface.report.diagonal
+    assert surface.report.max_fixed_error == surface.report.errors[fixed].max()
+    tolerances = np.where(uv[:, 0] < 0.5, 1e-3, np.inf)
+    report = planish.fit_points(uv, values, 1e-2, family, tolerances=tolerances).report
+    assert report.ok and (report.errors[uv[:, 0] < 0.5] <= 1e-3 * report.diagonal).all()
+    spikes = [10, 500, 900]
+    values = values.copy()
+    values[spikes] += 0.7
+    report = planish.fit_points(uv, values, 1e-2, family, outlier_share=0.01).report
+    assert report.ok and report.left_out.tolist() == spikes and report.left_out_count == 3
+
+
+def test_demands_that_cannot_be_met_are_refused():
+    uv, values = wave(100)
+    uv[5] = uv[9]
+    with pytest.raises(planish.InvalidError, match="5 and 9"):
+        planish.fit_points(uv, values, fixed=[9, 5])
+    with pytest.raises(planish.PlanishError, match="there are 100"):
+        planish.fit_points(uv, values, fixed=[100])
+
+
+@pytest.mark.parametrize("family", ["tensor", "pht"])
+def test_symmetric_shapes_give_symmetric_surfaces(family):
+    u, v = np.meshgrid(np.linspace(-1, 1, 26), np.linspace(0, 1, 20), indexing="ij")
+    u = np.sign(u) * np.abs(u) ** 1.2
+    points, triangles = sheet(26, 20)
+    points = np.stack([u, v, 0.2 * np.cos(2 * u) * (1 + v)], axis=-1).reshape(-1, 3)
+    mesh = planish.Mesh(points, triangles)
+    surface = planish.fit(mesh, 3e-3, family, symmetry="about", plane=[0, 0, 0, 1, 0, 0])
+    assert surface.report.ok
+    uv = np.random.default_rng(1).uniform([-1, 0], [1, 1], (200, 2))
+    own, image = surface.eval(uv), surface.eval(uv * [-1, 1])
+    assert np.abs(own - image * [-1, 1, 1]).max() <= 1e-13
+    found = planish.fit(mesh, 3e-3, family, symmetry="found").report
+    assert np.abs(np.abs(found.plane[1]) - [1, 0, 0]).max() < 1e-2
+    with pytest.raises(planish.InvalidError, match="not symmetric"):
+        planish.fit(mesh, 1e-3, family, symmetry="about", plane=[0, 0.5, 0, 1, 1, 0])
+
+
+def test_noise_is_made_fair():
+    uv, values = wave(3000)
+    noisy = values + np.random.default_rng(2).uniform(-0.01, 0.01, values.shape)
+    rough = planish.fit_points(uv, noisy, 0.03, absolute=True, grid_u=24, grid_v=24, smoothing=1e-9)
+    fair = rough.fair(0.03, uv=uv, values=noisy, absolute=True)
+    assert fair.report.energy_after < 0.1 * fair.report.energy_before and fair.report.max_deviation <= 0.03
+    near = rough.fair(0.01, absolute=True, energy="curvature_variation", border="position")
+    assert np.abs(near.eval(uv) - rough.eval(uv)).max() <= near.report.max_movement <= 0.01
+    with pytest.raises(planish.InvalidError, match="misses datum"):
+        rough.fair(1e-3, uv=uv, values=noisy, absolute=True)

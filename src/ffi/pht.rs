@@ -4,6 +4,7 @@ use super::arguments::{
     ArgumentError, array_len, choice, copy, copy_rows, deref, deref_mut, flag, options, out, rows_mut, slice,
     slice_mut_or_none, unused,
 };
+use super::demands::{GivenDemands, planish_symmetry};
 use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;
 use super::progress::with_control;
@@ -92,13 +93,40 @@ record! {
         pub measure_distance: u32 = core.measure_distance.into(),
         /// Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
         pub thread_count: u32,
-        /// 0.
-        pub reserved: u32,
+        /// A planish_symmetry, for the shape of a mesh. Default PLANISH_SYMMETRY_NONE.
+        pub symmetry: u32 = planish_symmetry::None as u32,
         /// A planish_missing: what values of points and fields mean that are NaN. Default PLANISH_MISSING_REFUSED. Not
         /// used for the shape of a mesh.
         pub missing: u32,
         /// 0.
         pub reserved_end: u32,
+        /// A tolerance for each datum in tolerance_scale, positive, in place of tolerance; infinity leaves the datum
+        /// out: it is not fitted, and its error does not count. NULL (default): tolerance for all.
+        /// Array: [data].
+        pub tolerances: *const f64,
+        /// Numbers of data that the surface passes through, to 1e-12 of the diagonal of the data's box, by linear
+        /// conditions on its coefficients. Default NULL.
+        /// Array: [fixed_count].
+        pub fixed: *const u32,
+        /// Receives 1 for each datum that was taken for a gross error and left out, else 0; NULL (default) for no such
+        /// list. Written on success only.
+        /// Array: [data].
+        pub out_left_out: *mut u8,
+        /// The largest share of the data that may be gross errors, at most 0.25: those that stand out most from their
+        /// neighbours are left out of the fit. 0 (default) for none.
+        pub outlier_share: f64,
+        /// A gross error misses the surface of the other data by more than this, in tolerance_scale: such data are
+        /// left out. 0 (default) for none; not together with outlier_share.
+        pub outlier_scale: f64,
+        /// Numbers in fixed. Default 0.
+        pub fixed_count: usize,
+        /// A place in the plane of symmetry and a normal of it, for PLANISH_SYMMETRY_ABOUT; else NULL (default).
+        /// Array: [6].
+        pub plane: *const f64,
+        /// Receives a place in the plane of symmetry and its unit normal, if symmetry was asked for; NULL (default) for
+        /// nobody. Written on success only.
+        /// Array: [6].
+        pub out_plane: *mut f64,
     }
 }
 
@@ -112,9 +140,18 @@ impl planish_pht_options {
     /// # Safety
     /// The pointers are NULL or as the header says, for `count` data, until the options are no longer used.
     unsafe fn to_core<'a>(self, count: usize) -> Result<PhtOptions<'a>, ArgumentError> {
-        if let Some(given) = [self.reserved, self.reserved_end].into_iter().find(|&given| given != 0) {
-            return Err(ArgumentError::Reserved { record: "planish_pht_options", given });
+        if self.reserved_end != 0 {
+            return Err(ArgumentError::Reserved { record: "planish_pht_options", given: self.reserved_end });
         }
+        let demands = GivenDemands {
+            tolerances: self.tolerances,
+            fixed: self.fixed,
+            fixed_count: self.fixed_count,
+            outlier_share: self.outlier_share,
+            outlier_scale: self.outlier_scale,
+            symmetry: self.symmetry,
+            plane: self.plane,
+        };
         let scales = [ToleranceScale::Relative, ToleranceScale::Absolute];
         let scale = choice(self.tolerance_scale, &scales, "tolerance_scale")?;
         let parameterize = match self.parameterize {
@@ -150,6 +187,8 @@ impl planish_pht_options {
             weights,
             measure_distance: flag(self.measure_distance, "measure_distance")?,
             missing: missing(self.missing)?,
+            // SAFETY: the caller's promise.
+            demands: unsafe { demands.to_core(count) }?,
         })
     }
 }
@@ -170,6 +209,7 @@ unsafe fn fit(
         let given = self::options(options)?;
         let (parameters, errors) = (given.out_parameters, given.out_errors);
         let outputs = FitOutputs::new((out_surface, "out_surface"), out_report, parameters, errors, count)?;
+        let outputs = outputs.and_left_out(given.out_left_out, count)?.and_plane(given.out_plane)?;
         let options = given.to_core(count)?;
         let fit = with_control(given.thread_count, listener!(given), |control| method(&options, control))??;
         Ok(outputs.store(planish_surface::into_raw(fit.surface), &fit.parameters, &fit.errors, &fit.report))
@@ -186,8 +226,10 @@ unsafe fn fit(
 /// out_report:  receives what the fit did and how good it is; NULL for no report.
 /// Returns PLANISH_STATUS_OK, PLANISH_STATUS_FOLDED_PARAMETERS, PLANISH_STATUS_TOLERANCE_NOT_MET,
 /// PLANISH_STATUS_STAGNATED (all three with the best surface found) or an error: PLANISH_STATUS_NULL_POINTER,
-/// PLANISH_STATUS_INVALID_ARGUMENT (an option, or fewer than 3 data), PLANISH_STATUS_NOT_FINITE (a weight; the
-/// index is the datum), PLANISH_STATUS_DEGENERATE (all data have the same u or the same v),
+/// PLANISH_STATUS_INVALID_ARGUMENT (an option, or fewer than 3 data; fixed data that contradict each other; a mesh that
+/// is not symmetric), PLANISH_STATUS_INDEX (a fixed datum that does not exist), PLANISH_STATUS_NOT_FINITE (a weight or a
+/// tolerance; the index is the datum), PLANISH_STATUS_TOPOLOGY (a plane of symmetry that does not cut the mesh in two),
+/// PLANISH_STATUS_DEGENERATE (all data have the same u or the same v),
 /// PLANISH_STATUS_SINGULAR (the data do not determine a surface), PLANISH_STATUS_VERSION or
 /// PLANISH_STATUS_CANCELLED; for a mesh without parameters also what planish_mesh_parameterize() returns.
 #[must_use]

@@ -132,6 +132,19 @@ record! {
         pub deepest_level: u32,
         /// 0.
         pub reserved: u32,
+        /// Largest error of a fixed datum; 0 without any.
+        pub max_fixed_error: f64,
+        /// Largest error of the other data as a share of the tolerance of its own: at most 1 where all are met.
+        pub max_tolerance_share: f64,
+        /// Data that were taken for gross errors and left out.
+        pub left_out_count: usize,
+        /// Largest distance of the mirror image of a node to the mesh, if symmetry was asked for; else 0.
+        pub mirror_distance: f64,
+        /// Largest distance of the surface to the curves of sides that were given; 0 without any.
+        pub max_side_error: f64,
+        /// Largest angle between the tangent planes of the surface and those of its neighbours along such sides, in
+        /// radians.
+        pub max_side_angle: f64,
     }
 }
 
@@ -164,6 +177,12 @@ impl From<&FitReport> for planish_fit_report {
             rough_cell_count: report.rough_cell_count,
             deepest_level: report.deepest_level,
             reserved: 0,
+            max_fixed_error: report.max_fixed_error,
+            max_tolerance_share: report.max_tolerance_share,
+            left_out_count: report.left_out.len(),
+            mirror_distance: report.mirror_distance,
+            max_side_error: report.max_side_error,
+            max_side_angle: report.max_side_angle,
         }
     }
 }
@@ -206,6 +225,8 @@ pub(super) struct FitOutputs<'a, T> {
     report: ReportOut<planish_fit_report>,
     parameters: Option<&'a mut [f64]>,
     errors: Option<&'a mut [f64]>,
+    left_out: Option<&'a mut [u8]>,
+    plane: Option<&'a mut [f64]>,
 }
 
 impl<T> FitOutputs<'_, T> {
@@ -225,8 +246,28 @@ impl<T> FitOutputs<'_, T> {
                 report: ReportOut::new(report)?,
                 parameters: slice_mut_or_none(parameters, count.saturating_mul(2), "out_parameters")?,
                 errors: slice_mut_or_none(errors, count, "out_errors")?,
+                left_out: None,
+                plane: None,
             })
         }
+    }
+
+    /// The same with a list of the data that are left out.
+    ///
+    /// # Safety
+    /// It is NULL or as the header says, for `count` data.
+    pub unsafe fn and_left_out(self, left_out: *mut u8, count: usize) -> Result<Self, ArgumentError> {
+        // SAFETY: the caller's promise.
+        Ok(Self { left_out: unsafe { slice_mut_or_none(left_out, count, "out_left_out") }?, ..self })
+    }
+
+    /// The same with the plane of symmetry.
+    ///
+    /// # Safety
+    /// It is NULL or points to six numbers.
+    pub unsafe fn and_plane(self, plane: *mut f64) -> Result<Self, ArgumentError> {
+        // SAFETY: the caller's promise.
+        Ok(Self { plane: unsafe { slice_mut_or_none(plane, 6, "out_plane") }?, ..self })
     }
 
     /// Hands everything over.
@@ -236,6 +277,14 @@ impl<T> FitOutputs<'_, T> {
         }
         if let Some(out) = self.errors {
             out.copy_from_slice(errors);
+        }
+        if let Some(out) = self.left_out {
+            out.fill(0);
+            report.left_out.iter().for_each(|&datum| out[datum as usize] = 1);
+        }
+        if let (Some(out), Some(plane)) = (self.plane, report.mirror) {
+            plane.point.write_to_slice(out);
+            plane.normal.write_to_slice(&mut out[3..]);
         }
         self.report.store(report.into());
         self.handle.write(handle);

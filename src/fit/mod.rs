@@ -4,6 +4,7 @@ pub mod common;
 pub mod conversion;
 pub mod curve;
 pub mod d1rc;
+pub mod fair;
 pub mod field;
 pub mod found_grid;
 pub mod model;

@@ -1,6 +1,7 @@
 //! Banded and sparse systems: sprs holds and multiplies, faer orders, factors and multiplies dense blocks.
 
 mod cholesky;
+mod conditions;
 mod dense;
 pub mod dissection;
 mod elimination;
@@ -10,6 +11,7 @@ mod ordering;
 mod tridiagonal;
 
 pub use cholesky::{Cholesky, NotPositiveDefinite, SolveMemory, SymbolicCholesky};
+pub use conditions::{Condition, Conditions, impose_all};
 pub use general::{Entries, Singular};
 pub use lu::{LuError, NumericLu, SymbolicLu};
 pub use tridiagonal::Tridiagonal;

@@ -7,14 +7,15 @@ use crate::step::StepArguments;
 use crate::{Failure, Given, Outcome};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
-use planish::fit::common::Regularize;
+use planish::export::native::{Saved, load_any_file};
+use planish::fit::common::{Demands, Outliers, Plane, Regularize, Symmetry};
 use planish::fit::d1rc::{self, D1rcFitOptions};
 use planish::fit::pht::{self, PhtOptions};
 use planish::fit::report::{FitReport, Remarks, StopReason, Tolerance, ToleranceScale};
-use planish::fit::tensor::{self, Ends, Knots, Method, TensorOptions};
+use planish::fit::tensor::{self, Ends, Knots, Method, Sides, TensorOptions};
 use planish::mesh::{Mesh, MeshRepairs};
 use planish::parameterize::{Border, ParameterizeOptions};
-use planish::surface::Label;
+use planish::surface::{AnySurface, Label};
 use planish::{Control, Error};
 use serde_json::json;
 use std::io::IsTerminal;
@@ -92,6 +93,28 @@ pub struct FitArguments {
     /// Sweeps of parameter correction on each grid, or in each round; the default depends on the family.
     #[arg(long, value_name = "N")]
     pub sweeps: Option<usize>,
+    /// Nodes that the surface passes through (tensor, pht).
+    #[arg(long, value_name = "NODE", value_delimiter = ',')]
+    fixed: Vec<u32>,
+    /// Field of the mesh file with a tolerance for each node; infinity leaves a node out (tensor, pht).
+    #[arg(long, value_name = "FIELD")]
+    tolerances: Option<String>,
+    /// Field of the mesh file with a weight for each node (tensor, pht, d1rc).
+    #[arg(long, value_name = "FIELD")]
+    weights: Option<String>,
+    /// Leave out at most this share of the nodes as gross errors (tensor, pht).
+    #[arg(long, value_name = "SHARE", conflicts_with = "outlier_scale", allow_negative_numbers = true)]
+    outlier_share: Option<f64>,
+    /// Leave out nodes that miss the surface of the others by more than this, measured like the tolerance (tensor, pht).
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
+    outlier_scale: Option<f64>,
+    /// Make the surface its own mirror image about a plane: `found`, or a place in it and a normal (tensor, pht).
+    #[arg(long, value_name = "found|X,Y,Z,NX,NY,NZ", value_parser = symmetry, allow_hyphen_values = true)]
+    symmetry: Option<Symmetry>,
+    /// Take a side over from a saved curve, or from the nearest side of a saved tensor surface with its tangent planes
+    /// (tensor): SIDE is u-low, u-high, v-low or v-high; may be given several times.
+    #[arg(long, value_name = "SIDE=FILE", value_parser = side)]
+    side: Vec<(usize, PathBuf)>,
     #[command(flatten)]
     input: MeshInput,
     /// Threads; 0 for all cores.
@@ -165,10 +188,12 @@ pub fn run(arguments: &FitArguments, given: &Given) -> Result<Outcome, Failure> 
         family => family,
     };
     check_used(arguments, family, given)?;
+    check_fields(arguments, &mesh)?;
+    let saved = saved_sides(arguments)?;
     if is_model {
         return model::run(&mesh, &repairs, arguments);
     }
-    let fit = with_bar(arguments.threads, |control| fit_by_family(&mesh, arguments, control))?;
+    let fit = with_bar(arguments.threads, |control| fit_by_family(&mesh, arguments, &saved, control))?;
     let stem = arguments.mesh.file_stem().unwrap_or_default().to_string_lossy();
     let label = Label::default();
     let step = arguments.step.step(&label, &stem);
@@ -195,6 +220,7 @@ pub fn run(arguments: &FitArguments, given: &Given) -> Result<Outcome, Failure> 
 fn check_used(arguments: &FitArguments, family: FamilyName, given: &Given) -> Result<(), Failure> {
     for (option, owner) in [
         ("max-grid", FamilyName::Tensor),
+        ("side", FamilyName::Tensor),
         ("free-ends", FamilyName::Tensor),
         ("ferguson", FamilyName::Tensor),
         ("control", FamilyName::D1rc),
@@ -212,6 +238,11 @@ fn check_used(arguments: &FitArguments, family: FamilyName, given: &Given) -> Re
     let has_edges = matches!(family, FamilyName::D1rc | FamilyName::Model);
     given.refuse("sharp-angle", has_edges, "is used by --family d1rc and --family model only")?;
     given.refuse("sharp-angle", !arguments.smooth, "is not used with --smooth")?;
+    let is_free = matches!(family, FamilyName::Tensor | FamilyName::Pht);
+    for option in ["fixed", "tolerances", "outlier-share", "outlier-scale", "symmetry"] {
+        given.refuse(option, is_free, "is used by --family tensor and --family pht only")?;
+    }
+    given.refuse("weights", family != FamilyName::Model, "is not used by --family model")?;
     given.refuse("free-ends", !arguments.ferguson, "is not used with --ferguson")?;
     let writes_step = arguments.out.iter().any(|path| output::is_step(path));
     for option in StepArguments::OPTIONS {
@@ -226,20 +257,26 @@ fn check_used(arguments: &FitArguments, family: FamilyName, given: &Given) -> Re
     given.refuse("level-spread", is_patches, "is used with --step-form patches only")
 }
 
-fn fit_by_family(mesh: &Mesh, arguments: &FitArguments, control: &mut Control) -> Result<Fit, Error> {
+fn fit_by_family(
+    mesh: &Mesh,
+    arguments: &FitArguments,
+    saved: &[(usize, Saved)],
+    control: &mut Control,
+) -> Result<Fit, Error> {
     match arguments.family {
         FamilyName::Auto | FamilyName::Model | FamilyName::Tensor => {
-            let fit = tensor::fit_mesh(mesh, &tensor_options(arguments), control)?;
+            let fit =
+                tensor::fit_mesh(mesh, &tensor_options(arguments, mesh).with_sides(sides(saved)), control)?;
             let (report, parameters, errors) = (fit.report, fit.parameters, fit.errors);
             Ok(Fit { surface: fit.surface.into(), report, parameters, errors })
         }
         FamilyName::Pht => {
-            let fit = pht::fit_mesh(mesh, &pht_options(arguments), control)?;
+            let fit = pht::fit_mesh(mesh, &pht_options(arguments, mesh), control)?;
             let (report, parameters, errors) = (fit.report, fit.parameters, fit.errors);
             Ok(Fit { surface: fit.surface.into(), report, parameters, errors })
         }
         FamilyName::D1rc => {
-            let fit = d1rc::fit_mesh(mesh, &d1rc_options(arguments), control)?;
+            let fit = d1rc::fit_mesh(mesh, &d1rc_options(arguments, mesh), control)?;
             let (report, parameters, errors) = (fit.report, fit.parameters, fit.errors);
             Ok(Fit { surface: fit.surface.into(), report, parameters, errors })
         }
@@ -260,7 +297,79 @@ fn border(arguments: &FitArguments) -> Border {
     }
 }
 
-fn tensor_options(arguments: &FitArguments) -> TensorOptions<'static> {
+/// A plane of symmetry from its word or its numbers.
+fn symmetry(text: &str) -> Result<Symmetry, String> {
+    if text == "found" {
+        return Ok(Symmetry::Found);
+    }
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|number| number.trim().parse()).collect();
+    match numbers.as_deref() {
+        Ok(&[x, y, z, nx, ny, nz]) => {
+            Ok(Symmetry::About(Plane { point: [x, y, z].into(), normal: [nx, ny, nz].into() }))
+        }
+        _ => Err("is neither found nor six numbers, say 0,0,0,1,0,0".to_owned()),
+    }
+}
+
+/// A side and the file that it is taken from.
+fn side(text: &str) -> Result<(usize, PathBuf), String> {
+    let found = text.split_once('=').and_then(|(side, file)| {
+        let number = ["u-low", "u-high", "v-low", "v-high"].iter().position(|name| *name == side)?;
+        Some((number, PathBuf::from(file)))
+    });
+    found.ok_or_else(|| "is no side and file, say u-low=edge.planish".to_owned())
+}
+
+/// The curves and surfaces that sides are taken from.
+fn saved_sides(arguments: &FitArguments) -> Result<Vec<(usize, Saved)>, Failure> {
+    let load = |(side, path): &(usize, PathBuf)| match load_any_file(path)? {
+        saved @ (Saved::Curve(_) | Saved::Surface(AnySurface::Tensor(_))) => Ok((*side, saved)),
+        _ => Err(Failure::new(format!("'{}' holds no curve and no tensor surface", path.display()))),
+    };
+    arguments.side.iter().map(load).collect()
+}
+
+fn sides(saved: &[(usize, Saved)]) -> Sides<'_> {
+    let mut sides = Sides::default();
+    for (side, saved) in saved {
+        match saved {
+            Saved::Curve(curve) => sides.curves[*side] = Some(curve),
+            Saved::Surface(AnySurface::Tensor(surface)) => sides.neighbours[*side] = Some(surface),
+            _ => {}
+        }
+    }
+    sides
+}
+
+/// What single nodes demand.
+fn demands<'a>(arguments: &'a FitArguments, mesh: &'a Mesh) -> Demands<'a> {
+    let outliers = match (arguments.outlier_share, arguments.outlier_scale) {
+        (Some(share), _) => Outliers::Share(share),
+        (_, Some(scale)) => Outliers::Scale(scale),
+        _ => Outliers::None,
+    };
+    let symmetry = arguments.symmetry.unwrap_or_default();
+    Demands { fixed: &arguments.fixed, tolerances: named(mesh, &arguments.tolerances), outliers, symmetry }
+}
+
+/// A field of the mesh that has been found to be there.
+fn named<'a>(mesh: &'a Mesh, name: &Option<String>) -> Option<&'a [f64]> {
+    name.as_deref().and_then(|name| mesh.field(name))
+}
+
+/// Fields that are asked for exist.
+fn check_fields(arguments: &FitArguments, mesh: &Mesh) -> Result<(), Failure> {
+    for name in arguments.tolerances.iter().chain(&arguments.weights) {
+        if mesh.field(name).is_none() {
+            let names: Vec<&str> = mesh.fields().iter().map(|field| field.name.as_str()).collect();
+            let there = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+            return Err(Failure::new(format!("the mesh has no field {name}; there are: {there}")));
+        }
+    }
+    Ok(())
+}
+
+fn tensor_options<'a>(arguments: &'a FitArguments, mesh: &'a Mesh) -> TensorOptions<'a> {
     TensorOptions {
         tolerance: tolerance(arguments),
         knots: match arguments.knots {
@@ -275,11 +384,13 @@ fn tensor_options(arguments: &FitArguments) -> TensorOptions<'static> {
         correction_sweeps: arguments.sweeps.unwrap_or(0),
         regularize: Regularize::Auto,
         parameterize: ParameterizeOptions::TENSOR.with_border(border(arguments)),
+        weights: named(mesh, &arguments.weights),
+        demands: demands(arguments, mesh),
         ..TensorOptions::default()
     }
 }
 
-fn pht_options(arguments: &FitArguments) -> PhtOptions<'static> {
+fn pht_options<'a>(arguments: &'a FitArguments, mesh: &'a Mesh) -> PhtOptions<'a> {
     let defaults = PhtOptions::default();
     let is_asked = !matches!(arguments.border, BorderName::Auto);
     PhtOptions {
@@ -287,11 +398,13 @@ fn pht_options(arguments: &FitArguments) -> PhtOptions<'static> {
         smoothing: if arguments.smoothing > 0.0 { arguments.smoothing } else { defaults.smoothing },
         correction_sweeps: arguments.sweeps.unwrap_or(defaults.correction_sweeps),
         parameterize: is_asked.then(|| ParameterizeOptions::PHT.with_border(border(arguments))),
+        weights: named(mesh, &arguments.weights),
+        demands: demands(arguments, mesh),
         ..defaults
     }
 }
 
-fn d1rc_options(arguments: &FitArguments) -> D1rcFitOptions<'static> {
+fn d1rc_options<'a>(arguments: &FitArguments, mesh: &'a Mesh) -> D1rcFitOptions<'a> {
     let defaults = D1rcFitOptions::default();
     let is_asked = !matches!(arguments.border, BorderName::Auto);
     let map =
@@ -303,6 +416,7 @@ fn d1rc_options(arguments: &FitArguments) -> D1rcFitOptions<'static> {
         control_count: arguments.control.unwrap_or(defaults.control_count),
         correction_sweeps: arguments.sweeps.unwrap_or(defaults.correction_sweeps),
         parameterize: map,
+        weights: named(mesh, &arguments.weights),
         ..defaults
     }
 }
@@ -355,6 +469,23 @@ fn table(arguments: &FitArguments, mesh: &Mesh, repairs: &MeshRepairs, report: &
             _ => format!("{:.3e}", report.max_interior_error),
         },
     );
+    if !arguments.fixed.is_empty() {
+        table.row("fixed nodes", both(report.max_fixed_error));
+    }
+    if arguments.tolerances.is_some() {
+        table.row("own tolerances", format!("at most {:.3} of each", report.max_tolerance_share));
+    }
+    if !report.left_out.is_empty() {
+        table.row("left out", numbers(&report.left_out));
+    }
+    if !arguments.side.is_empty() {
+        let angle = report.max_side_angle;
+        table.row("given sides", format!("met to {:.1e}, planes to {angle:.1e}", report.max_side_error));
+    }
+    if let Some(Plane { point, normal }) = report.mirror {
+        table.row("mirror", format!("at {point:.6}, normal {normal:.6}"));
+        table.row("image within", both(report.mirror_distance));
+    }
     let (map, all) = (report.parameterize_seconds, report.seconds);
     table.row("seconds", format!("{map:.2} map, {:.2} fit, {} passes", all - map, report.passes));
     table.row("result", verdict(report.remarks, report.stop));
@@ -365,6 +496,14 @@ fn table(arguments: &FitArguments, mesh: &Mesh, repairs: &MeshRepairs, report: &
         table.row("written", path);
     }
     table.to_string()
+}
+
+/// The first of some numbers, and how many there are.
+fn numbers(all: &[u32]) -> String {
+    const MOST: usize = 8;
+    let first: Vec<String> = all.iter().take(MOST).map(u32::to_string).collect();
+    let rest = if all.len() > MOST { ", ..." } else { "" };
+    format!("{} nodes: {}{rest}", all.len(), first.join(", "))
 }
 
 pub fn written(arguments: &FitArguments) -> Vec<String> {
@@ -429,6 +568,12 @@ fn json_report(
         "rms_error": report.rms_error,
         "mean_error": report.mean_error,
         "worst_node": report.worst_index,
+        "max_fixed_error": report.max_fixed_error,
+        "max_tolerance_share": report.max_tolerance_share,
+        "left_out": report.left_out,
+        "mirror_distance": report.mirror_distance,
+        "max_side_error": report.max_side_error,
+        "max_side_angle": report.max_side_angle,
         "max_interior_error": report.max_interior_error,
         "facet_sagitta": report.facet_sagitta,
         "grid": [report.grid_u, report.grid_v],

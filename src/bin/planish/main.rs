@@ -6,6 +6,7 @@ mod convert;
 mod d1rc;
 mod decimate;
 mod eval;
+mod fair;
 mod fit;
 mod info;
 mod input;
@@ -55,6 +56,8 @@ enum Command {
     Info(info::InfoArguments),
     /// Evaluate a saved surface.
     Eval(eval::EvalArguments),
+    /// Lower the energy of a saved surface within a tolerance.
+    Fair(fair::FairArguments),
     /// Draw a sequence of pictures of a mesh's surface, moved by a displacement on its nodes.
     Morph(morph::MorphArguments),
     /// Draw a picture of a saved surface.
@@ -129,6 +132,7 @@ fn main() -> ExitCode {
         Command::Convert(arguments) => convert::run(&arguments, &given),
         Command::Info(arguments) => info::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
+        Command::Fair(arguments) => fair::run(&arguments, &given),
         Command::Morph(arguments) => morph::run(&arguments),
         Command::Render(arguments) => render::run(&arguments, &given),
         Command::Sample(arguments) => sample::run(&arguments),

@@ -29,6 +29,12 @@ pub struct RenderArguments {
     /// Draw the trims.
     #[arg(long)]
     trims: bool,
+    /// Stripe the surface by equal brightness: they are as smooth as its tangent planes.
+    #[arg(long, conflicts_with = "deviation", conflicts_with = "plane")]
+    isophotes: bool,
+    /// Draw combs of curvature on lines of the surface.
+    #[arg(long, conflicts_with = "plane")]
+    combs: bool,
     /// Draw the control net.
     #[arg(long)]
     net: bool,
@@ -59,8 +65,13 @@ pub fn run(arguments: &RenderArguments, given: &Given) -> Result<Outcome, Failur
         plane: arguments.plane,
         knot_lines: arguments.knots,
         trims: arguments.trims,
+        isophotes: arguments.isophotes,
+        combs: arguments.combs,
         control_net: arguments.net,
     };
+    if matches!(saved, Saved::Model(_)) && (options.isophotes || options.combs) {
+        return Err(Failure::new("isophotes and combs are drawn of surfaces: a model has none"));
+    }
     let control = Control::default();
     let picture = match &saved {
         Saved::Surface(surface) => render(surface.as_surface(), &options, control.pool())?,

@@ -34,6 +34,8 @@ enum Shape {
     Planar,
     /// A warped sheet with two narrow ridges and twelve bumps.
     RidgedSheet,
+    /// A wavy sheet with noise: for `planish fair`.
+    NoisySheet,
     /// A plane control mesh with one node raised: a blending function of `planish d1rc`.
     Hat,
     /// A control mesh with a sharp ridge.
@@ -73,6 +75,7 @@ pub fn run(arguments: &SampleArguments) -> Result<Outcome, Failure> {
         Shape::CurvedNotch => samples::curved_notch(seed),
         Shape::Planar => samples::planar(seed),
         Shape::RidgedSheet => samples::ridged_sheet(seed),
+        Shape::NoisySheet => samples::noisy_sheet(seed),
         Shape::Hat => samples::hat(seed),
         Shape::Roof => samples::roof(seed),
         Shape::Cylinder => machine::cylinder(PART_NODES, seed).map(|part| part.mesh),

@@ -149,10 +149,10 @@ fn options_without_a_size_are_refused() {
 fn reserved_fields_must_be_zero() {
     let sheet = Sheet::new(4);
     let mesh = sheet.mesh_with_parameters();
-    let newer = planish_tensor_options { reserved: 3, ..record() };
+    let newer = planish_pht_options { reserved_end: 3, ..record() };
     let mut out = canary();
     // SAFETY: handles and records of this test.
-    let status = unsafe { planish_tensor_fit(mesh.0, &newer, &mut out, null_mut()) };
+    let status = unsafe { planish_pht_fit(mesh.0, &newer, &mut out, null_mut()) };
     refused(status, planish_status::Version, -1, &["reserved", "3"]);
     assert_untouched(&out);
 }
@@ -178,7 +178,7 @@ fn reports_are_filled_as_far_as_the_size_goes() {
         assert!(fit((&raw mut longer).cast()) as i32 >= 0);
         assert_eq!(longer.record.struct_size, size);
         // SAFETY: plain bytes.
-        let bytes: [u8; 208] = unsafe { std::mem::transmute(longer) };
+        let bytes: [u8; 256] = unsafe { std::mem::transmute(longer) };
         assert!(bytes[size..].iter().all(|&byte| byte == CANARY), "beyond {size}");
         if size > known {
             assert_eq!(bytes[known..size], [0; 16]);

@@ -56,6 +56,92 @@ pub enum FitError {
         /// Its weight.
         weight: f64,
     },
+    /// A tolerance of a datum is not positive.
+    #[error("tolerance {index} is {tolerance}, it must be positive")]
+    DatumTolerance {
+        /// The datum.
+        index: usize,
+        /// Its tolerance.
+        tolerance: f64,
+    },
+    /// A datum that is to be fixed does not exist.
+    #[error("datum {index} is to be fixed, there are {count}")]
+    NoSuchDatum {
+        /// Its number.
+        index: usize,
+        /// Data given.
+        count: usize,
+    },
+    /// A curve or a neighbour cannot be the side of the surface.
+    #[error("what is given for the side of {side} {why}")]
+    SideCurve {
+        /// The side.
+        side: &'static str,
+        /// Why not.
+        why: &'static str,
+    },
+    /// A side has both a curve and a neighbour.
+    #[error("the side of {side} has both a curve and a neighbour: give one of them")]
+    SideTwice {
+        /// The side.
+        side: &'static str,
+    },
+    /// A given side is not where the data are.
+    #[error("the side of {side} misses datum {index} by {distance:e}, more than the tolerance {tolerance:e}")]
+    SideOff {
+        /// The side.
+        side: &'static str,
+        /// The datum that is missed most.
+        index: usize,
+        /// By how much.
+        distance: f64,
+        /// The tolerance of the fit.
+        tolerance: f64,
+    },
+    /// Two given sides do not meet in their corner.
+    #[error("the sides of {first} and {second} contradict: their ends lie {distance:e} apart")]
+    SidesApart {
+        /// The one.
+        first: &'static str,
+        /// The other.
+        second: &'static str,
+        /// How far apart.
+        distance: f64,
+    },
+    /// A plane of symmetry has no direction.
+    #[error("the plane of symmetry needs a finite point and a finite normal that is not zero")]
+    NoPlane,
+    /// The mesh is not its own mirror image.
+    #[error(
+        "the mesh and its mirror image lie up to {distance:e} apart, more than the tolerance {tolerance:e}: it is not symmetric"
+    )]
+    NotSymmetric {
+        /// The largest distance of a node's image to the mesh.
+        distance: f64,
+        /// The tolerance of the fit.
+        tolerance: f64,
+    },
+    /// The plane of symmetry does not part the mesh as a symmetric chart needs it.
+    #[error("the plane of symmetry must cut the mesh into two halves along one line from border to border")]
+    NotCutInTwo,
+    /// A node that is to be fixed belongs to no triangle.
+    #[error("node {index} is to be fixed, but belongs to no triangle")]
+    FixedUnused {
+        /// The node.
+        index: usize,
+    },
+    /// Two fixed data lie at the same parameters and differ.
+    #[error(
+        "the fixed data {first} and {second} have the same parameters and lie {distance:e} apart: fix one of them"
+    )]
+    Contradiction {
+        /// The one.
+        first: usize,
+        /// The other.
+        second: usize,
+        /// How far apart they are.
+        distance: f64,
+    },
     /// The method does not look at the option, which is not at its default.
     #[error("{option} is not used by {by}: leave it at its default")]
     Unused {
@@ -104,9 +190,18 @@ impl Classify for FitError {
         match self {
             Self::Option { .. } | Self::TooFew { .. } | Self::Count { .. } => ErrorKind::InvalidArgument,
             Self::Weight { weight, .. } if weight.is_finite() => ErrorKind::InvalidArgument,
-            Self::ParametersNotFinite { .. } | Self::ValuesNotFinite { .. } | Self::Weight { .. } => {
-                ErrorKind::NotFinite
+            Self::DatumTolerance { tolerance, .. } if !tolerance.is_nan() => ErrorKind::InvalidArgument,
+            Self::Contradiction { .. } | Self::NoPlane | Self::NotSymmetric { .. } => {
+                ErrorKind::InvalidArgument
             }
+            Self::NotCutInTwo => ErrorKind::Topology,
+            Self::SideCurve { .. } | Self::SideTwice { .. } => ErrorKind::InvalidArgument,
+            Self::SideOff { .. } | Self::SidesApart { .. } => ErrorKind::InvalidArgument,
+            Self::NoSuchDatum { .. } | Self::FixedUnused { .. } => ErrorKind::Index,
+            Self::ParametersNotFinite { .. }
+            | Self::ValuesNotFinite { .. }
+            | Self::Weight { .. }
+            | Self::DatumTolerance { .. } => ErrorKind::NotFinite,
             Self::DegenerateRange { .. } => ErrorKind::Degenerate,
             Self::Range { .. } | Self::ValueRange { .. } | Self::Unused { .. } => ErrorKind::InvalidArgument,
             Self::Singular => ErrorKind::Singular,
@@ -120,7 +215,12 @@ impl Classify for FitError {
         match *self {
             Self::ParametersNotFinite { index }
             | Self::ValuesNotFinite { index }
-            | Self::Weight { index, .. } => Some(index),
+            | Self::Weight { index, .. }
+            | Self::DatumTolerance { index, .. }
+            | Self::NoSuchDatum { index, .. }
+            | Self::FixedUnused { index }
+            | Self::SideOff { index, .. }
+            | Self::Contradiction { second: index, .. } => Some(index),
             Self::Parameterize(ref error) => error.index(),
             _ => None,
         }

@@ -1,5 +1,6 @@
 //! Errors between the nodes, and the part of them that flat facets explain.
 
+use super::Standards;
 use super::errors::data_errors;
 use super::neighbours::triangles_between;
 use crate::control::{Pool, Watch};
@@ -34,8 +35,13 @@ pub struct MeshData<'a> {
 
 impl MeshData<'_> {
     /// Measures a surface between the nodes.
-    pub fn interior_errors(&self, surface: &dyn Surface, pool: &Pool) -> InteriorErrors {
-        Between::nodes(self, surface.dim()).measure(surface, pool)
+    pub fn interior_errors(
+        &self,
+        surface: &dyn Surface,
+        standards: &Standards,
+        pool: &Pool,
+    ) -> InteriorErrors {
+        Between::nodes(self, surface.dim(), standards).measure(surface, pool)
     }
 }
 
@@ -46,12 +52,14 @@ pub struct Between {
     values: Vec<f64>,
     /// What each triangle explains.
     explained: Sagittas,
+    /// The tolerance of the fit by that in each triangle; empty if all are 1.
+    factors: Vec<f64>,
     is_shape: bool,
 }
 
 impl Between {
     /// Between the nodes of a mesh.
-    pub fn nodes(data: &MeshData, dim: usize) -> Self {
+    pub fn nodes(data: &MeshData, dim: usize, standards: &Standards) -> Self {
         let triangles = data.mesh.triangles();
         let (uv, values) = interior_samples(triangles, data.uv, data.values, dim);
         let explained = if data.is_shape {
@@ -59,15 +67,31 @@ impl Between {
         } else {
             Sagittas::smooth(triangle_spreads(triangles, data.values, dim))
         };
-        Self { uv, values, explained, is_shape: data.is_shape }
+        Self { uv, values, explained, factors: factors(triangles, standards), is_shape: data.is_shape }
     }
 
     /// Between scattered data, of which neighbours in (u,v) make triangles.
-    pub fn scattered(uv: &[DVec2], values: &[f64], dim: usize, data: &Domain, watch: &Watch) -> Self {
-        let triangles = triangles_between(uv, data, watch);
+    pub fn scattered(
+        uv: &[DVec2],
+        values: &[f64],
+        dim: usize,
+        data: &Domain,
+        standards: &Standards,
+        watch: &Watch,
+    ) -> Self {
+        let mut triangles = triangles_between(uv, data, watch);
+        if standards.leaves_out() {
+            // triangles between those that are not
+            let kept: Vec<u32> =
+                (0..uv.len() as u32).filter(|&k| !standards.is_left_out(k as usize)).collect();
+            let places: Vec<DVec2> = kept.iter().map(|&datum| uv[datum as usize]).collect();
+            triangles = triangles_between(&places, data, watch);
+            triangles.as_flattened_mut().iter_mut().for_each(|datum| *datum = kept[*datum as usize]);
+        }
         let (places, rows) = interior_samples(&triangles, uv, values, dim);
         let explained = Sagittas::smooth(triangle_spreads(&triangles, values, dim));
-        Self { uv: places, values: rows, explained, is_shape: false }
+        let factors = factors(&triangles, standards);
+        Self { uv: places, values: rows, explained, factors, is_shape: false }
     }
 
     /// What is known in one triangle of so many that at most `most` are left.
@@ -80,7 +104,12 @@ impl Between {
             heights: self.explained.heights.iter().step_by(every).copied().collect(),
             is_sharp: self.explained.is_sharp.iter().step_by(every).copied().collect(),
         };
-        Self { uv: places, values, explained, is_shape: self.is_shape }
+        let factors = self.factors.iter().step_by(every).copied().collect();
+        Self { uv: places, values, explained, factors, is_shape: self.is_shape }
+    }
+
+    fn factor(&self, triangle: usize) -> f64 {
+        self.factors.get(triangle).copied().unwrap_or(1.0)
     }
 
     /// The error at each place.
@@ -97,12 +126,17 @@ impl Between {
         let errors = self.errors(surface, pool);
         let mut result = InteriorErrors::default();
         for (triangle, errors) in errors.chunks_exact(4).enumerate() {
+            let factor = self.factor(triangle);
+            if factor == 0.0 {
+                continue;
+            }
             let max = errors.iter().copied().fold(0.0, f64::max);
             let explained_here = self.explained.of(triangle);
             result.max = result.max.max(max);
-            result.max_excess = result.max_excess.max(max - explained_here);
+            let excess = factor * (max - explained_here);
+            result.max_excess = result.max_excess.max(excess);
             if !self.explained.is_sharp[triangle] {
-                result.max_smooth_excess = result.max_smooth_excess.max(max - explained_here);
+                result.max_smooth_excess = result.max_smooth_excess.max(excess);
             }
             if self.is_shape {
                 result.sagitta = result.sagitta.max(max.min(explained_here));
@@ -117,11 +151,23 @@ impl Between {
         for (triangle, errors) in errors.chunks_exact_mut(4).enumerate() {
             let (explained, is_sharp) = (self.explained.of(triangle), self.explained.is_sharp[triangle]);
             // what a smooth surface misses beside a sharp edge asks for no more knots
-            let excess = |error: f64| if is_sharp { 0.0 } else { error - explained };
+            let factor = self.factor(triangle);
+            let excess = |error: f64| if is_sharp { 0.0 } else { factor * (error - explained) };
             errors.iter_mut().for_each(|error| *error = excess(*error));
         }
         errors
     }
+}
+
+/// Between data the most lenient of them holds; empty if all are alike.
+fn factors(triangles: &[[u32; 3]], standards: &Standards) -> Vec<f64> {
+    if standards.are_alike() {
+        return Vec::new();
+    }
+    let least = |corners: &[u32; 3]| {
+        corners.map(|datum| standards.factor(datum as usize)).into_iter().fold(f64::INFINITY, f64::min)
+    };
+    triangles.iter().map(least).collect()
 }
 
 /// Distances from places on facets to the tangent planes of the surface at their parameters. A map that

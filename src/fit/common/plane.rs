@@ -66,7 +66,7 @@ fn coarse_error(mesh: &Mesh, uv: &[DVec2], knots: usize, pool: &Pool) -> Option<
     let samples = Samples { uv: &uv, values: &values, dim: 3, weights: None };
     let equations = NormalEquations::assemble(basis, &samples, pool);
     let unknowns =
-        equations.solve(&equations.analyse(), SMOOTHING / 12.0, &Energy::Plate.terms(&u, &v)).ok()?;
+        equations.solve(&equations.analyse(), SMOOTHING / 12.0, &Energy::Plate.terms(&u, &v), &[]).ok()?;
     let sum: f64 =
         uv.iter().zip(values.chunks_exact(3)).map(|(&uv, value)| basis.error_sq(uv, value, &unknowns)).sum();
     Some((sum / uv.len() as f64).sqrt())

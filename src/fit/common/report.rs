@@ -1,5 +1,6 @@
 //! What a fit says of itself, the same for every method.
 
+use super::Plane;
 use super::errors::DataErrors;
 use super::interior::InteriorErrors;
 use crate::geometry::Bounds;
@@ -162,6 +163,20 @@ pub struct FitReport {
     pub facet_sagitta: f64,
     /// Largest closest-point distance from a node to the surface; NaN unless asked for.
     pub max_distance: f64,
+    /// Largest error of a fixed datum; 0 without any.
+    pub max_fixed_error: f64,
+    /// Largest error of the other data as a share of the tolerance of its own: at most 1 where all are met.
+    pub max_tolerance_share: f64,
+    /// Data that were taken for gross errors and left out, ascending.
+    pub left_out: Vec<u32>,
+    /// Largest distance of the mirror image of a node to the mesh; 0 unless a symmetric surface was asked for.
+    pub mirror_distance: f64,
+    /// The plane of symmetry, if one was asked for.
+    pub mirror: Option<Plane>,
+    /// Largest distance of the surface to the curves of sides that were given.
+    pub max_side_error: f64,
+    /// Largest angle between the tangent planes of the surface and those of its neighbours along such sides, in radians.
+    pub max_side_angle: f64,
     /// Knots of the grid along u.
     pub grid_u: usize,
     /// Knots of the grid along v.
@@ -198,7 +213,7 @@ impl FitReport {
     /// What there is to say of every fit; what only some have to say is nothing here.
     pub(in crate::fit) fn new(errors: &DataErrors, goal: &Goal, stop: StopReason, passes: usize) -> Self {
         let mut remarks = Remarks::default();
-        remarks.add_if(!(errors.max <= goal.tolerance), Remarks::TOLERANCE_NOT_MET);
+        remarks.add_if(!(errors.demand <= goal.tolerance), Remarks::TOLERANCE_NOT_MET);
         remarks.add_if(stop == StopReason::Stagnated, Remarks::STAGNATED);
         remarks.add_if(goal.is_raised, Remarks::TOLERANCE_RAISED);
         Self {
@@ -208,6 +223,7 @@ impl FitReport {
             worst_index: errors.worst_index,
             tolerance: goal.tolerance,
             diagonal: goal.diagonal,
+            max_tolerance_share: errors.max / goal.tolerance,
             max_distance: f64::NAN,
             passes,
             stop,

@@ -46,10 +46,15 @@ pub fn places_in_cells<'a>(
     mesh.triangles().iter().flat_map(move |triangle| {
         let nodes = triangle.map(|node| node as usize);
         let parts = part_count(nodes.map(|n| in_cells(uv[n])));
-        let weight = weights.map_or(1.0, |w| nodes.iter().map(|&n| w[n]).sum::<f64>() / 3.0);
-        let middles = (parts >= 2).then(|| part_middles(parts)).into_iter().flatten();
+        let weight = weights.map_or(1.0, |w| mean_weight(nodes.map(|n| w[n])));
+        let middles = (parts >= 2 && weight > 0.0).then(|| part_middles(parts)).into_iter().flatten();
         middles.map(move |shares| InteriorPlace { nodes, shares, weight })
     })
+}
+
+/// The mean weight of the corners of a triangle; 0 if one has none: the inside is known no better than that.
+pub fn mean_weight(corners: [f64; 3]) -> f64 {
+    if corners.contains(&0.0) { 0.0 } else { corners.iter().sum::<f64>() / 3.0 }
 }
 
 impl InteriorPlace {

@@ -2,6 +2,7 @@
 
 use super::error::FitError;
 use super::report::FitReport;
+use super::{Demands, Outliers, Symmetry};
 use crate::mesh::{Mesh, Piece};
 use crate::parameterize::{Border, ParameterizeOptions};
 use glam::DVec2;
@@ -13,6 +14,10 @@ pub(in crate::fit) struct Used {
     count: usize,
     pub values: Vec<f64>,
     weights: Option<Vec<f64>>,
+    fixed: Vec<u32>,
+    tolerances: Option<Vec<f64>>,
+    outliers: Outliers,
+    symmetry: Symmetry,
 }
 
 impl Used {
@@ -22,6 +27,7 @@ impl Used {
         values: &[f64],
         dim: usize,
         weights: Option<&[f64]>,
+        demands: &Demands,
     ) -> Result<Option<Self>, FitError> {
         let Some(piece) = mesh.without_unused_nodes() else { return Ok(None) };
         let count = mesh.points().len();
@@ -32,8 +38,19 @@ impl Used {
                 return Err(FitError::Count { what, count, expected });
             }
         }
-        let (values, weights) = (piece.gather(values, dim), weights.map(|weights| piece.gather(weights, 1)));
-        Ok(Some(Self { piece, count, values, weights }))
+        demands.check(count)?;
+        let gather = |array: Option<&[f64]>| array.map(|array| piece.gather(array, 1));
+        let (weights, tolerances) = (gather(weights), gather(demands.tolerances));
+        let (fixed, outliers, symmetry) = (Vec::new(), demands.outliers, demands.symmetry);
+        let values = piece.gather(values, dim);
+        let mut used = Self { piece, count, values, weights, fixed, tolerances, outliers, symmetry };
+        for &node in demands.fixed {
+            match used.node(node) {
+                u32::MAX => return Err(FitError::FixedUnused { index: node as usize }),
+                node => used.fixed.push(node),
+            }
+        }
+        Ok(Some(used))
     }
 
     pub fn mesh(&self) -> &Mesh {
@@ -42,6 +59,11 @@ impl Used {
 
     pub fn weights(&self) -> Option<&[f64]> {
         self.weights.as_deref()
+    }
+
+    pub fn demands(&self) -> Demands<'_> {
+        let (outliers, symmetry) = (self.outliers, self.symmetry);
+        Demands { fixed: &self.fixed, tolerances: self.tolerances.as_deref(), outliers, symmetry }
     }
 
     /// The number that a node of the whole mesh has here; one that does not exist for an unused node.
@@ -67,7 +89,13 @@ impl Used {
         match &mut error {
             FitError::ParametersNotFinite { index }
             | FitError::ValuesNotFinite { index }
-            | FitError::Weight { index, .. } => old(index),
+            | FitError::Weight { index, .. }
+            | FitError::DatumTolerance { index, .. }
+            | FitError::SideOff { index, .. } => old(index),
+            FitError::Contradiction { first, second, .. } => {
+                old(first);
+                old(second);
+            }
             FitError::Parameterize(error) => error.node_mut().into_iter().for_each(old),
             _ => {}
         }
@@ -79,6 +107,7 @@ impl Used {
     pub fn spread(&self, report: &mut FitReport, parameters: &mut Vec<DVec2>, errors: &mut Vec<f64>) {
         *parameters = self.piece.spread(parameters, self.count, parameters[0]);
         *errors = self.piece.spread(errors, self.count, f64::NAN);
+        report.left_out.iter_mut().for_each(|node| *node = self.piece.nodes[*node as usize]);
         report.worst_index = self.piece.nodes[report.worst_index] as usize;
     }
 }

@@ -22,9 +22,9 @@ mod tests;
 pub use error::D1rcFitError;
 pub use options::D1rcFitOptions;
 
-use super::common::Used;
 use super::common::checks::check_values;
 use super::common::report::FitReport;
+use super::common::{Demands, Used};
 use crate::control::Control;
 use crate::mesh::Mesh;
 use crate::surface::d1rc::D1rcSurface;
@@ -58,7 +58,7 @@ pub fn fit_mesh(
     let start = Instant::now();
     options.check()?;
     let values: Vec<f64> = mesh.points().iter().flat_map(|p| p.to_array()).collect();
-    if let Some(used) = Used::of(mesh, &values, 3, options.weights)? {
+    if let Some(used) = Used::of(mesh, &values, 3, options.weights, &Demands::default())? {
         let mut sharp_edges = options.sharp_edges.to_vec();
         if options.control_mesh.is_none() {
             sharp_edges.iter_mut().flatten().for_each(|node| *node = used.node(*node));

@@ -10,7 +10,7 @@ use crate::fit::common::foot_points::{LONGEST_STEP, foot_points, hold_back};
 use crate::fit::common::interior::MeshData;
 use crate::fit::common::report::{FitReport, Goal, Remarks, StopReason};
 use crate::fit::common::rounds::{self, Next, Outcome, Rounds, Standing};
-use crate::fit::common::{FitError, Frame, node_parameters, prefer_plane};
+use crate::fit::common::{FitError, Frame, Standards, node_parameters, prefer_plane};
 use crate::geometry::Bounds;
 use crate::mesh::{DecimateOptions, Mesh};
 use crate::parameterize::{ParameterizeOptions, parameterize};
@@ -273,7 +273,7 @@ impl<'a> Problem<'a> {
             smoothing: self.options.smoothing,
             ..FitReport::new(&errors, &self.goal, stop, passes)
         };
-        report.add_interior(&data.interior_errors(&surface, control.pool()));
+        report.add_interior(&data.interior_errors(&surface, &Standards::default(), control.pool()));
         // nodes on chains that the control mesh straightens lie upon one another: only the map itself can fold
         match &self.source {
             Source::Made { fine, remarks, .. } => {

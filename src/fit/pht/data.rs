@@ -4,10 +4,12 @@
 //! triangle of a shape is taken where a smooth surface would have it, above the facet.
 
 use crate::control::Pool;
-use crate::fit::common::Frame;
-use crate::fit::common::interior::{MeshData, Sagittas, heights_over, triangle_sagittas};
+use crate::fit::common::errors::{DataErrors, data_errors};
+use crate::fit::common::interior::{InteriorErrors, MeshData, Sagittas, heights_over, triangle_sagittas};
 use crate::fit::common::neighbours::z_order;
+use crate::fit::common::report::{Goal, Tolerance};
 use crate::fit::common::samples::bulge;
+use crate::fit::common::{Demands, FitError, Frame, Standards};
 use crate::geometry::{Bounds, Domain};
 use crate::mesh::Mesh;
 use crate::surface::Surface;
@@ -42,6 +44,9 @@ pub struct Data<'a> {
     pub order: Vec<u32>,
     /// Height of the shape above each triangle; empty for what is no shape.
     sagittas: Vec<f64>,
+    pub standards: Standards,
+    /// Whether the side of the largest u is a mirror.
+    pub is_mirrored: bool,
 }
 
 impl<'a> Data<'a> {
@@ -66,6 +71,8 @@ impl<'a> Data<'a> {
             sample_weights: weights.map_or(Vec::new(), <[f64]>::to_vec),
             order: Vec::new(),
             sagittas: Vec::new(),
+            standards: Standards::default(),
+            is_mirrored: false,
             values,
             dim,
             first_uv: uv.clone(),
@@ -108,6 +115,52 @@ impl<'a> Data<'a> {
         data
     }
 
+    /// Takes over what single data demand, in the order in which they were given.
+    pub fn demand(&mut self, demands: &Demands, asked: &Tolerance, goal: &Goal) -> Result<(), FitError> {
+        let at = |k: usize| self.order.get(k).map_or(k, |&given| given as usize);
+        let count = self.uv.len();
+        let sorted = |tolerances: &[f64]| (0..count).map(|k| tolerances[at(k)]).collect::<Vec<f64>>();
+        let tolerances = demands.tolerances.map(sorted);
+        let mut places: Vec<u32> = (0..count as u32).collect();
+        (0..count).for_each(|k| places[at(k)] = k as u32);
+        let fixed: Vec<u32> = demands.fixed.iter().map(|&datum| places[datum as usize]).collect();
+        let sorted = Demands { fixed: &fixed, tolerances: tolerances.as_deref(), ..*demands };
+        let standards = Standards::new(&sorted, asked, goal, &self.uv, (&self.values, self.dim));
+        self.standards = standards.map_err(|error| match error {
+            FitError::Contradiction { first, second, distance } => {
+                let (first, second) = (at(first).min(at(second)), at(first).max(at(second)));
+                FitError::Contradiction { first, second, distance }
+            }
+            error => error,
+        })?;
+        if !self.standards.are_alike() {
+            self.weigh();
+        }
+        Ok(())
+    }
+
+    /// Weighs the data by what they demand, and triangles by the least of their corners.
+    fn weigh(&mut self) {
+        let triangles = self.mesh.map_or(&[][..], Mesh::triangles);
+        self.sample_weights.resize(self.uv.len() + triangles.len(), 1.0);
+        let factor = |node: usize| self.standards.weight(node);
+        let (nodes, middles) = self.sample_weights.split_at_mut(self.uv.len());
+        nodes.iter_mut().enumerate().for_each(|(node, weight)| *weight *= factor(node));
+        for (middle, corners) in middles.iter_mut().zip(triangles) {
+            *middle *= corners.map(|node| factor(node as usize)).into_iter().fold(f64::INFINITY, f64::min);
+        }
+    }
+
+    /// Measures a surface at the data.
+    pub fn errors(&self, surface: &dyn Surface, pool: &Pool) -> DataErrors {
+        self.standards.measure(data_errors(surface, &self.uv, &self.values, pool))
+    }
+
+    /// Measures a surface between the nodes of a mesh.
+    pub fn interior_errors(&self, surface: &dyn Surface, pool: &Pool) -> Option<InteriorErrors> {
+        Some(self.on_mesh()?.interior_errors(surface, &self.standards, pool))
+    }
+
     /// Parameters of all samples.
     pub fn sample_uv(&self) -> Vec<DVec2> {
         let triangles = self.mesh.map_or(&[][..], Mesh::triangles);
@@ -123,10 +176,17 @@ impl<'a> Data<'a> {
         let middle = |&[a, b, c]: &[u32; 3]| ((place(a) + place(b) + place(c)) / 3.0).to_array();
         let middles: Vec<f64> = mesh.triangles().iter().flat_map(middle).collect();
         let heights = heights_over(surface, &sample_uv[self.uv.len()..], &middles, pool);
-        heights.into_iter().zip(&self.sagittas).map(|(height, sagitta)| height - sagitta).collect()
+        let excesses = heights.into_iter().zip(&self.sagittas).map(|(height, sagitta)| height - sagitta);
+        if self.standards.are_alike() {
+            return excesses.collect();
+        }
+        let factor = |corners: &[u32; 3]| {
+            corners.map(|node| self.standards.factor(node as usize)).into_iter().fold(f64::INFINITY, f64::min)
+        };
+        excesses.zip(mesh.triangles()).map(|(excess, corners)| factor(corners) * excess).collect()
     }
 
-    pub fn on_mesh(&self) -> Option<MeshData<'_>> {
+    fn on_mesh(&self) -> Option<MeshData<'_>> {
         let is_shape = self.is_shape;
         self.mesh.map(|mesh| MeshData { mesh, uv: &self.uv, values: &self.values, is_shape })
     }

@@ -11,7 +11,7 @@ use super::data::Data;
 use crate::control::{Pool, Watch};
 use crate::fit::common::FitError;
 use crate::fit::common::hermite_cell::{CellMatrix, CellSums, weights};
-use crate::linalg::SymbolicCholesky;
+use crate::linalg::{Condition, Conditions, SymbolicCholesky, impose_all};
 use crate::lists::Lists;
 use crate::surface::pht::{Matrix, expansions};
 use crate::tmesh::{Cell, TMesh, Topology};
@@ -163,8 +163,56 @@ impl<'a> System<'a> {
         let matrix = lower_triangle(&self.rows, &blocks);
         let factor = self.symbolic.factor(&matrix.view()).map_err(|_| FitError::Singular)?;
         factor.solve(&mut right, dim);
+        let values = (&data.sample_values[..], dim);
+        let conditions = match data.is_mirrored {
+            true => self.mirror_conditions(dim, data.frame.inward(&vec![0.0; dim])[0]),
+            false => data.standards.conditions(&data.uv, values, |uv| self.terms(uv)),
+        };
+        impose_all(&conditions, &factor, &mut right, n);
         watch.check()?;
         Ok(self.jets(&right, dim))
+    }
+
+    /// The unknowns that the value at a place is made of, and their weights.
+    fn terms(&self, uv: DVec2) -> Vec<(usize, f64)> {
+        let leaf = self.topology.leaf_of(self.mesh.locate(uv));
+        let domain = self.mesh.cell_domain(self.cell(leaf));
+        let (at, cell_units) = ((uv - domain.min) / domain.size(), units(domain.size()));
+        let weights = weights(at.x, at.y);
+        let mut terms = Vec::with_capacity(16);
+        for (corner, &vertex) in self.topology.corners[leaf].iter().enumerate() {
+            for (rank, matrix) in &self.expansions[vertex as usize] {
+                let vertex_units = units(self.sizes[*rank as usize]);
+                for c in 0..4 {
+                    let part = |r: usize| weights[4 * corner + r] * cell_units[r] * matrix[r][c];
+                    let weight = (0..4).map(part).sum::<f64>() / vertex_units[c];
+                    terms.push((4 * *rank as usize + c, weight));
+                }
+            }
+        }
+        terms
+    }
+
+    /// The conditions of a mirror along the side of the largest u: the first component is odd across it, the others are
+    /// even. `across` is the plane's place in the frame of the data.
+    fn mirror_conditions(&self, dim: usize, across: f64) -> Vec<Conditions> {
+        let end = self.mesh.last_vertex().i;
+        let vertex = |rank: &usize| self.topology.vertices[self.topology.basis[*rank] as usize];
+        let on_mirror: Vec<usize> =
+            (0..self.topology.basis.len()).filter(|rank| vertex(rank).i == end).collect();
+        let hold = |row: usize, value: f64, columns: usize| {
+            on_mirror.iter().map(move |rank| Condition {
+                terms: vec![(4 * rank + row, 1.0)],
+                values: vec![value; columns],
+            })
+        };
+        vec![
+            Conditions { columns: 0..1, conditions: hold(0, across, 1).chain(hold(2, 0.0, 1)).collect() },
+            Conditions {
+                columns: 1..dim,
+                conditions: hold(1, 0.0, dim - 1).chain(hold(3, 0.0, dim - 1)).collect(),
+            },
+        ]
     }
 
     fn jets(&self, unknowns: &[f64], dim: usize) -> Vec<f64> {

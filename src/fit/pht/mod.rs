@@ -14,6 +14,7 @@
 mod data;
 mod global;
 mod local;
+mod mirror;
 mod options;
 mod refine;
 mod tame;
@@ -22,18 +23,24 @@ mod tests;
 
 pub use options::{Estimator, PhtOptions};
 
-use super::common::checks::{check_parameters, check_values};
+use super::common::checks::{check_parameters, check_unused, check_values};
+use super::common::neighbours::triangles_between;
+use super::common::outliers::{self, Cloud};
 use super::common::partial::{is_on_triangles, is_partial, places_of_values};
 use super::common::report::{FitReport, Remarks};
-use super::common::{FitError, NodeParameters, Partial, Used, node_parameters, prefer_plane, trims};
+use super::common::{
+    Demands, FitError, NodeParameters, Outliers, Partial, Symmetry, Used, node_parameters, prefer_plane,
+    trims,
+};
 use crate::control::Control;
 use crate::mesh::Mesh;
 use crate::parameterize::{Border, ParameterizeOptions};
-use crate::surface::Surface;
 use crate::surface::pht::PhtSurface;
+use crate::surface::{Domain, Surface};
 use data::Data;
 use glam::DVec2;
 use refine::Refinement;
+use std::borrow::Cow;
 use std::time::Instant;
 
 /// A fitted surface with all that is known of it.
@@ -47,6 +54,24 @@ pub struct PhtFit {
     pub parameters: Vec<DVec2>,
     /// The error of each datum.
     pub errors: Vec<f64>,
+}
+
+impl outliers::Fitted for PhtFit {
+    fn surface(&self) -> &dyn Surface {
+        &self.surface
+    }
+
+    fn report(&self) -> &FitReport {
+        &self.report
+    }
+
+    fn parameters(&self) -> &[DVec2] {
+        &self.parameters
+    }
+
+    fn parts_mut(&mut self) -> (&mut FitReport, &mut [f64]) {
+        (&mut self.report, &mut self.errors)
+    }
 }
 
 /// Fits the shape of a mesh. Without parameters the mesh is parameterized first.
@@ -80,6 +105,7 @@ pub fn fit_points(
 ) -> Result<PhtFit, FitError> {
     let start = Instant::now();
     options.check()?;
+    check_unused(options.demands.symmetry == Symmetry::None, "symmetry", "the fit of points")?;
     if dim > 0 && is_partial(values, options.missing) {
         let places: Vec<Option<DVec2>> = uv.iter().copied().map(Some).collect();
         let mut fit = fit_partial(&places, values, dim, options, control)?;
@@ -87,7 +113,19 @@ pub fn fit_points(
         return Ok(fit);
     }
     check_values(uv.len(), values, dim, options.weights)?;
+    options.demands.check(uv.len())?;
     check_parameters(uv)?;
+    if options.demands.outliers != Outliers::None {
+        let triangles = triangles_between(uv, &Domain::around(uv.iter().copied()), control.pool().watch());
+        let cloud = Cloud { uv, values, dim, triangles: &triangles };
+        let (demands, tolerance) = (&options.demands, &options.tolerance);
+        let mut fit =
+            outliers::fit_without(&cloud, demands, tolerance, control, |values, demands, control| {
+                fit_points(uv, values, dim, &PhtOptions { demands: *demands, ..*options }, control)
+            })?;
+        fit.report.seconds = start.elapsed().as_secs_f64();
+        return Ok(fit);
+    }
     let data = Data::of_points(uv, values, dim, options.weights);
     let mut fit = Refinement::new(data, options)?.run(control)?;
     fit.report.seconds = start.elapsed().as_secs_f64();
@@ -126,6 +164,8 @@ fn fit_partial(
     options: &PhtOptions,
     control: &mut Control,
 ) -> Result<PhtFit, FitError> {
+    const BY: &str = "the fit of data without values at some places";
+    check_unused(options.demands == Demands::default(), "what single data demand", BY)?;
     let partial = Partial::of(places, values, dim, options.weights, options.missing)?;
     let options = PhtOptions { weights: partial.weights(), ..*options };
     let fit = check_values(partial.uv.len(), &partial.values, dim, options.weights)
@@ -148,21 +188,42 @@ fn fit_on_mesh(
     options: &PhtOptions,
     control: &mut Control,
 ) -> Result<PhtFit, FitError> {
-    if let Some(used) = Used::of(mesh, values, dim, options.weights)? {
+    if let Some(used) = Used::of(mesh, values, dim, options.weights, &options.demands)? {
         let parameterize = options.parameterize.map(|options| used.parameterize(options));
-        let options = PhtOptions { weights: used.weights(), parameterize, ..*options };
+        let options =
+            PhtOptions { weights: used.weights(), demands: used.demands(), parameterize, ..*options };
         let fit = fit_on_mesh(used.mesh(), &used.values, dim, is_shape, &options, control);
         let mut fit = fit.map_err(|error| used.told(error))?;
         used.spread(&mut fit.report, &mut fit.parameters, &mut fit.errors);
         return Ok(fit);
     }
     let start = Instant::now();
+    if options.demands.symmetry != Symmetry::None {
+        check_unused(is_shape, "symmetry", "the fit of a field")?;
+        let mut fit = mirror::fit_symmetric(mesh, options, control)?;
+        fit.report.seconds = start.elapsed().as_secs_f64();
+        return Ok(fit);
+    }
     options.check()?;
     check_values(mesh.points().len(), values, dim, options.weights)?;
+    options.demands.check(mesh.points().len())?;
     control.set_stage(0.0, 0.3);
     let map = map(mesh, options, control)?;
     let parameterize_seconds = start.elapsed().as_secs_f64();
     check_parameters(&map.uv)?;
+    if options.demands.outliers != Outliers::None {
+        let cloud = Cloud { uv: &map.uv, values, dim, triangles: mesh.triangles() };
+        let (demands, tolerance) = (&options.demands, &options.tolerance);
+        let mut fit =
+            outliers::fit_without(&cloud, demands, tolerance, control, |values, demands, control| {
+                let options = PhtOptions { demands: *demands, ..*options };
+                let mesh =
+                    if is_shape { Cow::Owned(outliers::moved(mesh, values)) } else { Cow::Borrowed(mesh) };
+                fit_on_mesh(&mesh, values, dim, is_shape, &options, control)
+            })?;
+        fit.report.seconds = start.elapsed().as_secs_f64();
+        return Ok(fit);
+    }
     control.set_stage(0.3, 1.0);
     let data = Data::of_mesh(mesh, map.uv, values, dim, is_shape, options.weights);
     let mut fit = Refinement::new(data, options)?.run(control)?;

@@ -1,8 +1,8 @@
 //! What a PHT fit may be asked for.
 
-use crate::fit::common::checks::{check_option, check_smoothing, check_tolerance};
+use crate::fit::common::checks::{check_option, check_smoothing, check_tolerance, check_unused};
 use crate::fit::common::report::Tolerance;
-use crate::fit::common::{FitError, Missing, Regularize};
+use crate::fit::common::{Demands, FitError, Missing, Regularize};
 use crate::options::with_fields;
 use crate::parameterize::ParameterizeOptions;
 use crate::tmesh::{MAX_GRID, MAX_LEVEL};
@@ -49,6 +49,8 @@ pub struct PhtOptions<'a> {
     pub parameterize: Option<ParameterizeOptions>,
     /// A positive weight for each datum.
     pub weights: Option<&'a [f64]>,
+    /// What single data demand.
+    pub demands: Demands<'a>,
     /// Whether to measure the closest-point distance of the nodes.
     pub measure_distance: bool,
     /// What values of points and fields mean that are NaN.
@@ -70,6 +72,7 @@ impl Default for PhtOptions<'_> {
             regularize: Regularize::default(),
             parameterize: None,
             weights: None,
+            demands: Demands::default(),
             measure_distance: false,
             missing: Missing::default(),
         }
@@ -90,6 +93,7 @@ impl<'a> PhtOptions<'a> {
         with_regularize regularize: Regularize,
         with_parameterize parameterize: Option<ParameterizeOptions>,
         with_weights weights: Option<&'a [f64]>,
+        with_demands demands: Demands<'a>,
         with_measure_distance measure_distance: bool,
         with_missing missing: Missing,
     }
@@ -97,6 +101,9 @@ impl<'a> PhtOptions<'a> {
     pub(super) fn check(&self) -> Result<(), FitError> {
         check_tolerance(&self.tolerance)?;
         check_smoothing(self.smoothing, true)?;
+        if self.estimator != Estimator::Global {
+            check_unused(self.demands.fixed.is_empty(), "fixed", "local estimators")?;
+        }
         for count in self.initial_grid {
             let holds = (1..=MAX_GRID).contains(&count);
             check_option(holds, "initial_grid", count as f64, "between 1 and 4095")?;

@@ -5,7 +5,7 @@ use super::global::{ByLeaf, Energy, KnownSums, System};
 use super::{Estimator, PhtFit, PhtOptions, local};
 use crate::control::{Control, Pool, Watch};
 use crate::fit::common::FitError;
-use crate::fit::common::errors::{DataErrors, data_errors, max_distance};
+use crate::fit::common::errors::{DataErrors, max_distance};
 use crate::fit::common::foot_points::{self, LONGEST_STEP, hold_back};
 use crate::fit::common::report::{FitReport, Goal, Remarks, StopReason};
 use crate::fit::common::rounds::{self, Next, Outcome, Rounds, Standing};
@@ -81,7 +81,7 @@ impl Rounds for Refinement<'_> {
     }
 
     fn error(&self, round: &Round) -> f64 {
-        round.errors.max
+        round.errors.demand
     }
 
     fn tolerance(&self) -> f64 {
@@ -93,7 +93,11 @@ impl Rounds for Refinement<'_> {
         if round.rough.is_empty() {
             return Next::Done;
         }
-        if self.noise.has_reached_floor(round) {
+        // noise is no reason to miss what is fixed
+        let is_fixed = self.data.standards.fixed.iter().all(|&datum| {
+            round.errors.each[datum] * self.data.standards.factor(datum) <= self.goal.tolerance
+        });
+        if is_fixed && self.noise.has_reached_floor(round) {
             return Next::Drop(StopReason::Stagnated);
         }
         let is_met = round.rough.iter().all(|rough| rough.error <= self.goal.tolerance);
@@ -112,7 +116,7 @@ impl Rounds for Refinement<'_> {
 }
 
 impl<'a> Refinement<'a> {
-    pub fn new(data: Data<'a>, options: &'a PhtOptions<'a>) -> Result<Self, FitError> {
+    pub fn new(mut data: Data<'a>, options: &'a PhtOptions<'a>) -> Result<Self, FitError> {
         if FreeFunctions::of(&data.uv, &data.data_box) == FreeFunctions::Linear {
             return Err(FitError::Singular);
         }
@@ -127,6 +131,7 @@ impl<'a> Refinement<'a> {
         // the box has a range, but no room for more lines than it has roundings
         let mesh = mesh.map_err(|_| FitError::DegenerateRange { axis: 'u', at: min.x })?;
         let goal = Goal::new(&options.tolerance, &data.bounds);
+        data.demand(&options.demands, &options.tolerance, &goal)?;
         let known = KnownSums::new(!data.is_shape);
         let (smoothing, noise) = (options.smoothing, NoiseTest::default());
         Ok(Self { data, options, mesh, known, smoothing, goal, noise })
@@ -168,7 +173,7 @@ impl<'a> Refinement<'a> {
             by_leaf = ByLeaf::sort(&mesh, &topology, &self.data, pool);
             surface = estimate(&self.data, &by_leaf)?;
         }
-        let errors = data_errors(&surface, &self.data.uv, &self.data.values, pool);
+        let errors = self.data.errors(&surface, pool);
         watch.check()?;
         let rough = self.rough_leaves(&surface, &errors, &by_leaf, pool);
         Ok(Round { surface, errors, uv: self.data.uv.clone(), rough, smoothing })
@@ -185,7 +190,7 @@ impl<'a> Refinement<'a> {
         let (mesh, topology, count) = (surface.mesh(), surface.topology(), self.data.uv.len());
         let excesses = self.data.excesses(surface, &by_leaf.uv, pool);
         let miss = |sample: usize| match sample.checked_sub(count) {
-            None => errors.each[sample],
+            None => errors.each[sample] * self.data.standards.factor(sample),
             Some(triangle) => excesses.get(triangle).copied().unwrap_or(0.0),
         };
         let is_scattered = self.data.mesh.is_none();
@@ -232,10 +237,12 @@ impl<'a> Refinement<'a> {
         if self.data.mesh.is_none() && unknowns > self.data.uv.len().max(64) {
             return Err(StopReason::DataExhausted);
         }
-        let is_split =
-            |&uv: &DVec2| mesh.cell(mesh.locate(uv)).level > self.mesh.cell(self.mesh.locate(uv)).level;
+        let is_split = |(datum, &uv): (usize, &DVec2)| {
+            let level = |mesh: &TMesh| mesh.cell(mesh.locate(uv)).level;
+            !self.data.standards.is_left_out(datum) && level(&mesh) > level(&self.mesh)
+        };
         self.noise.before =
-            self.data.uv.iter().map(is_split).zip(round.errors.each.iter().copied()).collect();
+            self.data.uv.iter().enumerate().map(is_split).zip(round.errors.each.iter().copied()).collect();
         self.noise.unknowns = (round.surface.coefficient_count(), unknowns);
         self.mesh = mesh;
         Ok(())
@@ -263,8 +270,9 @@ impl<'a> Refinement<'a> {
         if measures_distance {
             report.max_distance = max_distance(&surface, &data.values, &data.uv, pool);
         }
-        if let Some(mesh) = data.on_mesh() {
-            report.add_interior(&mesh.interior_errors(&surface, pool));
+        data.standards.report(&errors.each, &mut report);
+        if let Some(interior) = data.interior_errors(&surface, pool) {
+            report.add_interior(&interior);
         }
         report.remarks.add_if(empty_cell_count > 0, Remarks::EMPTY_CELLS);
         let uv = std::mem::take(&mut self.data.uv);

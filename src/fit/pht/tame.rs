@@ -6,7 +6,6 @@ use super::global::{ByLeaf, Energy, KnownSums, System};
 use super::refine::{Refinement, Round, outward};
 use crate::control::{Control, Pool, Watch};
 use crate::fit::common::FitError;
-use crate::fit::common::errors::data_errors;
 use crate::fit::common::tame::{Standing, TENSE_WITHIN, excursion, is_wild, tamed};
 use crate::fit::common::trims;
 use crate::surface::pht::PhtSurface;
@@ -43,7 +42,7 @@ impl Refinement<'_> {
         let meshes: Vec<TMesh> = [this.mesh.clone()].into_iter().chain(finer).collect();
         let judge = |round: &Round, pool: &Pool| Standing {
             excursion: this.excursion(&round.surface, pool),
-            error: round.errors.max,
+            error: round.errors.demand,
             between: round.rough.iter().map(|rough| rough.error).fold(0.0, f64::max),
         };
         let smoothing = round.smoothing;
@@ -92,7 +91,7 @@ impl Refinement<'_> {
         let system = System::new(mesh, &topology);
         let jets = system.solve(data, &by_leaf, &mut KnownSums::default(), &energy, pool, watch)?;
         let surface = outward(data, mesh, jets)?;
-        let errors = data_errors(&surface, &data.uv, &data.values, pool);
+        let errors = data.errors(&surface, pool);
         watch.check()?;
         let rough = self.rough_leaves(&surface, &errors, &by_leaf, pool);
         Ok(Round { surface, errors, uv: data.uv.clone(), rough, smoothing })

@@ -17,8 +17,10 @@ impl Problem<'_> {
     /// What is known between the data.
     pub fn between(&self, watch: &Watch) -> Between {
         match self.mesh_data() {
-            Some(data) => Between::nodes(&data, self.dim),
-            None => Between::scattered(&self.uv, self.values, self.dim, &self.data_box, watch),
+            Some(data) => Between::nodes(&data, self.dim, &self.standards),
+            None => {
+                Between::scattered(&self.uv, self.values, self.dim, &self.data_box, &self.standards, watch)
+            }
         }
     }
 
@@ -64,7 +66,7 @@ impl Problem<'_> {
         let mut data = InteriorData::default();
         let Some(mesh) = self.mesh else { return data };
         let mut shape_normals = None;
-        for place in places_in_cells(mesh, &self.uv, in_cells, self.options.weights) {
+        for place in places_in_cells(mesh, &self.uv, in_cells, self.weights.as_deref()) {
             data.uv.push(place.mean(|n| self.uv[n]));
             data.weights.push(place.weight);
             if self.is_shape {

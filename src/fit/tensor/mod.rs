@@ -13,24 +13,37 @@
 mod adaptive;
 mod lines;
 mod measure;
+mod mirror;
 mod options;
 mod refine;
+mod sides;
 mod single_grid;
 mod tame;
 
 pub use super::common::uniform::{Ends, Energy, Method, SMOOTHING_LADDER};
 pub use options::{Knots, TensorOptions};
+pub use sides::Sides;
 
-use super::common::checks::{check_parameters, check_values};
+use super::common::checks::{check_parameters, check_unused, check_values};
+use super::common::errors::{DataErrors, data_errors};
+use super::common::neighbours::triangles_between;
+use super::common::outliers::{self, Cloud};
 use super::common::partial::{is_on_triangles, is_partial, places_of_values};
 use super::common::report::{FitReport, Goal};
-use super::common::{FitError, Frame, Partial, Used, node_parameters, trims};
-use crate::control::Control;
+use super::common::uniform::normal_equations::TensorBasis;
+use super::common::{
+    Demands, FitError, Frame, Outliers, Partial, Standards, Symmetry, Used, node_parameters, trims,
+};
+use crate::control::{Control, Pool};
 use crate::geometry::Bounds;
+use crate::linalg::Conditions;
 use crate::mesh::Mesh;
 use crate::surface::tensor::TensorSurface;
 use crate::surface::{Domain, Region, Surface};
 use glam::DVec2;
+use lines::Lines;
+use sides::GivenSide;
+use std::borrow::Cow;
 use std::time::Instant;
 
 /// A fitted surface with all that is known of it.
@@ -44,6 +57,24 @@ pub struct TensorFit {
     pub parameters: Vec<DVec2>,
     /// The error of each datum.
     pub errors: Vec<f64>,
+}
+
+impl outliers::Fitted for TensorFit {
+    fn surface(&self) -> &dyn Surface {
+        &self.surface
+    }
+
+    fn report(&self) -> &FitReport {
+        &self.report
+    }
+
+    fn parameters(&self) -> &[DVec2] {
+        &self.parameters
+    }
+
+    fn parts_mut(&mut self) -> (&mut FitReport, &mut [f64]) {
+        (&mut self.report, &mut self.errors)
+    }
 }
 
 /// Fits the shape of a mesh. Without parameters the mesh is parameterized first.
@@ -83,6 +114,17 @@ pub fn fit_points(
         return Ok(fit);
     }
     check(uv, values, dim, options)?;
+    if options.demands.outliers != Outliers::None {
+        let triangles = triangles_between(uv, &Domain::around(uv.iter().copied()), control.pool().watch());
+        let cloud = Cloud { uv, values, dim, triangles: &triangles };
+        let (demands, tolerance) = (&options.demands, &options.tolerance);
+        let mut fit =
+            outliers::fit_without(&cloud, demands, tolerance, control, |values, demands, control| {
+                fit_points(uv, values, dim, &TensorOptions { demands: *demands, ..*options }, control)
+            })?;
+        fit.report.seconds = start.elapsed().as_secs_f64();
+        return Ok(fit);
+    }
     let problem = Problem::new(uv.to_vec(), values, dim, None, options)?;
     let mut fit = problem.fit_any(control)?;
     fit.report.seconds = start.elapsed().as_secs_f64();
@@ -121,6 +163,9 @@ fn fit_partial(
     options: &TensorOptions,
     control: &mut Control,
 ) -> Result<TensorFit, FitError> {
+    const BY: &str = "the fit of data without values at some places";
+    check_unused(options.demands == Demands::default(), "what single data demand", BY)?;
+    check_unused(options.sides.are_free(), "sides", BY)?;
     let partial = Partial::of(places, values, dim, options.weights, options.missing)?;
     let options = TensorOptions { weights: partial.weights(), ..*options };
     let fit = check(&partial.uv, &partial.values, dim, &options).and_then(|()| {
@@ -140,21 +185,42 @@ fn fit_on_mesh(
     options: &TensorOptions,
     control: &mut Control,
 ) -> Result<TensorFit, FitError> {
-    if let Some(used) = Used::of(mesh, values, dim, options.weights)? {
+    if let Some(used) = Used::of(mesh, values, dim, options.weights, &options.demands)? {
         let parameterize = used.parameterize(options.parameterize);
-        let options = TensorOptions { weights: used.weights(), parameterize, ..*options };
+        let options =
+            TensorOptions { weights: used.weights(), demands: used.demands(), parameterize, ..*options };
         let fit = fit_on_mesh(used.mesh(), &used.values, dim, is_shape, &options, control);
         let mut fit = fit.map_err(|error| used.told(error))?;
         used.spread(&mut fit.report, &mut fit.parameters, &mut fit.errors);
         return Ok(fit);
     }
     let start = Instant::now();
+    if options.demands.symmetry != Symmetry::None {
+        check_unused(is_shape, "symmetry", "the fit of a field")?;
+        let mut fit = mirror::fit_symmetric(mesh, options, control)?;
+        fit.report.seconds = start.elapsed().as_secs_f64();
+        return Ok(fit);
+    }
     options.check()?;
     check_values(mesh.points().len(), values, dim, options.weights)?;
+    options.demands.check(mesh.points().len())?;
     control.set_stage(0.0, 0.3);
     let map = node_parameters(mesh, &options.parameterize, options.regularize, control)?;
     let parameterize_seconds = start.elapsed().as_secs_f64();
     check(&map.uv, values, dim, options)?;
+    if options.demands.outliers != Outliers::None {
+        let cloud = Cloud { uv: &map.uv, values, dim, triangles: mesh.triangles() };
+        let (demands, tolerance) = (&options.demands, &options.tolerance);
+        let mut fit =
+            outliers::fit_without(&cloud, demands, tolerance, control, |values, demands, control| {
+                let options = TensorOptions { demands: *demands, ..*options };
+                let mesh =
+                    if is_shape { Cow::Owned(outliers::moved(mesh, values)) } else { Cow::Borrowed(mesh) };
+                fit_on_mesh(&mesh, values, dim, is_shape, &options, control)
+            })?;
+        fit.report.seconds = start.elapsed().as_secs_f64();
+        return Ok(fit);
+    }
     let mut problem = Problem::new(map.uv, values, dim, Some(mesh), options)?;
     problem.is_shape = is_shape;
     control.set_stage(0.3, 1.0);
@@ -168,7 +234,9 @@ fn fit_on_mesh(
 
 fn check(uv: &[DVec2], values: &[f64], dim: usize, options: &TensorOptions) -> Result<(), FitError> {
     options.check()?;
+    check_unused(options.demands.symmetry == Symmetry::None, "symmetry", "the fit of points")?;
     check_values(uv.len(), values, dim, options.weights)?;
+    options.demands.check(uv.len())?;
     check_parameters(uv)
 }
 
@@ -192,6 +260,13 @@ struct Problem<'a> {
     energy: Energy,
     frame: Frame,
     goal: Goal,
+    standards: Standards,
+    /// Weights of the data, if they are not alike; 0 for those that are left out.
+    weights: Option<Vec<f64>>,
+    /// Whether the end of u is a mirror: the data are half of a symmetric shape.
+    is_mirrored: bool,
+    /// Sides that are given.
+    sides: Vec<GivenSide>,
     /// The least merit of the rounds so far.
     least: f64,
     /// The grids to try in the next round.
@@ -209,8 +284,14 @@ impl<'a> Problem<'a> {
         let bounds = Bounds::of_rows(values, dim);
         let data_box = Domain::around(uv.iter().copied());
         let energy = options.energy.determining(&uv, &data_box)?;
+        let goal = Goal::new(&options.tolerance, &bounds);
+        let standards = Standards::new(&options.demands, &options.tolerance, &goal, &uv, (values, dim))?;
+        let measure = (goal.tolerance, goal.diagonal);
+        let sides = GivenSide::all(&options.sides, &data_box, &uv, (values, dim), measure)?;
         Ok(Self {
-            goal: Goal::new(&options.tolerance, &bounds),
+            weights: standards.weights(options.weights),
+            goal,
+            standards,
             least: f64::INFINITY,
             next: vec![options.fixed_grid.unwrap_or(FIRST_GRID)],
             energy,
@@ -218,11 +299,35 @@ impl<'a> Problem<'a> {
             options,
             mesh,
             is_shape: false,
+            is_mirrored: false,
+            sides,
             values,
             dim,
             uv,
             data_box,
         })
+    }
+
+    /// Measures a surface at the data.
+    fn errors(&self, surface: &TensorSurface, pool: &Pool) -> DataErrors {
+        self.standards.measure(data_errors(surface, &self.uv, self.values, pool))
+    }
+
+    /// The conditions on a surface over some lines; `values` are rows in the frame of the unknowns.
+    fn conditions(&self, basis: &TensorBasis<Lines>, (values, dim): (&[f64], usize)) -> Vec<Conditions> {
+        match self.is_mirrored {
+            true => mirror::conditions(basis, dim, self.frame.inward(&vec![0.0; dim])[0]),
+            false => {
+                let mut all = self.standards.conditions(&self.uv, (values, dim), |uv| basis.terms(uv));
+                let sides = self.side_conditions(basis);
+                match all.first_mut() {
+                    Some(fixed) => fixed.conditions.extend(sides),
+                    None if sides.is_empty() => {}
+                    None => all.push(Conditions { columns: 0..dim, conditions: sides }),
+                }
+                all
+            }
+        }
     }
 
     fn region(&self) -> Region {

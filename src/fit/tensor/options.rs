@@ -1,11 +1,11 @@
 //! What a tensor fit may be asked for.
 
-use super::{Ends, Energy, Method};
+use super::{Ends, Energy, Method, Sides};
 use crate::fit::common::checks::{
     check_buffer, check_grid, check_option, check_smoothing, check_tolerance, check_unused,
 };
 use crate::fit::common::report::Tolerance;
-use crate::fit::common::{FitError, Missing, Regularize};
+use crate::fit::common::{Demands, FitError, Missing, Outliers, Regularize, Symmetry};
 use crate::options::with_fields;
 use crate::parameterize::ParameterizeOptions;
 
@@ -54,6 +54,10 @@ pub struct TensorOptions<'a> {
     pub parameterize: ParameterizeOptions,
     /// A positive weight for each datum.
     pub weights: Option<&'a [f64]>,
+    /// What single data demand.
+    pub demands: Demands<'a>,
+    /// Sides that are given, over adaptive knots and without a buffer.
+    pub sides: Sides<'a>,
     /// Whether to measure the closest-point distance of the nodes.
     pub measure_distance: bool,
     /// What values of points and fields mean that are NaN.
@@ -77,6 +81,8 @@ impl Default for TensorOptions<'_> {
             regularize: Regularize::default(),
             parameterize: ParameterizeOptions::TENSOR,
             weights: None,
+            demands: Demands::default(),
+            sides: Sides { curves: [None; 4], neighbours: [None; 4] },
             measure_distance: false,
             missing: Missing::default(),
         }
@@ -99,6 +105,8 @@ impl<'a> TensorOptions<'a> {
         with_regularize regularize: Regularize,
         with_parameterize parameterize: ParameterizeOptions,
         with_weights weights: Option<&'a [f64]>,
+        with_demands demands: Demands<'a>,
+        with_sides sides: Sides<'a>,
         with_measure_distance measure_distance: bool,
         with_missing missing: Missing,
     }
@@ -115,6 +123,16 @@ impl<'a> TensorOptions<'a> {
             check_unused(self.ends == Ends::default(), "ends", BY)?;
             check_unused(self.energy == Energy::default(), "energy", BY)?;
             check_unused(self.weights.is_none(), "weights", BY)?;
+            check_unused(self.demands.fixed.is_empty(), "fixed", BY)?;
+            check_unused(self.demands.outliers == Outliers::None, "outliers", BY)?;
+            check_unused(self.demands.tolerances.is_none(), "tolerances", BY)?;
+        }
+        if !self.sides.are_free() {
+            const BY: &str = "a fit with given sides";
+            check_unused(self.knots == Knots::Adaptive, "knots", BY)?;
+            check_unused(self.method == Method::default(), "method", BY)?;
+            check_unused(self.fixed_grid.is_none(), "grid", BY)?;
+            check_unused(self.demands.symmetry == Symmetry::None, "symmetry", BY)?;
         }
         check_grid(self.fixed_grid.into_iter().flatten())
     }

@@ -40,7 +40,7 @@ pub struct Round {
 impl Round {
     /// What is to be small: a step that gains at the data and loses more between them is none.
     fn merit(&self) -> f64 {
-        self.candidate.errors.max.max(self.excess)
+        self.candidate.errors.demand.max(self.excess)
     }
 }
 
@@ -137,7 +137,7 @@ impl Problem<'_> {
             }
             others => others.iter().map(|&counts| self.fit_grid(counts, pool, watch)).collect(),
         })??;
-        let meets = |candidate: &Candidate| candidate.errors.max <= self.goal.tolerance;
+        let meets = |candidate: &Candidate| candidate.errors.demand <= self.goal.tolerance;
         let second = if fitted.len() > 1 { fitted.pop() } else { None };
         let first = fitted.pop().ok_or(FitError::Singular)?;
         let Some(second) = second else { return Ok(first) };
@@ -176,7 +176,7 @@ impl Problem<'_> {
     /// Parameter correction, as many sweeps as asked for while they help.
     fn correct(&mut self, mut current: Candidate, control: &mut Control) -> Result<Candidate, FitError> {
         for _ in 0..self.options.correction_sweeps {
-            if current.errors.max <= self.goal.tolerance {
+            if current.errors.demand <= self.goal.tolerance {
                 break;
             }
             let moved = self.moved(&current, control.pool());
@@ -227,6 +227,8 @@ impl Problem<'_> {
             empty_cell_count,
             ..FitReport::new(&best.errors, &self.goal, stop, passes)
         };
+        self.standards.report(&best.errors.each, &mut report);
+        [report.max_side_error, report.max_side_angle] = self.side_deviation(&best.surface);
         report.add_interior(&self.interior_errors(&best.surface, control.pool()));
         report.remarks.add_if(self.energy != self.options.energy, Remarks::PLATE_ENERGY_USED);
         report.remarks.add_if(empty_cell_count > 0, Remarks::EMPTY_CELLS);

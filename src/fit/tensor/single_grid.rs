@@ -3,7 +3,7 @@
 use super::tame::{CutCells, Emptiness};
 use super::{Ends, FitError, Method, Problem, SMOOTHING_LADDER};
 use crate::control::{Pool, Watch};
-use crate::fit::common::errors::{DataErrors, data_errors};
+use crate::fit::common::errors::DataErrors;
 use crate::fit::common::samples::{in_cells, interior_weight};
 use crate::fit::common::tame::TENSE_WITHIN;
 use crate::fit::common::uniform::energy::EnergyTerm;
@@ -11,7 +11,7 @@ use crate::fit::common::uniform::ferguson;
 use crate::fit::common::uniform::grid::{Direction, UniformBasis, UniformGrid};
 use crate::fit::common::uniform::normal_equations::{NormalEquations, Samples, TensorBasis};
 use crate::knots::KnotVector;
-use crate::linalg::SymbolicCholesky;
+use crate::linalg::{Conditions, SymbolicCholesky};
 use crate::surface::Surface;
 use crate::surface::tensor::TensorSurface;
 use std::borrow::Cow;
@@ -102,7 +102,7 @@ impl Problem<'_> {
         self.frame.outward(&mut control_points);
         let surface = self.surface(&grid, control_points)?;
         Ok(Candidate {
-            errors: data_errors(&surface, &self.uv, self.values, pool),
+            errors: self.errors(&surface, pool),
             grid,
             surface,
             smoothing,
@@ -134,6 +134,7 @@ struct LeastSquares<'a> {
     /// Of places inside large triangles.
     interior: Option<NormalEquations>,
     energy: Vec<EnergyTerm>,
+    conditions: Vec<Conditions>,
     symbolic: SymbolicCholesky,
 }
 
@@ -155,7 +156,7 @@ impl<'a> LeastSquares<'a> {
         let [u, v] = grid.map(|grid| UniformBasis { grid, ends: problem.options.ends });
         let basis = TensorBasis { u, v };
         let (dim, values) = (problem.dim, problem.frame.inward(problem.values));
-        let nodes = Samples { uv: &problem.uv, values: &values, dim, weights: problem.options.weights };
+        let nodes = Samples { uv: &problem.uv, values: &values, dim, weights: problem.weights.as_deref() };
         watch.check()?;
         let nodes = NormalEquations::assemble(basis, &nodes, pool);
         watch.check()?;
@@ -163,9 +164,10 @@ impl<'a> LeastSquares<'a> {
         let interior = Samples { uv: &data.uv, values: &data.values, dim, weights: Some(&data.weights) };
         let interior = (!data.uv.is_empty()).then(|| NormalEquations::assemble(basis, &interior, pool));
         watch.check()?;
+        let conditions = problem.standards.conditions(&problem.uv, (&values, dim), |uv| basis.terms(uv));
         let symbolic = nodes.analyse();
         let energy = problem.energy.terms(&u, &v);
-        Ok(Self { problem, pool, watch, basis, nodes, interior, energy, symbolic })
+        Ok(Self { problem, pool, watch, basis, nodes, interior, energy, conditions, symbolic })
     }
 
     fn grid(&self) -> [UniformGrid; 2] {
@@ -186,12 +188,12 @@ impl<'a> LeastSquares<'a> {
         let tolerance = self.problem.goal.tolerance;
         // more smoothing lowers a maximum now and then, by a little
         const WORTH_TRYING: f64 = 1.1;
-        if closest.errors.max > WORTH_TRYING * tolerance {
+        if closest.errors.demand > WORTH_TRYING * tolerance {
             return Ok(closest);
         }
         for &smoothing in calmer {
             let candidate = self.fit(smoothing, None)?;
-            if candidate.errors.max <= tolerance {
+            if candidate.errors.demand <= tolerance {
                 return Ok(candidate);
             }
         }
@@ -208,7 +210,7 @@ impl<'a> LeastSquares<'a> {
         if let Some(tension) = tension {
             equations = Cow::Owned(equations.plus(&tension.equations, smoothing / 12.0 * tension.weight));
         }
-        let solved = equations.solve(&self.symbolic, smoothing / 12.0, &self.energy);
+        let solved = equations.solve(&self.symbolic, smoothing / 12.0, &self.energy, &self.conditions);
         let unknowns = solved.map_err(|_| FitError::Singular)?;
         self.watch.check()?;
         let grid = self.grid();
@@ -216,7 +218,7 @@ impl<'a> LeastSquares<'a> {
         problem.frame.outward(&mut control_points);
         let surface = problem.surface(&grid, control_points)?;
         Ok(Candidate {
-            errors: data_errors(&surface, &problem.uv, problem.values, self.pool),
+            errors: problem.errors(&surface, self.pool),
             grid,
             surface,
             smoothing,

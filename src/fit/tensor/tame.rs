@@ -3,7 +3,6 @@
 use super::single_grid::Candidate;
 use super::{FitError, Method, Problem};
 use crate::control::{Control, Pool};
-use crate::fit::common::errors::data_errors;
 use crate::fit::common::tame::{FARTHEST, Standing, excursion, is_wild, tamed};
 use crate::fit::common::trims;
 use crate::fit::common::uniform::grid::Part;
@@ -75,7 +74,7 @@ impl Problem<'_> {
         }
         let judge = |candidate: &Candidate, pool: &Pool| Standing {
             excursion: self.excursion(&candidate.surface, pool),
-            error: candidate.errors.max,
+            error: candidate.errors.demand,
             between: self.interior_errors(&candidate.surface, pool).max_smooth_excess,
         };
         let smoothing = candidate.smoothing;
@@ -95,7 +94,7 @@ impl Problem<'_> {
         let mut candidate = tamed(candidate, self.goal.tolerance, &grids, judge, refit, control)?;
         if self.excursion(&candidate.surface, control.pool()) > FARTHEST {
             candidate.surface = self.with_less_buffer(candidate.surface, control.pool());
-            candidate.errors = data_errors(&candidate.surface, &self.uv, self.values, control.pool());
+            candidate.errors = self.errors(&candidate.surface, control.pool());
         }
         Ok(candidate)
     }

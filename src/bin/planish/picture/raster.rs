@@ -19,6 +19,9 @@ const BACKGROUND: [f64; 3] = [1.0, 1.0, 1.0];
 const PLAIN: [f64; 3] = [0.62, 0.70, 0.78];
 const INK: [f64; 3] = [0.15, 0.15, 0.15];
 
+/// How light the dark stripes are against the others.
+const DARK: f64 = 0.35;
+
 /// Samples along each side of a pixel.
 const OVERSAMPLING: usize = 2;
 /// Samples across a dot.
@@ -84,6 +87,11 @@ pub struct Picture {
 }
 
 impl Picture {
+    /// Towards the viewer, and a light beside it: what stripes of equal brightness are measured with.
+    pub fn light(&self) -> DVec3 {
+        self.axes.transpose() * DVec3::new(-0.35, 0.45, 0.82).normalize()
+    }
+
     /// An empty picture that shows all of `mesh`.
     pub fn new(width: usize, height: usize, view: &View, mesh: &Mesh) -> Self {
         let axes = view.axes();
@@ -112,15 +120,33 @@ impl Picture {
 
     /// Draws a mesh; `values` at the nodes, from `range.0` to `range.1`, choose the colours.
     pub fn draw_mesh(&mut self, mesh: &Mesh, values: Option<&[f64]>, range: (f64, f64)) {
-        let normals = mesh.node_normals();
         let span = (range.1 - range.0).max(f64::MIN_POSITIVE);
+        let share = |node: usize| values.map_or(f64::NAN, |values| (values[node] - range.0) / span);
+        self.draw_triangles(mesh, share, shade);
+    }
+
+    /// Draws a mesh in stripes, one for each unit of a number at the nodes.
+    pub fn draw_stripes(&mut self, mesh: &Mesh, values: &[f64]) {
+        let stripe = |normal, value: f64| {
+            let light = shade(normal, f64::NAN);
+            if value.rem_euclid(1.0) < 0.5 { light } else { light.map(|c| DARK * c) }
+        };
+        self.draw_triangles(mesh, |node| values[node], stripe);
+    }
+
+    fn draw_triangles(
+        &mut self,
+        mesh: &Mesh,
+        value: impl Fn(usize) -> f64,
+        color: impl Fn(DVec3, f64) -> [f64; 3],
+    ) {
+        let normals = mesh.node_normals();
         for triangle in mesh.triangles() {
             let corners = triangle.map(|node| {
                 let node = node as usize;
-                let share = values.map_or(f64::NAN, |values| (values[node] - range.0) / span);
-                (self.project(mesh.points()[node]), self.axes * normals[node], share)
+                (self.project(mesh.points()[node]), self.axes * normals[node], value(node))
             });
-            self.fill(corners);
+            self.fill(corners, &color);
         }
     }
 
@@ -201,7 +227,7 @@ impl Picture {
         DVec3::new(self.width as f64 / 2.0 + flat.x, self.height as f64 / 2.0 - flat.y, seen.z)
     }
 
-    fn fill(&mut self, [a, b, c]: [(DVec3, DVec3, f64); 3]) {
+    fn fill(&mut self, [a, b, c]: [(DVec3, DVec3, f64); 3], color: impl Fn(DVec3, f64) -> [f64; 3]) {
         let corner = |p: DVec3| p.truncate();
         let area = (corner(b.0) - corner(a.0)).perp_dot(corner(c.0) - corner(a.0));
         if area == 0.0 {
@@ -218,7 +244,7 @@ impl Picture {
                 if shares.iter().all(|&s| s >= 0.0) {
                     let [i, j, k] = shares;
                     let normal = i * a.1 + j * b.1 + k * c.1;
-                    let color = shade(normal, i * a.2 + j * b.2 + k * c.2);
+                    let color = color(normal, i * a.2 + j * b.2 + k * c.2);
                     self.set(p.x, p.y, i * a.0.z + j * b.0.z + k * c.0.z, color);
                 }
             }

@@ -10,7 +10,7 @@ use planish::mesh::Mesh;
 use planish::model::{FaceId, Model};
 use planish::query::deviation::{DeviationOptions, deviation};
 use planish::query::tessellate::{TessellateOptions, tessellate};
-use planish::surface::Surface;
+use planish::surface::{Domain, Surface, normal};
 
 /// What a picture shows.
 #[derive(Debug, Clone, Copy)]
@@ -29,6 +29,10 @@ pub struct RenderOptions<'a> {
     pub knot_lines: bool,
     /// Whether the trims are drawn.
     pub trims: bool,
+    /// Whether the surface is striped by equal brightness instead of coloured.
+    pub isophotes: bool,
+    /// Whether curvature stands on lines of the surface as combs.
+    pub combs: bool,
     /// Whether the control points and the lines between them are drawn.
     pub control_net: bool,
 }
@@ -43,6 +47,8 @@ impl Default for RenderOptions<'_> {
             plane: false,
             knot_lines: false,
             trims: false,
+            isophotes: false,
+            combs: false,
             control_net: false,
         }
     }
@@ -50,6 +56,15 @@ impl Default for RenderOptions<'_> {
 
 const KNOT_INK: [f64; 3] = [0.25, 0.30, 0.38];
 const TRIM_INK: [f64; 3] = [0.80, 0.10, 0.10];
+/// Stripes for each unit of the cosine.
+const STRIPES: f64 = 24.0;
+/// Longest side of a triangle under stripes, as a share of the shape's size.
+const FINE: f64 = 4e-3;
+const COMB_INK: [f64; 3] = [0.20, 0.25, 0.60];
+/// Lines of combs in each direction, the teeth of one, and the length of the longest tooth.
+const COMB_LINES: usize = 3;
+const COMB_TEETH: usize = 240;
+const COMB_SHARE: f64 = 0.12;
 const NET_INK: [f64; 3] = [0.10, 0.35, 0.15];
 
 /// Pieces of the side of a patch: fine enough that what sticks out of a trim is hardly seen.
@@ -58,12 +73,18 @@ const PIECES: usize = 32;
 /// Draws the part of a surface inside its trims.
 pub fn render(surface: &dyn Surface, options: &RenderOptions, pool: &Pool) -> Result<Picture, Error> {
     let scene = Scene { surface, is_plane: options.plane };
-    let (mesh, distances) = scene.shape(options.deviation_from, pool)?;
+    let (mesh, distances) = scene.shape(options, pool)?;
     let front = || if options.plane { View::from([0.0, 0.0, 1.0]) } else { View::facing(&mesh) };
     let view = options.view.unwrap_or_else(front);
     let mut picture = Picture::new(options.width, options.height, &view, &mesh);
     let range = (0.0, distances.iter().flatten().copied().fold(0.0, f64::max));
-    picture.draw_mesh(&mesh, distances.as_deref(), range);
+    match options.isophotes {
+        true => picture.draw_stripes(&mesh, &scene.brightness(&mesh, picture.light())),
+        false => picture.draw_mesh(&mesh, distances.as_deref(), range),
+    }
+    if options.combs && !options.plane {
+        scene.draw_combs(&mesh, &mut picture);
+    }
     if options.knot_lines {
         surface.knot_lines().into_iter().for_each(|[from, to]| scene.draw_side(from, to, &mut picture));
     }
@@ -122,9 +143,14 @@ struct Scene<'a> {
 
 impl Scene<'_> {
     /// The triangles to draw, and the distances at their nodes.
-    fn shape(&self, deviation_from: Option<&Mesh>, pool: &Pool) -> Result<(Mesh, Option<Vec<f64>>), Error> {
-        let (mesh, distances) = match deviation_from {
-            None => (tessellate(self.surface, &TessellateOptions::default())?.mesh, None),
+    fn shape(&self, options: &RenderOptions, pool: &Pool) -> Result<(Mesh, Option<Vec<f64>>), Error> {
+        let (mesh, distances) = match options.deviation_from {
+            None => {
+                let plain = tessellate(self.surface, &TessellateOptions::default())?.mesh;
+                let max_edge_length = if options.isophotes { FINE * plain.diagonal() } else { 0.0 };
+                let fine = TessellateOptions { max_edge_length, ..TessellateOptions::default() };
+                (if options.isophotes { tessellate(self.surface, &fine)?.mesh } else { plain }, None)
+            }
             Some(mesh) => {
                 let report = deviation(self.surface, mesh, &DeviationOptions::default(), pool)?;
                 (on_surface(self.surface, mesh, &report.uv)?, Some(report.nodes.each))
@@ -135,6 +161,57 @@ impl Scene<'_> {
                 Ok((Mesh::new(self.places(uv), mesh.triangles().to_vec())?, distances))
             }
             _ => Ok((mesh, distances)),
+        }
+    }
+
+    /// Stripes of equal brightness under a light: the cosine of the angle to it, in stripes.
+    fn brightness(&self, mesh: &Mesh, light: DVec3) -> Vec<f64> {
+        let derivatives = self.derivatives(mesh.parameters().unwrap_or_default());
+        let stripe = |row: &[DVec3; 6]| STRIPES * normal(row[1], row[2]).dot(light);
+        derivatives.iter().map(stripe).map(|x| if x.is_nan() { 0.0 } else { x }).collect()
+    }
+
+    fn derivatives(&self, uv: &[DVec2]) -> Vec<[DVec3; 6]> {
+        let mut rows = vec![0.0; 18 * uv.len()];
+        self.surface.eval_rows(uv, 2, &mut rows);
+        let row = |row: &[f64]| std::array::from_fn(|k| DVec3::from_slice(&row[3 * k..]));
+        rows.chunks_exact(18).map(row).collect()
+    }
+
+    /// Stands normal curvatures on lines of constant u and v; the longest tooth is a fixed share of the shape's size.
+    fn draw_combs(&self, mesh: &Mesh, picture: &mut Picture) {
+        let Domain { min, max } = self.surface.region().data_box.unwrap_or(self.surface.domain());
+        let lines = (1..=COMB_LINES).flat_map(|k| {
+            let share = k as f64 / (COMB_LINES + 1) as f64;
+            [0, 1].map(|axis| {
+                let place = |t: f64| if axis == 0 { DVec2::new(t, share) } else { DVec2::new(share, t) };
+                let at = |j: usize| min + (max - min) * place(j as f64 / COMB_TEETH as f64);
+                (axis, (0..=COMB_TEETH).map(at).collect::<Vec<DVec2>>())
+            })
+        });
+        let trims = &self.surface.region().trims;
+        let combs: Vec<Vec<Option<(DVec3, DVec3)>>> = lines
+            .map(|(axis, uv)| {
+                let tooth = |(&uv, [s, su, sv, suu, _, svv]): (&DVec2, [DVec3; 6])| {
+                    let (along, bend) = if axis == 0 { (su, suu) } else { (sv, svv) };
+                    let normal = normal(su, sv);
+                    let tooth = bend.dot(normal) / along.length_squared() * normal;
+                    (trims.contains(uv) && tooth.is_finite()).then_some((s, tooth))
+                };
+                uv.iter().zip(self.derivatives(&uv)).map(tooth).collect()
+            })
+            .collect();
+        let longest = combs.iter().flatten().flatten().map(|(_, tooth)| tooth.length()).fold(0.0, f64::max);
+        let scale = COMB_SHARE * mesh.diagonal() / longest.max(f64::MIN_POSITIVE);
+        for comb in &combs {
+            for (k, (foot, tooth)) in
+                comb.iter().enumerate().filter_map(|(k, tooth)| tooth.map(|tooth| (k, tooth)))
+            {
+                picture.draw_line(&[foot, foot + scale * tooth], COMB_INK);
+                if let Some(Some((next, after))) = comb.get(k + 1) {
+                    picture.draw_line(&[foot + scale * tooth, *next + scale * *after], TRIM_INK);
+                }
+            }
         }
     }
 

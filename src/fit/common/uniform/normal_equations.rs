@@ -7,7 +7,7 @@ use super::energy::EnergyTerm;
 use super::grid::{Direction, Part, UniformBasis};
 use crate::control::Pool;
 use crate::linalg::dissection::grid_order;
-use crate::linalg::{Cholesky, NotPositiveDefinite, SymbolicCholesky};
+use crate::linalg::{Cholesky, Conditions, NotPositiveDefinite, SymbolicCholesky, impose_all};
 use crate::lists::Lists;
 use glam::DVec2;
 use rayon::prelude::*;
@@ -62,6 +62,16 @@ impl<D: Direction> TensorBasis<D> {
             (0..self.u.width()).map(|a| u.weights[a] * row(a)).sum()
         };
         value.iter().enumerate().map(|(component, x)| (x - at(component)).powi(2)).sum()
+    }
+
+    /// The unknowns that the value at a place is made of, and their weights.
+    pub fn terms(&self, uv: DVec2) -> Vec<(usize, f64)> {
+        let ((cell_u, s), (cell_v, t)) = (self.u.locate(uv.x), self.v.locate(uv.y));
+        let (along_u, along_v) = (self.u.window(cell_u, s, 0), self.v.window(cell_v, t, 0));
+        let (width_u, width_v, count_v) = (self.u.width(), self.v.width(), self.v.len());
+        let pairs = (0..width_u).flat_map(|a| (0..width_v).map(move |b| (a, b)));
+        let unknown = |(a, b)| (along_u.first + a) * count_v + along_v.first + b;
+        pairs.map(|(a, b)| (unknown((a, b)), along_u.weights[a] * along_v.weights[b])).collect()
     }
 
     fn cell(&self, uv: DVec2) -> usize {
@@ -161,17 +171,19 @@ impl<D: Direction + Clone> NormalEquations<D> {
         Self { matrix, right, basis: self.basis.clone(), dim: self.dim }
     }
 
-    /// Solves with `weight` times the energy added; the unknowns come in columns, one for each component.
+    /// Solves with `weight` times the energy added, under conditions; the unknowns come in columns, one for each component.
     /// `symbolic` is made by [`NormalEquations::analyse`] for the same basis.
     pub fn solve(
         &self,
         symbolic: &SymbolicCholesky,
         weight: f64,
         energy: &[EnergyTerm],
+        conditions: &[Conditions],
     ) -> Result<Vec<f64>, NotPositiveDefinite> {
         let factor = self.factor(symbolic, weight, energy)?;
         let mut unknowns = self.right.clone();
         factor.solve(&mut unknowns, self.dim);
+        impose_all(conditions, &factor, &mut unknowns, self.basis.len());
         Ok(unknowns)
     }
 

@@ -16,6 +16,8 @@ const STALL: f64 = 0.05;
 const STALLED_ROUNDS: usize = 2;
 /// Errors count from this share of the tolerance on: what is nearly bad will be bad elsewhere.
 const COUNTS_FROM: f64 = 0.8;
+/// A datum with a tolerance of its own scores no more, however strict that is.
+const WORST_SCORE: f64 = 1e3;
 /// Cells with at least this share of the worst score are halved.
 const MARK_SHARE: f64 = 0.3;
 /// Most new lines in a round, as a share of those there are.
@@ -47,7 +49,7 @@ impl NetFitter<'_> {
     /// The fit over one cell.
     pub fn try_one_cell(&self, cell: [Lines; 2], control: &mut Control) -> Result<Growth, FitError> {
         let mut net = self.fit(cell, self.smoothings().0, control)?;
-        self.tell(net.errors.max, control)?;
+        self.tell(net.errors.demand, control)?;
         let stop = match self.meets(&mut net, control.pool()) {
             true => StopReason::ToleranceMet,
             false => StopReason::DataExhausted,
@@ -91,7 +93,7 @@ impl NetFitter<'_> {
     /// Keeps the net that is better at the data and between them.
     fn keep_better(&self, best: &mut Option<Net>, mut net: Net, pool: &Pool) {
         if let Some(best) = best {
-            if net.errors.max >= best.merit() {
+            if net.errors.demand >= best.merit() {
                 return;
             }
             self.measure_between(&mut net, pool);
@@ -140,8 +142,14 @@ impl NetFitter<'_> {
     fn marks(&self, net: &Net) -> Vec<Mark> {
         let tolerance = self.problem.goal.tolerance;
         let mut scores = [0, 1].map(|axis| vec![0.0; net.lines[axis].cell_count()]);
-        let places = self.problem.uv.iter().zip(&net.errors.each);
-        for (uv, error) in places.chain(self.places_between().iter().zip(&net.excess)) {
+        let standards = &self.problem.standards;
+        let demand = |(datum, &error): (usize, &f64)| match standards.factor(datum) {
+            1.0 => error,
+            factor => (error * factor).min(WORST_SCORE * tolerance),
+        };
+        let demands = net.errors.each.iter().enumerate().map(demand);
+        let between = self.places_between().iter().zip(net.excess.iter().copied());
+        for (uv, error) in self.problem.uv.iter().zip(demands).chain(between) {
             let score = error / tolerance - COUNTS_FROM;
             if score > 0.0 {
                 scores[0][net.lines[0].locate(uv.x).0] += score;

@@ -18,7 +18,6 @@ use super::lines::Lines;
 use super::single_grid::Fitted;
 use super::{FitError, Knots, Method, Problem, TensorFit};
 use crate::control::Control;
-use crate::fit::common::errors::data_errors;
 use crate::fit::common::report::StopReason;
 use crate::geometry::Bounds;
 use crate::surface::Surface;
@@ -52,33 +51,46 @@ impl Problem<'_> {
     /// Fits over the kind of knots that is asked for.
     pub fn fit_any(self, control: &mut Control) -> Result<TensorFit, FitError> {
         let options = self.options;
-        let is_uniform = options.knots == Knots::Uniform
-            || options.method == Method::Ferguson
-            || options.fixed_grid.is_some()
-            || self.uv.len().min(options.max_coefficients) < LEAST_COUNT
-            || options.max_grid < STARTS[0] + 1;
+        let is_uniform = !self.is_mirrored
+            && self.sides.is_empty()
+            && (options.knots == Knots::Uniform
+                || options.method == Method::Ferguson
+                || options.fixed_grid.is_some()
+                || self.uv.len().min(options.max_coefficients) < LEAST_COUNT
+                || options.max_grid < STARTS[0] + 1);
         if is_uniform {
             return self.run(control);
+        }
+        if self.is_mirrored || !self.sides.is_empty() {
+            let freed = self.fit_freely(control)?;
+            return Ok(self.finish_freed(freed, control));
         }
         // a plain shape needs no lines of its own
         let plain = control.watch(|pool, watch| self.fit_grid([2, 2], pool, watch))??;
         let tolerance = self.goal.tolerance;
-        control.report((tolerance / plain.errors.max).min(1.0), plain.errors.max)?;
-        let is_met = plain.errors.max <= tolerance
+        control.report((tolerance / plain.errors.demand).min(1.0), plain.errors.demand)?;
+        let is_met = plain.errors.demand <= tolerance
             && self.interior_errors(&plain.surface, control.pool()).max_smooth_excess <= tolerance;
         if is_met {
             let plain = self.tamed(plain, control)?;
             return Ok(self.finish(plain.into(), StopReason::ToleranceMet, 1, control));
         }
         let freed = self.fit_freely(control)?;
+        Ok(self.finish_freed(freed, control))
+    }
+
+    /// The surface over free knots with its buffer.
+    fn finish_freed(self, freed: Freed, control: &Control) -> TensorFit {
+        let options = self.options;
         let coefficient_count = freed.net.coefficient_count();
         let Net { surface, smoothing, .. } = freed.net;
         let bounds = Bounds::of_rows(self.values, self.dim);
-        let mut surface = with_buffer(surface, options.buffer, &bounds);
+        let buffer = if self.sides.is_empty() { options.buffer } else { 0.0 };
+        let mut surface = with_buffer(surface, buffer, &bounds);
         *surface.region_mut() = self.region();
-        let errors = data_errors(&surface, &self.uv, self.values, control.pool());
+        let errors = self.errors(&surface, control.pool());
         let fitted = Fitted { surface, errors, smoothing, coefficient_count };
-        Ok(self.finish(fitted, freed.stop, freed.rounds + 1, control))
+        self.finish(fitted, freed.stop, freed.rounds + 1, control)
     }
 
     /// Fits over free knots.
@@ -152,10 +164,12 @@ impl Problem<'_> {
     /// Equal cells over the box of the data.
     fn start(&self, count: usize) -> Result<[Lines; 2], FitError> {
         let (min, max) = (self.data_box.min, self.data_box.max);
-        let lines = |axis: char, min: f64, max: f64| {
-            Lines::uniform(min, max, count).map_err(|_| FitError::DegenerateRange { axis, at: min })
+        let lines = |axis: usize| {
+            let degenerate = |_| FitError::DegenerateRange { axis: ['u', 'v'][axis], at: min[axis] };
+            let equal = Lines::uniform(min[axis], max[axis], count).map_err(degenerate)?;
+            Lines::new(self.with_side_lines(equal.breaks().to_vec(), axis)).map_err(degenerate)
         };
-        Ok([lines('u', min.x, max.x)?, lines('v', min.y, max.y)?])
+        Ok([lines(0)?, lines(1)?])
     }
 }
 

@@ -13,13 +13,13 @@ use super::super::lines::Lines;
 use super::super::tame::{CutCells, Emptiness};
 use super::super::{FitError, Problem};
 use crate::control::{Control, Pool, Watch};
-use crate::fit::common::errors::{DataErrors, data_errors};
+use crate::fit::common::errors::DataErrors;
 use crate::fit::common::interior::Between;
 use crate::fit::common::tame::{TENSE_WITHIN, is_wild};
 use crate::fit::common::uniform::energy::EnergyTerm;
 use crate::fit::common::uniform::grid::Direction;
 use crate::fit::common::uniform::normal_equations::{NormalEquations, Samples, TensorBasis};
-use crate::linalg::SymbolicCholesky;
+use crate::linalg::{Conditions, SymbolicCholesky};
 use crate::surface::tensor::TensorSurface;
 use crate::surface::{Surface, Trims};
 use glam::DVec2;
@@ -46,6 +46,7 @@ pub struct NetFitter<'a> {
     /// Of each datum; 0 for one that is withheld.
     pub weights: Vec<f64>,
     weight_sum: f64,
+    withholds: bool,
     trims: Trims,
     /// None for many scattered data: those that are withheld tell of what lies between the others.
     between: Option<Between>,
@@ -100,7 +101,7 @@ impl Net {
 
     /// The largest error at the data, and between them as far as it has been measured.
     pub fn merit(&self) -> f64 {
-        self.excess.iter().copied().fold(self.errors.max, f64::max)
+        self.excess.iter().copied().fold(self.errors.demand, f64::max)
     }
 }
 
@@ -116,6 +117,7 @@ pub struct NetEquations {
     /// Of the cells without data.
     tension: Option<NormalEquations<Lines>>,
     energy: Vec<EnergyTerm>,
+    conditions: Vec<Conditions>,
     symbolic: SymbolicCholesky,
 }
 
@@ -124,7 +126,7 @@ impl<'a> NetFitter<'a> {
         let count = problem.uv.len();
         let withholds = problem.mesh.is_none() && count >= LEAST_TO_WITHHOLD;
         let is_withheld = |datum: usize| withholds && scramble(datum).is_multiple_of(WITHHOLD_EVERY);
-        let weight = |datum: usize| match problem.options.weights {
+        let weight = |datum: usize| match &problem.weights {
             _ if is_withheld(datum) => 0.0,
             Some(weights) => weights[datum],
             None => 1.0,
@@ -137,6 +139,7 @@ impl<'a> NetFitter<'a> {
         };
         let between = (!withholds).then(|| problem.between(watch));
         Self {
+            withholds,
             values: problem.frame.inward(problem.values),
             weight_sum: weights.iter().sum(),
             weights,
@@ -152,15 +155,15 @@ impl<'a> NetFitter<'a> {
 
     /// Lets the withheld data count.
     pub fn use_all_data(&mut self) {
-        let given = self.problem.options.weights;
-        let weight = |datum: usize| given.map_or(1.0, |weights| weights[datum]);
-        self.weights = (0..self.problem.uv.len()).map(weight).collect();
+        self.withholds = false;
+        let given = self.problem.weights.clone();
+        self.weights = given.unwrap_or_else(|| vec![1.0; self.problem.uv.len()]);
         self.weight_sum = self.weights.iter().sum();
     }
 
     /// Whether data are withheld.
     pub fn withholds(&self) -> bool {
-        self.weights.contains(&0.0)
+        self.withholds
     }
 
     /// Data with a coordinate in the half-open interval.
@@ -251,10 +254,14 @@ impl<'a> NetFitter<'a> {
         let breaks = [lines[0].breaks(), lines[1].breaks()];
         let Emptiness { parts, is_empty } = problem.emptiness(breaks, self.tension.cut, &self.trims);
         let tension =
-            is_empty.contains(&true).then(|| NormalEquations::tension(basis, dim, &parts, &is_empty));
+            is_empty.contains(&true).then(|| NormalEquations::tension(basis.clone(), dim, &parts, &is_empty));
+        let conditions = match rows.are_own {
+            true => problem.conditions(&basis, (rows.values, dim)),
+            false => Vec::new(),
+        };
         let symbolic = equations.analyse();
         let energy = plate(&lines);
-        Ok(NetEquations { lines, equations, tension, energy, symbolic })
+        Ok(NetEquations { lines, equations, tension, energy, conditions, symbolic })
     }
 
     /// Solves and measures at the data.
@@ -277,7 +284,7 @@ impl<'a> NetFitter<'a> {
         surface.set_control_points(&points).map_err(|_| FitError::Singular)?;
         watch.check()?;
         Ok(Net {
-            errors: data_errors(&surface, &problem.uv, problem.values, pool),
+            errors: problem.errors(&surface, pool),
             lines: net.lines.clone(),
             surface,
             excess: Vec::new(),
@@ -301,7 +308,7 @@ impl<'a> NetFitter<'a> {
             None => Cow::Borrowed(&net.equations),
             Some(tension) => Cow::Owned(net.equations.plus(tension, tension_weight)),
         };
-        let solved = equations.solve(&net.symbolic, weight, &net.energy);
+        let solved = equations.solve(&net.symbolic, weight, &net.energy, &net.conditions);
         let unknowns = solved.map_err(|_| FitError::Singular)?;
         let n = coefficient_count(&net.lines);
         let points: Vec<f64> =
@@ -323,7 +330,7 @@ impl<'a> NetFitter<'a> {
     /// Whether a net is within the tolerance at the data and, beyond what the facets explain, between them.
     /// Between them it is measured only if it is good at them.
     pub fn meets(&self, net: &mut Net, pool: &Pool) -> bool {
-        if net.errors.max > self.bound() {
+        if net.errors.demand > self.bound() {
             return false;
         }
         self.measure_between(net, pool);
@@ -339,7 +346,7 @@ impl<'a> NetFitter<'a> {
     pub fn seems_to_meet(&self, net: &Net, pool: &Pool) -> bool {
         let tolerance = self.bound();
         let between = || self.sparse.as_ref().map(|between| between.excess(&net.surface, pool));
-        net.errors.max <= tolerance
+        net.errors.demand <= tolerance
             && between().is_none_or(|excess| excess.iter().all(|&e| e <= tolerance))
             && !self.is_wild(net, pool)
     }

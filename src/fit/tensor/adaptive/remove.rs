@@ -17,6 +17,8 @@ const FIRST_SHARE: f64 = 0.2;
 const WEIGH_FROM: f64 = 0.75;
 /// A largest error beyond this many tolerances is not worth weighing.
 const WORTH_WEIGHING: f64 = 1.4;
+/// More than this a weight does not grow at once, however strict the tolerance of a datum.
+const MOST_WEIGHT: f64 = 10.0;
 /// Solves with weights for one batch.
 const MOST_WEIGHED: usize = 4;
 /// The jump of a line is this percentile of the jumps along it: single spikes do not save it.
@@ -41,7 +43,7 @@ impl NetFitter<'_> {
         mut factors: Option<&mut Vec<f64>>,
         control: &mut Control,
     ) -> Result<(Net, usize), FitError> {
-        let mut kept: [Vec<f64>; 2] = [Vec::new(), Vec::new()];
+        let mut kept: [Vec<f64>; 2] = self.problem.side_lines();
         let mut share = FIRST_SHARE;
         let mut solves = 0;
         while solves < most {
@@ -91,11 +93,12 @@ impl NetFitter<'_> {
                 *factors = trial;
                 return Ok(Some(net));
             }
-            if net.errors.max > WORTH_WEIGHING * tolerance {
+            if net.errors.demand > WORTH_WEIGHING * tolerance {
                 break;
             }
-            for (factor, error) in trial.iter_mut().zip(&net.errors.each) {
-                *factor *= (error / (WEIGH_FROM * tolerance)).max(1.0).powi(3);
+            for (datum, (factor, error)) in trial.iter_mut().zip(&net.errors.each).enumerate() {
+                let demand = self.problem.standards.factor(datum) * error;
+                *factor *= (demand / (WEIGH_FROM * tolerance)).clamp(1.0, MOST_WEIGHT).powi(3);
             }
             let mean = trial.iter().sum::<f64>() / trial.len() as f64;
             trial.iter_mut().for_each(|factor| *factor /= mean);

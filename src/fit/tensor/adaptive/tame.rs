@@ -31,7 +31,7 @@ impl NetFitter<'_> {
             fitter.borrow().measure_between(&mut net, pool);
             Standing {
                 excursion: problem.excursion(&net.surface, pool),
-                error: net.errors.max,
+                error: net.errors.demand,
                 between: net.excess.iter().copied().fold(0.0, f64::max),
             }
         };

@@ -1,0 +1,116 @@
+//! `planish fair`.
+
+use crate::fit::with_bar;
+use crate::output::{self, Table};
+use crate::step::StepArguments;
+use crate::{Failure, Given, Outcome};
+use clap::{Args, ValueEnum};
+use planish::Control;
+use planish::export::native;
+use planish::fit::fair::{FairData, FairOptions, Fairness, KeptBorder, fair};
+use planish::fit::report::{Tolerance, ToleranceScale};
+use planish::mesh::{MeshOptions, read};
+use planish::query::project::{ProjectOptions, Projector};
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub struct FairArguments {
+    /// Saved surface (.planish): a tensor surface or a PHT-spline.
+    surface: PathBuf,
+    /// How far the surface may come to lie from itself, or from the mesh, as a fraction of the diagonal.
+    #[arg(long, default_value_t = 1e-3, value_name = "T", allow_negative_numbers = true)]
+    tolerance: f64,
+    /// Take the tolerance in model units.
+    #[arg(long)]
+    absolute: bool,
+    /// Stay near the nodes of this mesh instead of the surface itself (OFF, OBJ, PLY, STL).
+    #[arg(long, value_name = "MESH")]
+    mesh: Option<PathBuf>,
+    /// The energy that is lowered.
+    #[arg(long, value_enum, default_value_t = EnergyName::ThinPlate)]
+    energy: EnergyName,
+    /// What of the border of the domain stays.
+    #[arg(long, value_enum, default_value_t = BorderName::None)]
+    border: BorderName,
+    /// Write a file: .planish, .step or .stp, .vtu, or a tessellation as .obj; may be given several times.
+    #[arg(long, value_name = "FILE")]
+    out: Vec<PathBuf>,
+    #[command(flatten)]
+    step: StepArguments,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum EnergyName {
+    /// Bending.
+    ThinPlate,
+    /// Change of bending.
+    Variation,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum BorderName {
+    /// Nothing.
+    None,
+    /// Its place.
+    Position,
+    /// Its place and its tangent planes.
+    Tangent,
+}
+
+pub fn run(arguments: &FairArguments, given: &Given) -> Result<Outcome, Failure> {
+    output::check_names(&arguments.out)?;
+    let writes_step = arguments.out.iter().any(|path| output::is_step(path));
+    for option in StepArguments::OPTIONS {
+        given.refuse(option, writes_step, "is not used: no STEP file is written")?;
+    }
+    let surface = native::load_file(&arguments.surface)?;
+    let options = FairOptions {
+        tolerance: Tolerance {
+            value: arguments.tolerance,
+            scale: if arguments.absolute { ToleranceScale::Absolute } else { ToleranceScale::Relative },
+        },
+        energy: match arguments.energy {
+            EnergyName::ThinPlate => Fairness::ThinPlate,
+            EnergyName::Variation => Fairness::CurvatureVariation,
+        },
+        border: match arguments.border {
+            BorderName::None => KeptBorder::None,
+            BorderName::Position => KeptBorder::Position,
+            BorderName::Tangent => KeptBorder::Tangent,
+        },
+    };
+    let nodes = match &arguments.mesh {
+        None => None,
+        Some(path) => {
+            let mesh = read(path, &MeshOptions::default())?.0;
+            let values: Vec<f64> = mesh.points().iter().flat_map(|p| p.to_array()).collect();
+            let projector = Projector::new(surface.as_surface())?;
+            let feet = projector.project(&values, &ProjectOptions::default(), Control::default().pool())?;
+            Some((feet.uv, values))
+        }
+    };
+    let data = nodes.as_ref().map(|(uv, values)| FairData { uv, values });
+    let faired = with_bar(1, |control| fair(&surface, data, &options, control))?;
+    let stem = arguments.surface.file_stem().unwrap_or_default().to_string_lossy();
+    let step = arguments.step.step(&faired.surface.as_surface().region().label, &stem);
+    for path in &arguments.out {
+        output::write_surface(&faired.surface, path, &step)?;
+    }
+    let report = &faired.report;
+    let both = |length: f64| format!("{length:.3e}   {:.2e} of the diagonal", length / report.diagonal);
+    let mut table = Table::default();
+    table.row("surface", format!("{}", arguments.surface.display()));
+    table.row("energy", format!("{:.4e} to {:.4e}", report.energy_before, report.energy_after));
+    table.row("tolerance", both(report.tolerance));
+    table.row(if nodes.is_some() { "max error" } else { "moved at most" }, both(report.max_deviation));
+    if nodes.is_some() {
+        table.row("rms error", both(report.rms_deviation));
+        table.row("moved at most", both(report.max_movement));
+    }
+    table.row("seconds", format!("{:.2}, {} solves", report.seconds, report.passes));
+    for path in output::names(&arguments.out) {
+        table.row("written", path);
+    }
+    output::print(table)?;
+    Ok(Outcome::Done)
+}
