@@ -39,13 +39,11 @@ pub(in crate::fit) struct Standing {
 }
 
 impl Standing {
-    /// Whether it is good enough where `other` was.
+    /// Whether it is as good as `other` at the data, and between them no worse than that was anywhere.
     fn is_as_good_as(&self, other: &Self, tolerance: f64) -> bool {
-        let is_kept = |error: f64, before: f64| {
-            error <= DEARER * before.max(0.0) && (error <= tolerance || before > tolerance)
-        };
-        is_kept(self.error, other.error)
-            && (self.between <= tolerance || is_kept(self.between, other.between))
+        let is_kept =
+            self.error <= DEARER * other.error && (self.error <= tolerance || other.error > tolerance);
+        is_kept && self.between <= tolerance.max(DEARER * other.error.max(other.between))
     }
 }
 
