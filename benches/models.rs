@@ -4,6 +4,7 @@
 //! `target/models`, scaled to a diagonal of 100 as the tables of the theory are.
 
 use planish::Control;
+use planish::control::Watch;
 use planish::export::step;
 use planish::fit::model::{MeshModelOptions, ModelOptions, fit_mesh};
 use planish::fit::report::Tolerance;
@@ -81,7 +82,7 @@ fn run(name: &str, mesh: &Mesh, kind: LayoutKind, patches: usize, tolerance: f64
         report.fit_seconds,
     );
     let path = output.join(format!("{}_{tolerance:e}.step", name.split('.').next().unwrap_or(name)));
-    match step::write(&fit.model, &step::StepOptions::default(), &path) {
+    match step::write(&fit.model, &step::StepOptions::default(), &path, &Watch::default()) {
         Ok(step) => println!(
             "    STEP: {} faces, {} edges, {} poles, curves off by {:.1e}",
             step.face_count, step.edge_count, step.pole_count, step.curve_deviation

@@ -8,6 +8,11 @@
 #include <cmath>
 #include <vector>
 
+#ifndef _WIN32
+#include <sys/wait.h>
+#include <unistd.h>
+#endif
+
 namespace {
 
 planish::mesh sheet() {
@@ -97,6 +102,41 @@ TEST(FieldGradient, OfThePlaceIsTheProjection) {
   CHECK(status_of([&] { planish::field_gradient(shape, shape, std::vector<planish::point2>{{9, 9}}); }) ==
         PLANISH_STATUS_OUTSIDE);
 }
+
+#ifndef _WIN32
+// What a process forked after the fitter's first use gets of a fit with so many threads; -1 if it does not end well.
+int status_after_fork(std::uint32_t threads) {
+  const planish::mesh mesh = sheet();
+  auto options = planish::defaults<planish_field_options>();
+  options.grid_u = options.grid_v = 9;
+  options.thread_count = threads;
+  planish_field_fitter *fitter = nullptr;
+  CHECK(planish_field_fitter_new(mesh.get(), &options, &fitter) == PLANISH_STATUS_OK);
+  const std::vector<double> values(mesh.point_count(), 2.0);
+  planish_surface *surface = nullptr;
+  CHECK(planish_field_fitter_fit(fitter, values.data(), values.size(), 1, &surface, nullptr) == PLANISH_STATUS_OK);
+  planish_surface_free(surface);
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(20);  // ends it if a call waits for threads that are not there
+    planish_surface *another = nullptr;
+    const planish_status status =
+        planish_field_fitter_fit(fitter, values.data(), values.size(), 1, &another, nullptr);
+    planish_surface_free(another);
+    planish_field_fitter_free(fitter);
+    _exit(-status);
+  }
+  int ended = 0;
+  CHECK(waitpid(child, &ended, 0) == child);
+  planish_field_fitter_free(fitter);
+  return WIFEXITED(ended) ? WEXITSTATUS(ended) : -1;
+}
+
+TEST(FieldFitter, SaysThatItsThreadsAreNotInTheForkedProcess) {
+  CHECK_EQUAL(status_after_fork(2), -PLANISH_STATUS_INVALID_ARGUMENT);
+  CHECK_EQUAL(status_after_fork(1), -PLANISH_STATUS_OK);
+}
+#endif
 
 TEST(Transfer, CarriesValuesThereAndForcesBack) {
   const shapes::arrays fine = shapes::graph(37, 31, 0.2, 4);

@@ -1078,7 +1078,9 @@ typedef struct planish_curve planish_curve;
  * Fits fields on the nodes of one mesh, or at the same parameters, again and again: grid, factorization and threads
  * are kept. Made by planish_field_fitter_new(), destroyed by planish_field_fitter_free().
  *
- * Calls that take it const may run at once on any threads.
+ * Calls that take it const may run at once on any threads. A process forked after its first use does not have its
+ * threads: calls return PLANISH_STATUS_INVALID_ARGUMENT there, and only planish_field_fitter_free() is left to do. One
+ * made with thread_count 1 has no threads and stays of use.
  */
 typedef struct planish_field_fitter planish_field_fitter;
 
@@ -1288,7 +1290,8 @@ typedef struct planish_mesh_write_options {
  * Returns 0 to go on; anything else cancels, and the call returns PLANISH_STATUS_CANCELLED when the step in
  * progress, such as a factorization, has ended.
  *
- * It is called on the thread that made the call. It must not throw or longjmp: a C++ exception that leaves it
+ * It is called on the thread that made the call. With thread_count 1 that thread does the work too and asks between its
+ * steps. It must not throw or longjmp: a C++ exception that leaves it
  * ends the process. It may call the library, but not change or destroy what the call was given.
  */
 typedef int32_t (*planish_progress)(double fraction, double error, void *user);
@@ -4909,8 +4912,8 @@ enum planish_status planish_mesh_split_components(const struct planish_mesh *mes
  *
  * mesh:      not NULL.
  * from, to:  its ends, nodes counted from 0.
- * out_nodes: receives the nodes of the path, both ends included; NULL if count is 0.
- * count:     nodes that out_nodes has room for; 0 asks for the length only.
+ * out_nodes: receives the nodes of the path, both ends included. NULL asks for their number.
+ * count:     nodes that out_nodes has room for.
  * out_count: receives the number of nodes of the path; not NULL.
  * Arrays: out_nodes[count], out_count[1].
  * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INDEX (no such node; it is the

@@ -11,6 +11,7 @@
 use crate::basis::raise;
 use crate::geometry::{Bounds, Domain};
 use crate::knots::{KnotVector, MAX_DEGREE};
+use crate::memory::{self, CollectVec};
 use glam::DVec2;
 
 /// A polynomial or rational surface over a rectangle in Bernstein form.
@@ -93,7 +94,7 @@ impl BezierPatch {
         let [from, to] = [from, to].map(|uv| (uv - self.domain.min) / self.domain.size());
         let part = self.local_ordinates([from.x, to.x], [from.y, to.y]);
         let ([p, q], width) = (self.degree, self.width());
-        let mut ordinates = vec![0.0; (p + q + 1) * width];
+        let mut ordinates = memory::filled(0.0, (p + q + 1) * width);
         for (ij, row) in part.chunks_exact(width).enumerate() {
             let (i, j) = (ij / (q + 1), ij % (q + 1));
             let share = binomial(p, i) * binomial(q, j) / binomial(p + q, i + j);
@@ -107,13 +108,13 @@ impl BezierPatch {
     /// A box that holds the patch: the one of its ordinates, divided by their weights.
     pub fn bounds(&self) -> Bounds {
         let points: Vec<f64> =
-            self.ordinates.chunks_exact(self.width()).flat_map(|row| self.to_value(row)).collect();
+            self.ordinates.chunks_exact(self.width()).flat_map(|row| self.to_value(row)).collect_vec();
         Bounds::of_rows(&points, self.dim)
     }
 
     fn to_value(&self, row: &[f64]) -> Vec<f64> {
         let weight = if self.is_rational { row[self.dim] } else { 1.0 };
-        row[..self.dim].iter().map(|x| x / weight).collect()
+        row[..self.dim].iter().map(|x| x / weight).collect_vec()
     }
 
     /// Ordinates over intervals of the unit square, which may run backwards.
@@ -138,7 +139,7 @@ pub fn extraction(knots: &KnotVector, span: usize) -> Vec<f64> {
 /// The same for the piece's polynomial over any interval.
 pub fn extraction_over(knots: &KnotVector, span: usize, [from, to]: [f64; 2]) -> Vec<f64> {
     let (t, degree) = (knots.knots(), knots.degree());
-    let mut matrix = Vec::with_capacity((degree + 1) * (degree + 1));
+    let mut matrix = memory::with_capacity((degree + 1) * (degree + 1));
     for j in 0..=degree {
         let mut values = [0.0; MAX_DEGREE + 1];
         values[0] = 1.0;
@@ -159,14 +160,14 @@ pub(crate) fn apply(
     rows_v: &[f64],
 ) -> Vec<f64> {
     let [m, n] = degree.map(|degree| degree + 1);
-    let mut half = vec![0.0; rows_u.len() / m * n * width];
+    let mut half = memory::filled(0.0, rows_u.len() / m * n * width);
     for (row, out) in rows_u.chunks_exact(m).zip(half.chunks_exact_mut(n * width)) {
         for (&share, line) in row.iter().zip(net.chunks_exact(n * width)) {
             out.iter_mut().zip(line).for_each(|(out, x)| *out += share * x);
         }
     }
     let out_n = rows_v.len() / n;
-    let mut whole = vec![0.0; rows_u.len() / m * out_n * width];
+    let mut whole = memory::filled(0.0, rows_u.len() / m * out_n * width);
     for (line, outs) in half.chunks_exact(n * width).zip(whole.chunks_exact_mut(out_n * width)) {
         for (row, out) in rows_v.chunks_exact(n).zip(outs.chunks_exact_mut(width)) {
             for (&share, point) in row.iter().zip(line.chunks_exact(width)) {
@@ -193,12 +194,12 @@ fn blossom_weights(degree: usize, argument: impl Fn(usize) -> f64) -> Vec<f64> {
 
 /// From the ordinates over the unit interval to those over another, one row for each.
 fn interval_weights(degree: usize, from: f64, to: f64) -> Vec<f64> {
-    (0..=degree).flat_map(|j| blossom_weights(degree, |k| if k < j { to } else { from })).collect()
+    (0..=degree).flat_map(|j| blossom_weights(degree, |k| if k < j { to } else { from })).collect_vec()
 }
 
 /// From the ordinates of one degree to those of a higher one, one row for each.
 fn elevation(from: usize, to: usize) -> Vec<f64> {
-    let mut matrix = vec![0.0; (to + 1) * (from + 1)];
+    let mut matrix = memory::filled(0.0, (to + 1) * (from + 1));
     for k in 0..=to {
         for i in k.saturating_sub(to - from)..=k.min(from) {
             matrix[k * (from + 1) + i] = binomial(from, i) * binomial(to - from, k - i) / binomial(to, k);
@@ -224,7 +225,7 @@ mod tests {
         let mut random = Random::new(degree[0] as u64);
         let mut knots = |degree: usize| {
             let mut t: Vec<f64> = (0..2 * degree + 6).map(|_| 10.0 * random.unit()).collect();
-            t.sort_by(f64::total_cmp);
+            t.sort_unstable_by(f64::total_cmp);
             let middle = t.len() / 2;
             t[middle] = t[middle - 1];
             KnotVector::new(t, degree).unwrap()

@@ -3,14 +3,15 @@
 use crate::failure::{Classify, ErrorKind};
 use rayon::{ThreadBuilder, ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::cell::Cell;
+use std::fmt;
 use std::io;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicI32, AtomicU32, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::sync::{Arc, Mutex, OnceLock};
-use std::thread::JoinHandle;
-use std::time::Duration;
+use std::thread::{JoinHandle, ThreadId};
+use std::time::{Duration, Instant};
 
 /// The listener, or whoever set the flag, asked to stop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -22,6 +23,11 @@ impl Classify for Cancelled {
         ErrorKind::Cancelled
     }
 }
+
+/// Threads were started in the process that this one was forked from, and stayed there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("its threads stayed in the process that was forked: make another one in this process")]
+pub struct Forked;
 
 /// Hears the done fraction (0 to 1) and the error so far (NaN while unknown); breaks to cancel.
 pub type ProgressFn<'a> = dyn FnMut(f64, f64) -> ControlFlow<()> + 'a;
@@ -52,7 +58,7 @@ pub enum Stage {
 }
 
 /// Threads that share work: as many as asked for, started when first needed; where the system has no more to give, as
-/// many as it has, and in the end the calling thread alone.
+/// many as it has, and in the end the calling thread alone, which is also the one of a pool of one.
 ///
 /// Results never depend on their number: work is cut into pieces of fixed size, and pieces are combined in
 /// their order.
@@ -70,6 +76,8 @@ struct Threads {
     /// None while it is dropped.
     pool: Option<ThreadPool>,
     handles: Vec<JoinHandle<()>>,
+    /// A process forked from this one has none of the threads.
+    process: u32,
 }
 
 /// Starts a thread of a pool.
@@ -98,13 +106,18 @@ impl Threads {
         let mut handles = Vec::with_capacity(count);
         let keep = |thread: ThreadBuilder| spawn(thread).map(|handle| handles.push(handle));
         match ThreadPoolBuilder::new().num_threads(count).spawn_handler(keep).build() {
-            Ok(pool) => Ok(Self { pool: Some(pool), handles }),
+            Ok(pool) => Ok(Self { pool: Some(pool), handles, process: std::process::id() }),
             Err(error) => {
                 // those that have started are told to end, and panics are none here
                 handles.into_iter().for_each(|handle| drop(handle.join()));
                 Err(error)
             }
         }
+    }
+
+    /// Whether they are in this process.
+    fn are_here(&self) -> bool {
+        self.process == std::process::id()
     }
 
     fn pool(&self) -> &ThreadPool {
@@ -114,6 +127,11 @@ impl Threads {
 
 impl Drop for Threads {
     fn drop(&mut self) {
+        if !self.are_here() {
+            // nobody would hear, and waiting would never end
+            std::mem::forget(self.pool.take());
+            return;
+        }
         self.pool = None; // tells the threads to end
         for handle in self.handles.drain(..) {
             // panics of the work have gone to whoever waited for it
@@ -157,6 +175,9 @@ impl Pool {
 
     /// Runs `work` so that rayon's parallel iterators and joins inside it use this pool.
     pub fn run<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
+        if self.thread_count == 1 {
+            return on_this_thread(work);
+        }
         match self.threads() {
             Some(threads) => threads.install(work),
             None => on_this_thread(work),
@@ -167,6 +188,12 @@ impl Pool {
     fn threads(&self) -> Option<&ThreadPool> {
         self.threads.get_or_init(|| Threads::start(self.thread_count, spawn)).as_ref().map(Threads::pool)
     }
+
+    /// An error if the threads have been started in another process: asked by what keeps a pool between calls.
+    pub fn check_process(&self) -> Result<(), Forked> {
+        let are_here = self.threads.get().and_then(Option::as_ref).is_none_or(Threads::are_here);
+        if are_here { Ok(()) } else { Err(Forked) }
+    }
 }
 
 /// Cores that this process may use, asked for once: the system reads files to answer.
@@ -175,7 +202,7 @@ fn core_count() -> usize {
     *COUNT.get_or_init(|| std::thread::available_parallelism().map_or(1, NonZeroUsize::get))
 }
 
-/// Runs work where the system has no thread to give.
+/// Runs work without starting a thread.
 fn on_this_thread<R>(work: impl FnOnce() -> R) -> R {
     if rayon::current_thread_index().is_none() {
         let alone = ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
@@ -201,6 +228,8 @@ enum Listener<'a> {
     Here(&'a mut ProgressFn<'a>),
     /// The thread that hosts the call.
     Host(mpsc::Sender<Report>),
+    /// The function of the pool's watch, which asks between reports as well.
+    Watch,
 }
 
 /// What a hosted call tells, and where it waits for the answer.
@@ -255,6 +284,19 @@ impl<'a> Control<'a> {
     /// The same with a listener.
     pub fn with_progress(self, progress: &'a mut ProgressFn<'a>) -> Self {
         Self { listener: Listener::Here(progress), ..self }
+    }
+
+    /// The same with a listener for a call that runs on this thread alone: no other thread is there to ask it, so it is
+    /// asked wherever the call looks whether it is to end, at most every 20 ms, and when it reports.
+    pub fn with_asked(self, ask: impl Fn(f64, f64) -> ControlFlow<()> + Send + Sync + 'static) -> Self {
+        let asker = Asker {
+            thread: std::thread::current().id(),
+            ask: Box::new(ask),
+            last: Mutex::new((Instant::now(), self.last)),
+        };
+        let watch = Watch { asker: Some(asker), ..Watch::default() };
+        let pool = Pool { thread_count: self.pool.thread_count, threads: OnceLock::new(), watch };
+        Self { pool: Arc::new(pool), listener: Listener::Watch, ..self }
     }
 
     /// The same with a flag that cancels when it is not 0.
@@ -332,6 +374,10 @@ impl<'a> Control<'a> {
         let (fraction, error) = self.last;
         let answer = match &mut self.listener {
             Listener::Nobody => ControlFlow::Continue(()),
+            Listener::Watch => {
+                self.pool.watch.ask(fraction, error);
+                ControlFlow::Continue(())
+            }
             Listener::Here(tell) => tell(fraction, error),
             Listener::Host(host) => {
                 let (answer, answered) = mpsc::channel();
@@ -351,6 +397,11 @@ impl<'a> Control<'a> {
     /// every 20 ms, so that it can cancel in the middle of long work: that asks [`Control::report`], [`Pool::check`] or
     /// [`Watch::check`] between its steps.
     pub fn host<R: Send>(&mut self, call: impl FnOnce(&mut Control) -> R + Send) -> Result<R, Cancelled> {
+        if let Listener::Watch = self.listener {
+            let value = call(self);
+            self.pool.check()?;
+            return Ok(value);
+        }
         if matches!(self.listener, Listener::Nobody | Listener::Host(_)) && self.cancel.is_none() {
             return Ok(call(self));
         }
@@ -421,12 +472,56 @@ impl<'a> Control<'a> {
 #[derive(Debug, Default)]
 pub struct Watch {
     is_cancelled: AtomicBool,
+    asker: Option<Asker>,
+}
+
+/// Asks the listener of a call that has one thread.
+struct Asker {
+    /// The only one on which it is asked.
+    thread: ThreadId,
+    ask: Box<dyn Fn(f64, f64) -> ControlFlow<()> + Send + Sync>,
+    /// When it was asked last, and what it was told.
+    last: Mutex<(Instant, (f64, f64))>,
+}
+
+impl fmt::Debug for Asker {
+    fn fmt(&self, to: &mut fmt::Formatter) -> fmt::Result {
+        write!(to, "Asker on {:?}", self.thread)
+    }
 }
 
 impl Watch {
     /// An error once the call is cancelled.
     pub fn check(&self) -> Result<(), Cancelled> {
+        if let Some(asker) = &self.asker
+            && let Ok(last) = asker.last.try_lock().map(|last| *last)
+            && last.0.elapsed() >= POLL
+        {
+            let (fraction, error) = last.1;
+            self.ask(fraction, error);
+        }
         if self.is_cancelled.load(Ordering::Relaxed) { Err(Cancelled) } else { Ok(()) }
+    }
+
+    /// The same once for so many pieces of work, each of some microseconds, that are numbered from 0.
+    pub fn check_at(&self, piece: usize) -> Result<(), Cancelled> {
+        const PIECES: usize = 256;
+        if piece.is_multiple_of(PIECES) { self.check() } else { Ok(()) }
+    }
+
+    /// Asks the listener if this is its thread. One that has cancelled is not asked again.
+    fn ask(&self, fraction: f64, error: f64) {
+        let Some(asker) = &self.asker else { return };
+        if self.is_cancelled.load(Ordering::Relaxed) || asker.thread != std::thread::current().id() {
+            return;
+        }
+        // not locked while it is asked: it may call the library
+        if let Ok(mut last) = asker.last.lock() {
+            *last = (Instant::now(), (fraction, error));
+        }
+        if (asker.ask)(fraction, error).is_break() {
+            self.cancel();
+        }
     }
 
     fn cancel(&self) {
@@ -477,6 +572,38 @@ mod tests {
             .unwrap();
             assert_eq!((threads, sum), (found, [499_500; 2]));
         }
+    }
+
+    #[test]
+    fn a_pool_of_one_is_the_calling_thread() {
+        use rayon::prelude::*;
+        let caller = std::thread::current().id();
+        let on_caller = |_: usize| std::thread::current().id() == caller;
+        assert!(Pool::new(1).run(|| (0..1000).into_par_iter().all(on_caller)));
+        // a listener too, which hears while the work says nothing
+        let asked = Arc::new(AtomicI32::new(0));
+        let ask = {
+            let asked = Arc::clone(&asked);
+            move |_: f64, _: f64| {
+                assert_eq!(std::thread::current().id(), caller);
+                if asked.fetch_add(1, Ordering::Relaxed) < 3 {
+                    ControlFlow::Continue(())
+                } else {
+                    ControlFlow::Break(())
+                }
+            }
+        };
+        let work = |pool: &Pool, watch: &Watch| {
+            let is_here = std::thread::current().id() == caller;
+            while pool.run(|| watch.check()).is_ok() {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+            is_here
+        };
+        let start = Instant::now();
+        assert_eq!(Control::new(1).with_asked(ask).watch(work), Err(Cancelled));
+        assert_eq!(asked.load(Ordering::Relaxed), 4);
+        assert!(start.elapsed() >= 4 * POLL);
     }
 
     #[test]

@@ -20,6 +20,7 @@ use crate::fit::skin::SkinError;
 use crate::knots::KnotError;
 use crate::layout::LayoutError;
 use crate::layout::of_mesh::MeshLayoutError;
+use crate::memory::OutOfMemory;
 use crate::mesh::{CutError, DecimateError, FeatureError, MeshError, ReadError};
 use crate::model::{FieldGradientError, ModelError, ModelEvalError};
 use crate::parameterize::ParameterizeError;
@@ -144,6 +145,8 @@ union! {
     Decimate(DecimateError),
     /// The progress callback asked to stop.
     Cancelled(Cancelled),
+    /// Memory could not be had.
+    Memory(OutOfMemory),
 }
 
 impl Classify for Error {

@@ -1,6 +1,7 @@
 //! Knot vectors: where the polynomial pieces of a spline meet.
 
 use crate::failure::{Classify, ErrorKind};
+use crate::memory::{self, CollectVec};
 
 /// Largest degree that curves and surfaces may have; their evaluation keeps one value for each of the
 /// `degree + 1` basis functions on the stack.
@@ -230,7 +231,7 @@ impl KnotVector {
     /// The different knots of the domain, in order.
     pub fn breaks(&self) -> Vec<f64> {
         let (_, end) = self.domain();
-        self.spans().map(|k| self.knots[k]).chain([end]).collect()
+        self.spans().map(|k| self.knots[k]).chain([end]).collect_vec()
     }
 
     /// How often `u` occurs among the knots.
@@ -264,11 +265,12 @@ impl SpanFinder {
 
     fn new(knots: &[f64], degree: usize) -> Self {
         let end = knots.len() - degree - 1;
-        let spans: Vec<u32> = (degree..end).filter(|&k| knots[k] < knots[k + 1]).map(|k| k as u32).collect();
+        let spans: Vec<u32> =
+            (degree..end).filter(|&k| knots[k] < knots[k + 1]).map(|k| k as u32).collect_vec();
         let bucket_count = Self::BUCKETS_PER_SPAN * spans.len();
         let (start, length) = (knots[degree], knots[end] - knots[degree]);
         let buckets_per_unit = bucket_count as f64 / length;
-        let mut first_rank = Vec::with_capacity(bucket_count + 1);
+        let mut first_rank = memory::with_capacity(bucket_count + 1);
         for (rank, &k) in spans.iter().enumerate() {
             // `rank_at` puts a parameter into a bucket by this same rounding, so the bucket that holds
             // the end of a span may begin in it

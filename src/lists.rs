@@ -4,6 +4,7 @@
 //! counted, summed to where lists start, and each number goes to the next free place of its list. Linear time, and the
 //! order within a list is that in which numbers come.
 
+use crate::memory;
 use std::ops::Range;
 
 /// Lists of numbers, one after the other.
@@ -17,13 +18,13 @@ pub struct Lists {
 impl Lists {
     /// `count` lists of (list, number) as they come; the iterator is run twice.
     pub fn new(count: usize, pairs: impl Iterator<Item = (u32, u32)> + Clone) -> Self {
-        let mut starts = vec![0_u32; count + 1];
+        let mut starts = memory::filled(0_u32, count + 1);
         pairs.clone().for_each(|(list, _)| starts[list as usize + 1] += 1);
         for list in 0..count {
             starts[list + 1] += starts[list];
         }
-        let mut next = starts.clone();
-        let mut items = vec![0; starts[count] as usize];
+        let mut next = memory::copied(&starts);
+        let mut items = memory::filled(0, starts[count] as usize);
         for (list, item) in pairs {
             let place = &mut next[list as usize];
             items[*place as usize] = item;

@@ -10,6 +10,7 @@
 
 use crate::basis::raise;
 use crate::knots::{KnotError, KnotVector, MAX_DEGREE};
+use crate::memory::{self, CollectVec};
 
 /// The map from the control points over one knot vector to those over another.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,8 +38,8 @@ impl Refinement {
             return Err(KnotError::Outside { at, from: start, to: end });
         }
         let degree = from.degree();
-        let mut knots: Vec<f64> = from.knots().iter().chain(added).copied().collect();
-        knots.sort_by(f64::total_cmp);
+        let mut knots: Vec<f64> = from.knots().iter().chain(added).copied().collect_vec();
+        knots.sort_unstable_by(f64::total_cmp);
         let torn = |run: &[f64]| run[0] == run[degree] && start < run[0] && run[0] < end;
         if let Some(run) = knots.windows(degree + 1).find(|run| torn(run) && added.contains(&run[0])) {
             return Err(KnotError::Torn { at: run[0], degree });
@@ -51,7 +52,7 @@ impl Refinement {
     pub fn elevate(from: &KnotVector) -> Result<Self, KnotError> {
         let degree = from.degree() + 1;
         let runs = from.knots().chunk_by(|a, b| a == b);
-        let knots: Vec<f64> = runs.flat_map(|run| run.iter().copied().chain([run[0]])).collect();
+        let knots: Vec<f64> = runs.flat_map(|run| run.iter().copied().chain([run[0]])).collect_vec();
         let to = KnotVector::new(within(&knots, degree, from.domain()), degree)?;
         Ok(Self::between(from, to))
     }
@@ -84,7 +85,7 @@ impl Refinement {
 
     /// The new rows of `width` numbers.
     pub fn apply(&self, old: &[f64], width: usize) -> Vec<f64> {
-        let mut new = vec![0.0; self.rows.len() * width];
+        let mut new = memory::filled(0.0, self.rows.len() * width);
         for (row, new) in self.rows.iter().zip(new.chunks_exact_mut(width)) {
             for (point, &weight) in old[row.first * width..].chunks_exact(width).zip(&row.weights) {
                 new.iter_mut().zip(point).for_each(|(sum, x)| *sum += weight * x);
@@ -108,7 +109,7 @@ impl Row {
         let arguments = &to.knots()[j + 1..=j + q];
         let span = from.span(place_in_support(to, j));
         let first = span - p;
-        let mut weights = vec![0.0; p + 1];
+        let mut weights = memory::filled(0.0, p + 1);
         if p == q {
             weights.copy_from_slice(&blossom(from, span, arguments.iter().copied())[..=p]);
         } else {
@@ -158,14 +159,14 @@ mod tests {
     /// Uneven knots, some repeated, clamped or not.
     fn ugly(degree: usize, is_clamped: bool, random: &mut Random) -> KnotVector {
         let mut t: Vec<f64> = (0..degree + 4).map(|_| 4.0 * random.unit()).collect();
-        t.sort_by(f64::total_cmp);
+        t.sort_unstable_by(f64::total_cmp);
         t[2] = t[1];
         if is_clamped {
             return KnotVector::clamped(&t, degree).unwrap();
         }
         t.extend((0..degree).map(|k| -0.3 * (k + 1) as f64));
         t.extend((0..degree).map(|k| 4.0 + 0.7 * (k + 1) as f64));
-        t.sort_by(f64::total_cmp);
+        t.sort_unstable_by(f64::total_cmp);
         KnotVector::new(t, degree).unwrap()
     }
 

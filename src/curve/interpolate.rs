@@ -15,6 +15,7 @@ use super::{Curve, CurveError};
 use crate::hermite::{shape_functions, shape_slopes};
 use crate::knots::KnotVector;
 use crate::linalg::Tridiagonal;
+use crate::memory::{self, CollectVec};
 
 /// What happens at the ends of a row of points.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,7 +54,7 @@ pub fn interpolate(dim: usize, u: &[f64], points: &[f64], ends: EndRule) -> Resu
         EndRule::Periodic if points.get(..dim) != points.get(points.len().saturating_sub(dim)..) => {
             Err(CurveError::NotClosed)
         }
-        _ => Interpolant::new(dim, u.to_vec(), points.to_vec(), ends)?.to_curve(),
+        _ => Interpolant::new(dim, memory::copied(u), memory::copied(points), ends)?.to_curve(),
     }
 }
 
@@ -74,7 +75,7 @@ impl Interpolant {
         points: Vec<f64>,
         ends: EndRule,
     ) -> Result<Self, CurveError> {
-        let slopes = vec![0.0; points.len()];
+        let slopes = memory::filled(0.0, points.len());
         let mut curve = Self::with_slopes(dim, parameters, points, slopes)?;
         match ends {
             EndRule::Periodic => curve.solve_periodic(),
@@ -137,8 +138,8 @@ impl Interpolant {
     fn solve_open(&mut self, ends: EndRule) {
         let (last, dim) = (self.parameters.len() - 1, self.dim);
         let (mut lower, mut diagonal, mut upper) =
-            (vec![0.0; last + 1], vec![1.0; last + 1], vec![0.0; last + 1]);
-        let mut slopes = vec![0.0; (last + 1) * dim];
+            (memory::filled(0.0, last + 1), memory::filled(1.0, last + 1), memory::filled(0.0, last + 1));
+        let mut slopes = memory::filled(0.0, (last + 1) * dim);
         for l in 1..last {
             let (before, after) = (self.step(l - 1), self.step(l));
             (lower[l], diagonal[l], upper[l]) = (after, 2.0 * (before + after), before);
@@ -181,7 +182,7 @@ impl Interpolant {
     fn solve_periodic(&mut self) {
         let (count, dim) = (self.parameters.len() - 1, self.dim);
         let before = |l: usize| (l + count - 1) % count;
-        let mut slopes = vec![0.0; count * dim];
+        let mut slopes = memory::filled(0.0, count * dim);
         for l in 0..count {
             for c in 0..dim {
                 let (earlier, later) = (self.step(before(l)), self.step(l));
@@ -189,8 +190,8 @@ impl Interpolant {
             }
         }
         if count > 1 {
-            let steps: Vec<f64> = (0..count).map(|l| self.step(l)).collect();
-            let earlier: Vec<f64> = (0..count).map(|l| steps[before(l)]).collect();
+            let steps: Vec<f64> = (0..count).map(|l| self.step(l)).collect_vec();
+            let earlier: Vec<f64> = (0..count).map(|l| steps[before(l)]).collect_vec();
             let diagonal = steps.iter().zip(&earlier).map(|(h, e)| 2.0 * (h + e)).collect();
             Tridiagonal::cyclic(steps, diagonal, earlier).solve(&mut slopes, dim);
         } else {
@@ -304,7 +305,7 @@ impl Interpolant {
     /// The same curve by knots and control points. Slopes that are not those of a C2 curve are not kept.
     pub fn to_curve(&self) -> Result<Curve, CurveError> {
         let (last, dim) = (self.parameters.len() - 1, self.dim);
-        let mut control_points = Vec::with_capacity((last + 3) * dim);
+        let mut control_points = memory::with_capacity((last + 3) * dim);
         let (first, end) = (self.ordinates(0), self.ordinates(last - 1));
         control_points.extend_from_slice(&first[..2 * dim]);
         for l in 1..last {

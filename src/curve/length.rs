@@ -5,6 +5,7 @@
 //! halves still miss where `|C'|` is smooth; at a cusp, where it has a kink, each halving leaves a quarter.
 
 use super::{Curve, CurveError};
+use crate::memory;
 
 /// Places on [-1, 1], positive ones and the middle, and weights of the Gauss rule of seven points: exact to degree 13.
 const GAUSS: [(f64, f64); 4] = [
@@ -81,7 +82,7 @@ impl Curve {
     /// The Gauss rule on an interval.
     fn rule(&self, from: f64, to: f64) -> f64 {
         let (middle, half) = (from + 0.5 * (to - from), 0.5 * (to - from));
-        let mut rows = vec![0.0; 2 * self.dim];
+        let mut rows = memory::filled(0.0, 2 * self.dim);
         let mut speed = |u: f64| {
             self.eval_rows(&[u], 1, &mut rows);
             rows[self.dim..].iter().fold(0.0_f64, |length, x| length.hypot(*x))

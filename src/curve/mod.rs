@@ -10,6 +10,7 @@ pub use refine::{KNOT_TOLERANCE, common_breaks, common_knots, on_common_knots};
 use crate::basis::basis_derivatives;
 use crate::failure::{Classify, ErrorKind};
 use crate::knots::{KnotError, KnotVector};
+use crate::memory;
 
 /// A curve is not one.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -202,7 +203,7 @@ impl Curve {
 
     /// The value at one parameter.
     pub fn eval(&self, u: f64) -> Vec<f64> {
-        let mut value = vec![0.0; self.dim];
+        let mut value = memory::filled(0.0, self.dim);
         self.eval_rows(&[u], 0, &mut value);
         value
     }

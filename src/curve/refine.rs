@@ -11,6 +11,7 @@
 
 use super::Curve;
 use crate::knots::{KnotError, KnotVector};
+use crate::memory::{self, CollectVec};
 use crate::refinement::Refinement;
 
 /// Knots of several curves nearer than this share of the domain count as one.
@@ -38,12 +39,12 @@ impl Curve {
             return Err(KnotError::NotRemovable { index });
         };
         let k = t.partition_point(|&t| t <= at) - 2; // the last knot that is left at or before `at`
-        let mut left = t.to_vec();
+        let mut left = memory::copied(t);
         left.remove(k + 1);
         let knots = KnotVector::new(left, degree)?;
         let u = knots.knots();
         let (first, last) = (k + 1 - degree, k - knots.multiplicity(at));
-        let share: Vec<f64> = (first..=last).map(|i| (at - u[i]) / (u[i + degree] - u[i])).collect();
+        let share: Vec<f64> = (first..=last).map(|i| (at - u[i]) / (u[i + degree] - u[i])).collect_vec();
         let mut control_points = self.control_points.clone();
         let error = level_defect(&mut control_points[(first - 1) * dim..(last + 2) * dim], &share, dim);
         solve_from_both_ends(&mut control_points[(first - 1) * dim..(last + 2) * dim], &share, dim);
@@ -65,7 +66,7 @@ fn level_defect(points: &mut [f64], share: &[f64], dim: usize) -> f64 {
     let (before, after) = (share[0] - 1.0, -weights[share.len() - 1] * share[share.len() - 1]);
     let all = [before].into_iter().chain(weights.iter().copied()).chain([after]);
     let total: f64 = weights.iter().map(|n| n.abs()).sum();
-    let mut defect = vec![0.0; dim];
+    let mut defect = memory::filled(0.0, dim);
     for (point, n) in points.chunks(dim).zip(all) {
         defect.iter_mut().zip(point).for_each(|(sum, x)| *sum += n * x / total);
     }
@@ -108,7 +109,7 @@ pub fn common_knots(curves: &[&Curve]) -> Result<KnotVector, KnotError> {
 
 /// Where the pieces of all the curves together meet: their common knots, each once.
 pub fn common_breaks(curves: &[&Curve]) -> Vec<f64> {
-    clusters(curves).into_iter().map(|(at, _)| at).collect()
+    clusters(curves).into_iter().map(|(at, _)| at).collect_vec()
 }
 
 /// The curves over their common knots.
@@ -123,7 +124,7 @@ pub fn on_common_knots(curves: &[&Curve]) -> Result<Vec<Curve>, KnotError> {
         let missing: Vec<f64> = clusters
             .iter()
             .flat_map(|&(at, count)| std::iter::repeat_n(at, count - knots.multiplicity(at).min(count)))
-            .collect();
+            .collect_vec();
         Curve { knots, ..(*curve).clone() }.insert_knots(&missing)
     });
     refined.collect()
@@ -141,10 +142,10 @@ fn clusters(curves: &[&Curve]) -> Vec<(f64, usize)> {
         .iter()
         .enumerate()
         .flat_map(|(owner, curve)| curve.knots.knots().iter().map(move |&t| (t, owner)))
-        .collect();
+        .collect_vec();
     knots.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut clusters: Vec<(f64, usize)> = Vec::new();
-    let mut counts = vec![0; curves.len()];
+    let mut counts = memory::filled(0, curves.len());
     for (t, owner) in knots {
         let t = if is_near(t, end, scale) { end } else { t };
         match clusters.last_mut() {
@@ -171,7 +172,7 @@ mod tests {
         let mut random = Random::new(seed);
         let mut breaks: Vec<f64> = (0..9).map(|_| random.unit()).collect();
         breaks.extend([0.0, 1.0, breaks[0]]); // one knot twice
-        breaks.sort_by(f64::total_cmp);
+        breaks.sort_unstable_by(f64::total_cmp);
         let knots = KnotVector::clamped(&breaks, degree).unwrap();
         let points = (0..2 * knots.basis_count()).map(|_| random.signed()).collect();
         Curve::new(2, knots, points).unwrap()

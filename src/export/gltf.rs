@@ -10,6 +10,7 @@
 
 use super::error::ExportError;
 use crate::file;
+use crate::memory::{self, CollectVec};
 use crate::mesh::Mesh;
 use glam::DVec3;
 use std::path::Path;
@@ -58,7 +59,7 @@ fn bytes(mesh: &Mesh, colours: Option<Colours>) -> Vec<u8> {
         binary.extend_from_slice(&view.bytes);
         pad(&mut binary, 0);
     }
-    let accessors: Vec<&str> = views.iter().map(|view| view.accessor.as_str()).collect();
+    let accessors: Vec<&str> = views.iter().map(|view| view.accessor.as_str()).collect_vec();
     let attributes = if colours.is_some() { r#""POSITION":1,"COLOR_0":2"# } else { r#""POSITION":1"# };
     let json = format!(
         concat!(
@@ -79,7 +80,7 @@ fn bytes(mesh: &Mesh, colours: Option<Colours>) -> Vec<u8> {
     let mut json = json.into_bytes();
     pad(&mut json, b' ');
     let length = 12 + 8 + json.len() + 8 + binary.len();
-    let mut file = Vec::with_capacity(length);
+    let mut file = memory::with_capacity(length);
     file.extend_from_slice(b"glTF");
     for word in [2, length as u32, json.len() as u32] {
         file.extend_from_slice(&word.to_le_bytes());
@@ -111,7 +112,8 @@ fn views(mesh: &Mesh, colours: Option<Colours>) -> (DVec3, Vec<View>) {
             3 * mesh.triangles().len()
         ),
     };
-    let places: Vec<[f32; 3]> = points.iter().map(|&p| (p - centre).to_array().map(|x| x as f32)).collect();
+    let places: Vec<[f32; 3]> =
+        points.iter().map(|&p| (p - centre).to_array().map(|x| x as f32)).collect_vec();
     // the specification wants the exact box of the numbers written
     let least = |k: usize| places.iter().fold(f32::INFINITY, |least, p| least.min(p[k]));
     let largest = |k: usize| places.iter().fold(f32::NEG_INFINITY, |largest, p| largest.max(p[k]));

@@ -9,6 +9,7 @@
 
 use super::ExportError;
 use crate::file;
+use crate::memory::CollectVec;
 use crate::mesh::{Format, Mesh};
 use glam::DVec3;
 use std::fmt::Write;
@@ -121,7 +122,7 @@ fn rows(mesh: &Mesh) -> impl Iterator<Item = Vec<f64>> + '_ {
 fn ply_text(mesh: &Mesh) -> String {
     let mut text = ply_header(mesh, "ascii");
     for row in rows(mesh) {
-        let words: Vec<String> = row.iter().map(f64::to_string).collect();
+        let words: Vec<String> = row.iter().map(f64::to_string).collect_vec();
         let _ = writeln!(text, "{}", words.join(" "));
     }
     for [a, b, c] in mesh.triangles() {

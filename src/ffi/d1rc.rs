@@ -209,7 +209,9 @@ pub unsafe extern "C" fn planish_d1rc_new(
                 mapped.insert(mesh.clone()).set_parameters(uv)?;
             }
             control.enter(Stage::Fit);
-            Ok(D1rcSurface::from_mesh(mapped.as_ref().unwrap_or(mesh), &core, &sharp, &corners)?)
+            let mesh = mapped.as_ref().unwrap_or(mesh);
+            let watch = control.pool().watch();
+            Ok(D1rcSurface::from_mesh_watched(mesh, &core, &sharp, &corners, watch)?)
         })??;
         out_surface.write(planish_surface::into_raw(surface));
         Ok(())

@@ -6,7 +6,7 @@ use super::arguments::{
 use super::guard::guard;
 use super::mesh::planish_mesh;
 use super::planish_status;
-use super::progress::{planish_progress, with_control};
+use super::progress::{planish_progress, with_helper};
 use crate::mesh::{DecimateOptions, Decimation};
 use libc::c_void;
 
@@ -122,7 +122,7 @@ pub unsafe extern "C" fn planish_mesh_decimate(
         let sharp_len = array_len::<u32>(options.sharp_edge_count, 2, "sharp_edges")?;
         let core = options.to_core(slice(options.sharp_edges, sharp_len, "sharp_edges")?.as_chunks().0)?;
         // results are the same for any number of threads, and one is enough
-        let coarse = with_control(1, listener!(options), |control| mesh.decimate(&core, control))??;
+        let coarse = with_helper(listener!(options), |control| mesh.decimate(&core, control))??;
         if !options.out_sharp_edges.is_null() {
             let (room, needed) = (options.out_sharp_edge_count, coarse.sharp_edges.len());
             rows_mut(options.out_sharp_edges, room, needed, 2, "out_sharp_edges")?

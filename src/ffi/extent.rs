@@ -3,7 +3,7 @@
 use super::arguments::{array_len, choice, deref, options, out, slice_mut};
 use super::guard::guard;
 use super::planish_status;
-use super::progress::with_control;
+use super::progress::with_helper;
 use super::query::planish_tessellate_options;
 use super::surface::{planish_surface, query_surface};
 use super::tensor::planish_axis;
@@ -58,7 +58,7 @@ pub unsafe extern "C" fn planish_surface_area(
         let out_area = out(out_area, "out_area")?;
         let core = given.core()?;
         // one thread tessellates, so one is enough
-        let found = with_control(1, listener!(given), |control| -> Result<f64, TessellateError> {
+        let found = with_helper(listener!(given), |control| -> Result<f64, TessellateError> {
             control.enter(Stage::Tessellate);
             area(surface, &core, control.pool())
         })??;

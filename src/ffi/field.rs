@@ -29,7 +29,9 @@ use libc::c_void;
 /// Fits fields on the nodes of one mesh, or at the same parameters, again and again: grid, factorization and threads
 /// are kept. Made by planish_field_fitter_new(), destroyed by planish_field_fitter_free().
 ///
-/// Calls that take it const may run at once on any threads.
+/// Calls that take it const may run at once on any threads. A process forked after its first use does not have its
+/// threads: calls return PLANISH_STATUS_INVALID_ARGUMENT there, and only planish_field_fitter_free() is left to do. One
+/// made with thread_count 1 has no threads and stays of use.
 pub struct planish_field_fitter(Fitter);
 
 #[allow(clippy::large_enum_variant, reason = "one for each handle")]

@@ -4,12 +4,12 @@
 //! installs a panic hook that says nothing of panics inside a guard or on the library's own threads, and
 //! passes all others on to the hook that was there.
 //!
-//! Memory: arrays of the caller are copied with `try_reserve`, whose failure is
-//! [`planish_status::OutOfMemory`]. Where the core cannot get memory, Rust ends the process, as it does in
-//! any Rust program; the core therefore checks sizes against limits before it asks.
+//! Memory that cannot be had is [`planish_status::OutOfMemory`]: arrays of the caller are copied with `try_reserve`, and
+//! the core unwinds with [`OutOfMemory`].
 
 pub(super) use super::failure::Failure;
 use super::planish_status;
+use crate::memory::OutOfMemory;
 use std::cell::{Cell, RefCell};
 use std::panic::{self, AssertUnwindSafe, catch_unwind};
 use std::sync::Once;
@@ -38,6 +38,9 @@ pub(super) fn guard_value<R>(body: impl FnOnce() -> Result<R, Failure>) -> Resul
         Ok(Ok(value)) => Ok(value),
         Ok(Err(failure)) => Err(remember(failure)),
         Err(payload) => {
+            if let Some(error) = OutOfMemory::of_panic(&*payload) {
+                return Err(remember(error.into()));
+            }
             let text = payload.downcast_ref::<&str>().copied();
             let text = text.or_else(|| payload.downcast_ref::<String>().map(String::as_str));
             let sentence = format!("internal error: {}", text.unwrap_or("a panic without a message"));

@@ -11,6 +11,7 @@ use super::status::query;
 use super::step::planish_step_options;
 use super::surface::planish_surface;
 use crate::Control;
+use crate::control::Watch;
 use crate::export::native::{ModelOrField, Save};
 use crate::export::{native, step};
 use crate::fit::conversion::{ConversionOptions, to_model};
@@ -797,7 +798,7 @@ pub unsafe extern "C" fn planish_model_write_step(
         let given = self::options(options)?;
         let core = given.core()?;
         let report = ReportOut::new(given.out_report)?;
-        report.store(step::write(model, &core, path)?.into());
+        report.store(step::write(model, &core, path, &Watch::default())?.into());
         Ok(())
     })
 }
@@ -828,7 +829,7 @@ pub unsafe extern "C" fn planish_model_write_step_memory(
         let core = given.core()?;
         let report = ReportOut::new(given.out_report)?;
         let out_size = out(out_size, "out_size")?;
-        let (content, written) = step::to_text(model, &core)?;
+        let (content, written) = step::to_text(model, &core, &Watch::default())?;
         let needed = content.len();
         if !out_bytes.is_null() {
             rows_mut(out_bytes.cast::<u8>(), size, needed, 1, "out_bytes")?

@@ -5,6 +5,7 @@ use super::arguments::{
 };
 use super::guard::guard;
 use super::mesh::planish_mesh;
+
 use super::model::{PLANISH_NONE, planish_model};
 use super::planish_status;
 use super::progress::{planish_progress, with_control};

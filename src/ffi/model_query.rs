@@ -8,6 +8,7 @@ use super::export::{planish_vtk_content, planish_vtk_options};
 use super::field::planish_gradient_options;
 use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;
+
 use super::model::{PLANISH_NONE, planish_model};
 use super::planish_status;
 use super::progress::{thread_count, with_control};

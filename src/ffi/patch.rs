@@ -3,7 +3,7 @@
 use super::arguments::{ArgumentError, ReportOut, deref, options, out, rows_mut};
 use super::guard::guard;
 use super::planish_status;
-use super::progress::{planish_progress, with_control};
+use super::progress::{planish_progress, with_helper};
 use super::surface::{planish_surface, query_surface};
 use crate::bezier::BezierPatch;
 use crate::control::Stage;
@@ -154,9 +154,9 @@ pub unsafe extern "C" fn planish_surface_to_tensor(
         let out_surface = out(out_surface, "out_surface")?;
         let given = self::options(options)?;
         // results are the same for any number of threads, and one is enough
-        let tensor = with_control(1, listener!(given), |control| {
+        let tensor = with_helper(listener!(given), |control| {
             control.enter(Stage::Convert);
-            surface.to_tensor(given.max_coefficients)
+            surface.to_tensor(given.max_coefficients, control.pool().watch())
         })??;
         out_surface.write(planish_surface::into_raw(tensor));
         Ok(())

@@ -7,7 +7,7 @@ use super::arguments::{
 use super::demands::{GivenDemands, planish_symmetry};
 use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;
-use super::progress::with_control;
+use super::progress::{with_control, with_helper};
 use super::report::{FitOutputs, planish_fit_report};
 use super::surface::planish_surface;
 use super::tensor::{check_field_count, missing};
@@ -465,7 +465,7 @@ pub unsafe extern "C" fn planish_pht_simplify(
         let out_deviation = slice_mut_or_none(out_deviation, 1, "out_deviation")?;
         // of a copy, so that a call that is cancelled changes nothing; one thread is enough
         let mut simplified = pht.clone();
-        let result = with_control(1, listener!(given), |control| {
+        let result = with_helper(listener!(given), |control| {
             control.enter(Stage::Convert);
             simplified.simplify_watched(tolerance, control.pool().watch())
         })??;
@@ -562,7 +562,7 @@ pub unsafe extern "C" fn planish_pht_from_surface(
             max_cells: given.max_cells,
         };
         // results are the same for any number of threads, and one is enough
-        let pht = with_control(1, listener!(given), |control| {
+        let pht = with_helper(listener!(given), |control| {
             control.enter(Stage::Convert);
             PhtSurface::from_tensor_watched(tensor, &options, control.pool().watch())
         })??;
@@ -621,9 +621,9 @@ pub unsafe extern "C" fn planish_pht_to_tensor_patches(
             return Err(ArgumentError::Reserved { record, given: given.reserved }.into());
         }
         // results are the same for any number of threads, and one is enough
-        let patches = with_control(1, listener!(given), |control| {
+        let patches = with_helper(listener!(given), |control| {
             control.enter(Stage::Convert);
-            pht.to_tensor_patches(given.level_spread)
+            pht.to_tensor_patches_watched(given.level_spread, control.pool().watch())
         })??;
         if !out_surfaces.is_null() {
             let handles = rows_mut(out_surfaces, count, patches.len(), 1, "out_surfaces")?;

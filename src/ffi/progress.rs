@@ -6,7 +6,7 @@ use crate::Control;
 use crate::control::Stage;
 use libc::c_void;
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicI32, AtomicU32};
+use std::sync::atomic::{AtomicI32, AtomicU32, Ordering};
 
 /// What a long call is doing.
 #[repr(u32)]
@@ -54,7 +54,8 @@ const _: () = {
 /// Returns 0 to go on; anything else cancels, and the call returns PLANISH_STATUS_CANCELLED when the step in
 /// progress, such as a factorization, has ended.
 ///
-/// It is called on the thread that made the call. It must not throw or longjmp: a C++ exception that leaves it
+/// It is called on the thread that made the call. With thread_count 1 that thread does the work too and asks between its
+/// steps. It must not throw or longjmp: a C++ exception that leaves it
 /// ends the process. It may call the library, but not change or destroy what the call was given.
 pub type planish_progress =
     Option<unsafe extern "C-unwind" fn(fraction: f64, error: f64, user: *mut c_void) -> i32>;
@@ -82,6 +83,40 @@ pub(super) struct Listener {
     pub stage: *mut u32,
 }
 
+// SAFETY: the flag is atomic, and whoever asks the callback does so on the thread that made the call.
+unsafe impl Send for Listener {}
+// SAFETY: as above.
+unsafe impl Sync for Listener {}
+
+impl Listener {
+    /// The control, showing its stage where the caller wants it.
+    ///
+    /// # Safety
+    /// The pointers are NULL or as the header says.
+    unsafe fn shown<'a>(&self, control: Control<'a>) -> Result<Control<'a>, ArgumentError> {
+        if !self.cancel.is_null() {
+            check(self.cancel, "cancel")?;
+        }
+        if self.stage.is_null() {
+            return Ok(control);
+        }
+        check(self.stage, "out_stage")?;
+        // SAFETY: the caller's promise.
+        Ok(control.with_stage(unsafe { AtomicU32::from_ptr(self.stage) }))
+    }
+
+    /// Tells the callback, and looks at the flag.
+    fn ask(&self, fraction: f64, error: f64) -> ControlFlow<()> {
+        // SAFETY: the caller's promises; the flag is only read.
+        let answer = unsafe {
+            let is_set = !self.cancel.is_null()
+                && AtomicI32::from_ptr(self.cancel.cast_mut()).load(Ordering::Relaxed) != 0;
+            i32::from(is_set) | self.progress.map_or(0, |tell| tell(fraction, error, self.user))
+        };
+        if answer == 0 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    }
+}
+
 /// The listener of options with the fields progress, user, cancel and out_stage.
 macro_rules! listener {
     ($options:expr) => {
@@ -94,7 +129,7 @@ macro_rules! listener {
     };
 }
 
-/// Runs `work` on so many threads, while this one asks the caller's listener.
+/// Runs `work` on so many threads, while this one asks the caller's listener; on this one alone for one.
 ///
 /// # Safety
 /// Each pointer of the listener is NULL or stays as the header says until `work` has ended.
@@ -103,24 +138,47 @@ pub(super) unsafe fn with_control<R: Send>(
     listener: Listener,
     work: impl FnOnce(&mut Control) -> R + Send,
 ) -> Result<R, Failure> {
-    let mut control = Control::new(thread_count(threads)?);
-    if !listener.cancel.is_null() {
-        check(listener.cancel, "cancel")?;
-        // SAFETY: the caller's promise; the flag is only read.
-        control = control.with_cancel(unsafe { AtomicI32::from_ptr(listener.cancel.cast_mut()) });
-    }
-    if !listener.stage.is_null() {
-        check(listener.stage, "out_stage")?;
+    let threads = thread_count(threads)?;
+    let control = Control::new(threads);
+    if control.thread_count() > 1 {
         // SAFETY: the caller's promise.
-        control = control.with_stage(unsafe { AtomicU32::from_ptr(listener.stage) });
+        return unsafe { heard(threads, listener, work) };
     }
-    let Some(callback) = listener.progress else { return Ok(control.host(work)?) };
-    let mut tell = |fraction: f64, error: f64| {
-        // SAFETY: the caller's promise.
-        match unsafe { callback(fraction, error, listener.user) } {
-            0 => ControlFlow::Continue(()),
-            _ => ControlFlow::Break(()),
-        }
+    // SAFETY: the caller's promise.
+    let control = unsafe { listener.shown(control) }?;
+    let is_nobody = listener.progress.is_none() && listener.cancel.is_null();
+    let mut control = match is_nobody {
+        true => control,
+        false => control.with_asked(move |fraction, error| listener.ask(fraction, error)),
     };
+    Ok(control.host(work)?)
+}
+
+/// The same for work that is serial, in calls without a choice of threads: a thread beside this one does it if there is a
+/// listener.
+///
+/// # Safety
+/// As [`with_control`].
+pub(super) unsafe fn with_helper<R: Send>(
+    listener: Listener,
+    work: impl FnOnce(&mut Control) -> R + Send,
+) -> Result<R, Failure> {
+    // SAFETY: the caller's promise.
+    unsafe { heard(1, listener, work) }
+}
+
+/// # Safety
+/// As [`with_control`].
+unsafe fn heard<R: Send>(
+    threads: usize,
+    listener: Listener,
+    work: impl FnOnce(&mut Control) -> R + Send,
+) -> Result<R, Failure> {
+    let mut tell = |fraction: f64, error: f64| listener.ask(fraction, error);
+    // SAFETY: the caller's promise.
+    let mut control = unsafe { listener.shown(Control::new(threads)) }?;
+    if listener.progress.is_none() && listener.cancel.is_null() {
+        return Ok(control.host(work)?);
+    }
     Ok(control.with_progress(&mut tell).host(work)?)
 }

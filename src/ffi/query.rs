@@ -7,7 +7,7 @@ use super::arguments::{
 use super::guard::guard;
 use super::mesh::planish_mesh;
 use super::planish_status;
-use super::progress::{planish_progress, thread_count, with_control};
+use super::progress::{planish_progress, thread_count, with_control, with_helper};
 use super::report::write_pairs;
 use super::surface::planish_surface;
 use crate::control::Stage;
@@ -98,11 +98,10 @@ pub unsafe extern "C" fn planish_surface_tessellate(
         let report = ReportOut::new(given.out_report)?;
         let core = given.core()?;
         // results are the same for any number of threads, and one is enough
-        let Tessellation { mesh, smallest_angle, chord_error } =
-            with_control(1, listener!(given), |control| {
-                control.enter(Stage::Tessellate);
-                tessellate_watched(surface, &core, control.pool().watch())
-            })??;
+        let Tessellation { mesh, smallest_angle, chord_error } = with_helper(listener!(given), |control| {
+            control.enter(Stage::Tessellate);
+            tessellate_watched(surface, &core, control.pool().watch())
+        })??;
         report.store(planish_tessellate_report { smallest_angle, chord_error, ..Default::default() });
         out_mesh.write(planish_mesh::into_raw(mesh));
         Ok(())

@@ -4,7 +4,7 @@ use super::arguments::{ArgumentError, array_len, choice, deref, options, out, ro
 use super::guard::guard;
 use super::mesh::planish_mesh;
 use super::planish_status;
-use super::progress::{planish_progress, with_control};
+use super::progress::{planish_progress, with_helper};
 use crate::query::rows::{SampleRowsOptions, Source, sample_rows};
 use libc::c_void;
 
@@ -90,7 +90,7 @@ pub unsafe extern "C" fn planish_mesh_sample_rows(
             spacing: given.spacing,
         };
         // results are the same for any number of threads, and one is enough
-        let rows = with_control(1, listener!(given), |control| sample_rows(mesh, &options, control))??;
+        let rows = with_helper(listener!(given), |control| sample_rows(mesh, &options, control))??;
         if !out_points.is_null() {
             array_len::<f64>(point_count, 3, "out_points")?;
             let points = rows_mut(out_points, point_count, rows.points.len(), 3, "out_points")?;

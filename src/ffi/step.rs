@@ -204,7 +204,7 @@ pub unsafe extern "C" fn planish_surface_write_step(
             control.enter(Stage::Convert);
             let model = to_model(surface, &conversion, control)?;
             control.enter(Stage::Write);
-            Ok(write(&model, &core, path)?)
+            Ok(write(&model, &core, path, control.pool().watch())?)
         })??;
         report.store(written.into());
         Ok(())

@@ -72,10 +72,11 @@ pub fn to_model(
     options: &ConversionOptions,
     control: &mut Control,
 ) -> Result<Model, ConversionError> {
-    match surface {
-        AnySurface::D1rc(d1rc) => Ok(of_surface(&fitted(d1rc, options, control)?.into(), &options.form)?),
-        _ => Ok(of_surface(surface, &options.form)?),
-    }
+    let fitted: Option<AnySurface> = match surface {
+        AnySurface::D1rc(d1rc) => Some(fitted(d1rc, options, control)?.into()),
+        _ => None,
+    };
+    Ok(of_surface(fitted.as_ref().unwrap_or(surface), &options.form, control.pool().watch())?)
 }
 
 /// A tensor surface near a spline over triangles, with its trims.

@@ -8,6 +8,7 @@ use super::common::report::FitReport;
 use super::field::{FieldError, FieldFitter, FieldGrid, FieldNodes, FieldOptions};
 use super::tensor::{Knots, TensorOptions, fit_field, fit_points};
 use crate::control::Control;
+use crate::memory::CollectVec;
 use glam::DVec2;
 
 /// A field that stands for others: rows of numbers, one a node.
@@ -59,8 +60,8 @@ fn find(
             return Err(FitError::Count { what: "the values", count: values.len(), expected });
         }
         let nodes = || (0..uv.len()).filter(|&node| is_known[node]);
-        let known_uv: Vec<DVec2> = nodes().map(|node| uv[node]).collect();
-        let rows: Vec<f64> = nodes().flat_map(|node| &values[node * dim..][..dim]).copied().collect();
+        let known_uv: Vec<DVec2> = nodes().map(|node| uv[node]).collect_vec();
+        let rows: Vec<f64> = nodes().flat_map(|node| &values[node * dim..][..dim]).copied().collect_vec();
         let weights: Option<Vec<f64>> =
             options.weights.map(|weights| nodes().map(|node| weights[node]).collect());
         let adaptive = adaptive.with_weights(weights.as_deref());

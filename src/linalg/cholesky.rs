@@ -1,6 +1,7 @@
 //! Cholesky factors of sparse symmetric positive definite matrices, by faer.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
+use crate::memory;
+use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::perm::PermRef;
 use faer::prelude::*;
 use faer::sparse::linalg::cholesky::{self, LltRef, SymmetricOrdering};
@@ -25,8 +26,9 @@ impl SymbolicCholesky {
     /// eliminated in `order`, or in one found by approximate minimum degree.
     pub fn new(lower: &CsMatView<f64>, order: Option<&[usize]>) -> Self {
         let n = lower.cols();
+        memory::ensure(analysis_size(n, lower.nnz()));
         let inverse = order.map(|order| {
-            let mut inverse = vec![0; n];
+            let mut inverse = memory::filled(0, n);
             order.iter().enumerate().for_each(|(place, &unknown)| inverse[unknown] = place);
             inverse
         });
@@ -42,17 +44,18 @@ impl SymbolicCholesky {
             ordering,
             Default::default(),
         )
-        .expect("the pattern fits into memory, as the matrix did");
+        // all that faer refuses here is the memory, or numbers too large for it
+        .unwrap_or_else(|_| memory::give_up(lower.nnz().saturating_mul(size_of::<usize>())));
         Self { symbolic: Arc::new(symbolic) }
     }
 
     /// Factors a matrix with the pattern that was analysed.
     pub fn factor(&self, lower: &CsMatView<f64>) -> Result<Cholesky, NotPositiveDefinite> {
-        let mut values = vec![0.0; self.symbolic.len_val()];
+        let mut values = memory::filled(0.0, self.symbolic.len_val());
         let starts = lower.proper_indptr();
         let matrix = SparseColMatRef::new(pattern(lower, &starts), lower.data());
         let scratch = self.symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
-        let mut memory = MemBuffer::new(scratch);
+        let mut memory = buffer(scratch);
         self.symbolic
             .factorize_numeric_llt(
                 &mut values,
@@ -98,8 +101,19 @@ impl Cholesky {
 
     /// What [`Cholesky::solve_in`] needs for `count` right-hand sides.
     pub fn memory(&self, count: usize) -> SolveMemory {
-        SolveMemory(MemBuffer::new(self.symbolic.solve_in_place_scratch::<f64>(count, Par::Seq)))
+        SolveMemory(buffer(self.symbolic.solve_in_place_scratch::<f64>(count, Par::Seq)))
     }
+}
+
+/// Memory for faer to work in.
+pub(super) fn buffer(needed: StackReq) -> MemBuffer {
+    MemBuffer::try_new(needed).unwrap_or_else(|_| memory::give_up(needed.unaligned_bytes_required()))
+}
+
+/// Bytes that the analysis of a pattern takes: the pattern permuted and transposed, and some numbers for each unknown.
+fn analysis_size(unknowns: usize, entries: usize) -> usize {
+    let numbers = entries.saturating_mul(2).saturating_add(unknowns.saturating_mul(16));
+    numbers.saturating_mul(size_of::<usize>())
 }
 
 /// faer's view of the pattern; `starts` are `lower.proper_indptr()`.

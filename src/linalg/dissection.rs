@@ -3,12 +3,14 @@
 //! A. George, "Nested dissection of a regular finite element mesh", SIAM J. Numer. Anal. 10 (1973),
 //! 345-363. A strip as wide as the stencil separates two halves; the strip is eliminated last.
 
+use crate::memory;
+
 /// Blocks of at most this many unknowns are not cut further: below it the separators cost more than they save.
 const SMALLEST_BLOCK: usize = 64;
 
 /// An order of the unknowns `i * count_v + j` of a grid whose stencil reaches `reach` unknowns far.
 pub fn grid_order(count_u: usize, count_v: usize, reach: usize) -> Vec<usize> {
-    let mut order = Vec::with_capacity(count_u * count_v);
+    let mut order = memory::with_capacity(count_u * count_v);
     dissect(0..count_u, 0..count_v, count_v, reach, &mut order);
     order
 }

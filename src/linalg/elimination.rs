@@ -10,6 +10,7 @@
 
 use super::ordering::Graph;
 use crate::lists::Lists;
+use crate::memory::{self, CollectVec};
 use std::ops::Range;
 
 /// A block of pivots with the same rows below.
@@ -63,7 +64,7 @@ impl EliminationTree {
 }
 
 fn inverse(order: &[u32]) -> Vec<u32> {
-    let mut position = vec![0; order.len()];
+    let mut position = memory::filled(0, order.len());
     for (k, &node) in order.iter().enumerate() {
         position[node as usize] = k as u32;
     }
@@ -75,22 +76,22 @@ fn postordered(graph: &Graph, order: &[u32]) -> (Vec<u32>, Vec<u32>) {
     let parents = elimination_parents(graph, order);
     let post = postorder(&parents, |_| 0.0);
     let rank = inverse(&post);
-    let new_order = post.iter().map(|&k| order[k as usize]).collect();
+    let new_order = post.iter().map(|&k| order[k as usize]).collect_vec();
     let new_parents = post
         .iter()
         .map(|&k| match parents[k as usize] {
             NONE => NONE,
             parent => rank[parent as usize],
         })
-        .collect();
+        .collect_vec();
     (new_order, new_parents)
 }
 
 /// Liu's algorithm: parent of each position, with path compression.
 fn elimination_parents(graph: &Graph, order: &[u32]) -> Vec<u32> {
     let position = inverse(order);
-    let mut parents = vec![NONE; order.len()];
-    let mut ancestors = vec![NONE; order.len()];
+    let mut parents = memory::filled(NONE, order.len());
+    let mut ancestors = memory::filled(NONE, order.len());
     for (k, &node) in order.iter().enumerate() {
         for &neighbour in graph.neighbours(node as usize) {
             let mut below = position[neighbour as usize] as usize;
@@ -116,7 +117,7 @@ fn by_owner(owners: &[u32], count: usize) -> Lists {
 /// Children before parents; of siblings the heaviest first, then the smaller index.
 fn postorder(parents: &[u32], weight: impl Fn(u32) -> f64) -> Vec<u32> {
     let children = by_owner(parents, parents.len());
-    let mut post = Vec::with_capacity(parents.len());
+    let mut post = memory::with_capacity(parents.len());
     // visited parents first and last child first, then turned round
     let mut stack = Vec::new();
     let push = |stack: &mut Vec<u32>, owner: usize| {
@@ -126,7 +127,7 @@ fn postorder(parents: &[u32], weight: impl Fn(u32) -> f64) -> Vec<u32> {
     };
     push(&mut stack, parents.len());
     while let Some(k) = stack.pop() {
-        post.push(k);
+        memory::push(&mut post, k);
         push(&mut stack, k as usize);
     }
     post.reverse();
@@ -151,7 +152,7 @@ fn fundamental_supernodes(
     parents: &[u32],
 ) -> (Vec<Block>, Vec<u32>) {
     let n = order.len();
-    let mut child_count = vec![0_u32; n];
+    let mut child_count = memory::filled(0_u32, n);
     for &parent in parents.iter().filter(|&&parent| parent != NONE) {
         child_count[parent as usize] += 1;
     }
@@ -161,10 +162,10 @@ fn fundamental_supernodes(
     };
     let mut blocks: Vec<Block> = Vec::new();
     let mut rows: Vec<u32> = Vec::new();
-    let mut block_of = vec![NONE; n];
-    let mut mark = vec![NONE; n]; // last block that has this row
+    let mut block_of = memory::filled(NONE, n);
+    let mut mark = memory::filled(NONE, n); // last block that has this row
     // blocks whose update goes to a column first, as a chain: the last of them, then the one before
-    let (mut last_sender, mut sender_before) = (vec![NONE; n], Vec::new());
+    let (mut last_sender, mut sender_before) = (memory::filled(NONE, n), Vec::new());
     for k in 0..n {
         let current = (blocks.len() as u32).wrapping_sub(1);
         let continues = k > 0
@@ -178,7 +179,7 @@ fn fundamental_supernodes(
                     NONE => NONE,
                     parent => std::mem::replace(&mut last_sender[parent as usize], current),
                 };
-                sender_before.push(previous);
+                memory::push(&mut sender_before, previous);
             }
             let (id, start) = (blocks.len() as u32, rows.len());
             let mut enter = |row: u32, rows: &mut Vec<u32>| {
@@ -194,7 +195,7 @@ fn fundamental_supernodes(
                 }
                 sender = sender_before[sender as usize];
             }
-            blocks.push(Block { columns: k..k, rows: start..rows.len(), parent: NONE });
+            memory::push(&mut blocks, Block { columns: k..k, rows: start..rows.len(), parent: NONE });
         }
         let id = blocks.len() - 1;
         blocks[id].columns.end = k + 1;
@@ -230,9 +231,9 @@ const ZERO_SHARE: [(usize, f64); 4] = [(4, 1.0), (16, 0.3), (48, 0.1), (usize::M
 
 /// For each block the block it is merged into: itself, or its parent.
 fn merge_small(blocks: &[Block]) -> Vec<u32> {
-    let mut merged_into: Vec<u32> = (0..blocks.len() as u32).collect();
-    let mut columns: Vec<usize> = blocks.iter().map(|block| block.columns.len()).collect();
-    let mut zeros = vec![0.0; blocks.len()];
+    let mut merged_into: Vec<u32> = (0..blocks.len() as u32).collect_vec();
+    let mut columns: Vec<usize> = blocks.iter().map(|block| block.columns.len()).collect_vec();
+    let mut zeros = memory::filled(0.0, blocks.len());
     // children come before parents, so a child's own children are settled when its turn comes
     for (id, block) in blocks.iter().enumerate().filter(|(_, block)| block.parent != NONE) {
         let parent = block.parent as usize;
@@ -254,25 +255,25 @@ fn merge_small(blocks: &[Block]) -> Vec<u32> {
 
 /// Numbers the merged supernodes, heaviest child first, and translates columns and rows.
 fn assemble(order: &[u32], blocks: &[Block], block_rows: &[u32], merged_into: &[u32]) -> EliminationTree {
-    let mut top: Vec<u32> = merged_into.to_vec();
+    let mut top: Vec<u32> = memory::copied(merged_into);
     for id in (0..blocks.len()).rev() {
         top[id] = top[top[id] as usize];
     }
     let members = by_owner(&top, blocks.len());
-    let tops: Vec<u32> = (0..blocks.len() as u32).filter(|&id| top[id as usize] == id).collect();
-    let mut index_of = vec![NONE; blocks.len()];
+    let tops: Vec<u32> = (0..blocks.len() as u32).filter(|&id| top[id as usize] == id).collect_vec();
+    let mut index_of = memory::filled(NONE, blocks.len());
     tops.iter().enumerate().for_each(|(index, &id)| index_of[id as usize] = index as u32);
     let parent_of = |&id: &u32| match blocks[id as usize].parent {
         NONE => NONE,
         parent => index_of[top[parent as usize] as usize],
     };
-    let parents: Vec<u32> = tops.iter().map(parent_of).collect();
+    let parents: Vec<u32> = tops.iter().map(parent_of).collect_vec();
     let work = subtree_work(blocks, &members, &tops, &parents);
     let post = postorder(&parents, |index| work[index as usize]);
     let rank = inverse(&post);
 
-    let mut new_order = Vec::with_capacity(order.len());
-    let mut supernodes: Vec<Supernode> = Vec::with_capacity(post.len());
+    let mut new_order = memory::with_capacity(order.len());
+    let mut supernodes: Vec<Supernode> = memory::with_capacity(post.len());
     for &index in &post {
         let start = new_order.len();
         for &id in members.of(tops[index as usize] as usize) {
@@ -292,7 +293,7 @@ fn assemble(order: &[u32], blocks: &[Block], block_rows: &[u32], merged_into: &[
     for (supernode, &index) in supernodes.iter_mut().zip(&post) {
         let start = rows.len();
         let old = &block_rows[blocks[tops[index as usize] as usize].rows.clone()];
-        rows.extend(old.iter().map(|&row| position[order[row as usize] as usize]));
+        memory::extend(&mut rows, old.iter().map(|&row| position[order[row as usize] as usize]));
         rows[start..].sort_unstable();
         supernode.rows = start..rows.len();
     }
@@ -306,7 +307,7 @@ fn subtree_work(blocks: &[Block], members: &Lists, tops: &[u32], parents: &[u32]
         let width: usize = members.of(id as usize).iter().map(|&id| blocks[id as usize].columns.len()).sum();
         front_work(width, blocks[id as usize].rows.len())
     };
-    let mut work: Vec<f64> = tops.iter().map(own).collect();
+    let mut work: Vec<f64> = tops.iter().map(own).collect_vec();
     for index in 0..tops.len() {
         if parents[index] != NONE {
             work[parents[index] as usize] += work[index];
@@ -322,10 +323,10 @@ fn front_work(width: usize, height: usize) -> f64 {
 }
 
 fn link_children(supernodes: &mut [Supernode]) -> Vec<Vec<u32>> {
-    let mut children = vec![Vec::new(); supernodes.len()];
+    let mut children = memory::filled(Vec::new(), supernodes.len());
     for s in 0..supernodes.len() {
         if let Some(parent) = supernodes[s].parent {
-            children[parent].push(s as u32);
+            memory::push(&mut children[parent], s as u32);
             let first = supernodes[s].first_descendant;
             supernodes[parent].first_descendant = supernodes[parent].first_descendant.min(first);
         }

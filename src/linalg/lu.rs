@@ -23,6 +23,7 @@ use super::dense::{factor_columns, subtract_product, vectorized};
 use super::elimination::{EliminationTree, Supernode};
 use super::ordering::{Graph, fill_reducing_order};
 use crate::failure::{Classify, ErrorKind};
+use crate::memory::{self, CollectVec};
 use rayon::prelude::*;
 use sprs::CsMatView;
 use std::ops::Range;
@@ -131,7 +132,8 @@ impl SymbolicLu {
             if length > u32::MAX as usize {
                 return Err(LuError::TooLarge { size });
             }
-            panel_starts.push(panel_starts[panel_starts.len() - 1] + length);
+            let end = panel_starts[panel_starts.len() - 1] + length;
+            memory::push(&mut panel_starts, end);
         }
         let (parent_places, (slots, slot_starts)) =
             rayon::join(|| parent_places(&tree), || place_entries(&matrix, &mirror, &tree));
@@ -155,7 +157,7 @@ impl SymbolicLu {
     ///
     /// Runs on the rayon pool it is called in: call it inside [`crate::Control::run`].
     pub fn factor(&self, matrix: CsMatView<f64>) -> Result<NumericLu, LuError> {
-        let mut numeric = NumericLu { panels: vec![0.0; self.factor_entry_count()] };
+        let mut numeric = NumericLu { panels: memory::filled(0.0, self.factor_entry_count()) };
         self.refactor(matrix, &mut numeric)?;
         Ok(numeric)
     }
@@ -166,8 +168,9 @@ impl SymbolicLu {
             return Err(LuError::OtherPattern { expected: self.entry_count, found: matrix.nnz() });
         }
         let values = matrix.data();
-        let roots: Vec<usize> =
-            (0..self.tree.supernodes.len()).filter(|&s| self.tree.supernodes[s].parent.is_none()).collect();
+        let roots: Vec<usize> = (0..self.tree.supernodes.len())
+            .filter(|&s| self.tree.supernodes[s].parent.is_none())
+            .collect_vec();
         self.factor_siblings(&roots, &mut numeric.panels, values).map(|_| ())
     }
 
@@ -215,7 +218,7 @@ impl SymbolicLu {
             let children = &self.tree.children[node];
             let is_heavy = |&&child: &&u32| self.tree.supernodes[child as usize].work >= self.split_work;
             let heavy: Vec<usize> =
-                children.iter().take_while(is_heavy).map(|&child| child as usize).collect();
+                children.iter().take_while(is_heavy).map(|&child| child as usize).collect_vec();
             match heavy[..] {
                 [only] => node = only,
                 _ => break heavy,
@@ -223,7 +226,7 @@ impl SymbolicLu {
         };
         let next = heavy.last().map_or(self.tree.supernodes[node].first_descendant, |&last| last + 1);
         let (done, _) = panels.split_at_mut(self.panel_starts[next] - base);
-        let mut stack: Vec<f64> = Vec::with_capacity(self.stack_size(&heavy, next..root + 1));
+        let mut stack: Vec<f64> = memory::with_capacity(self.stack_size(&heavy, next..root + 1));
         for update in self.factor_siblings(&heavy, done, values)? {
             stack.extend(update);
         }
@@ -242,7 +245,7 @@ impl SymbolicLu {
             let children = &self.tree.children[node];
             let is_heavy = |&&child: &&u32| self.tree.supernodes[child as usize].work >= self.split_work;
             let heavy: Vec<usize> =
-                children.iter().take_while(is_heavy).map(|&child| child as usize).collect();
+                children.iter().take_while(is_heavy).map(|&child| child as usize).collect_vec();
             match heavy[..] {
                 [only] => node = only,
                 [.., last] => return (heavy, last + 1),
@@ -311,7 +314,7 @@ impl SymbolicLu {
     /// Heavy subtrees are swept in parallel, on the rayon pool the call is made in.
     pub fn solve_in_place<const K: usize>(&self, numeric: &NumericLu, x: &mut [[f64; K]]) {
         debug_assert_eq!(x.len(), self.size());
-        let mut permuted: Vec<[f64; K]> = self.tree.order.iter().map(|&node| x[node as usize]).collect();
+        let mut permuted: Vec<[f64; K]> = self.tree.order.iter().map(|&node| x[node as usize]).collect_vec();
         let count = self.tree.supernodes.len();
         // a forest of several roots is swept in one go
         let root = (0..count).next_back().filter(|&s| self.tree.supernodes[s].first_descendant == 0);
@@ -327,7 +330,7 @@ impl SymbolicLu {
         let mut whole = Span { start: 0, inside: &mut permuted, rows: &[], beyond: Vec::new() };
         self.substitute_forward(rest..count, numeric, &mut whole);
         self.substitute_backward(rest..count, numeric, &mut whole);
-        let known = permuted.clone();
+        let known = memory::copied(&permuted);
         self.sweep_branches(&branches, &mut permuted, |branch, span| {
             span.beyond.iter_mut().zip(span.rows).for_each(|(value, &row)| *value = known[row as usize]);
             self.substitute_backward(
@@ -348,13 +351,13 @@ impl SymbolicLu {
         x: &mut [[f64; K]],
         sweep: impl Fn(usize, &mut Span<K>) + Sync,
     ) -> Vec<Vec<[f64; K]>> {
-        let mut spans = Vec::with_capacity(branches.len());
+        let mut spans = memory::with_capacity(branches.len());
         let (mut start, mut left) = (0, x);
         for &branch in branches {
             let supernode = &self.tree.supernodes[branch];
             let (inside, others) = left.split_at_mut(supernode.columns.end - start);
             let rows = &self.tree.rows[supernode.rows.clone()];
-            spans.push((branch, Span { start, inside, rows, beyond: vec![[0.0; K]; rows.len()] }));
+            spans.push((branch, Span { start, inside, rows, beyond: memory::filled([0.0; K], rows.len()) }));
             (start, left) = (supernode.columns.end, others);
         }
         let swept = spans.into_par_iter().map(|(branch, mut span)| {
@@ -433,9 +436,9 @@ impl SymbolicLu {
         matrix: CsMatView<f64>,
         rhs: &[[f64; K]],
     ) -> Vec<[f64; K]> {
-        let mut x = rhs.to_vec();
+        let mut x = memory::copied(rhs);
         self.solve_in_place(numeric, &mut x);
-        let mut residual = rhs.to_vec();
+        let mut residual = memory::copied(rhs);
         for (row, entries) in matrix.outer_iterator().enumerate() {
             for (column, &value) in entries.iter() {
                 (0..K).for_each(|i| residual[row][i] -= value * x[column][i]);
@@ -521,7 +524,7 @@ fn mirror_entries(matrix: &CsMatView<f64>) -> Result<Vec<u32>, LuError> {
     let (starts, columns) = (matrix.indptr(), matrix.indices());
     let starts = starts.raw_storage();
     let mut next: Vec<usize> = starts[..matrix.rows()].to_vec();
-    let mut mirror = vec![0; columns.len()];
+    let mut mirror = memory::filled(0, columns.len());
     for row in 0..matrix.rows() {
         let mut has_diagonal = false;
         for entry in starts[row]..starts[row + 1] {
@@ -542,7 +545,7 @@ fn mirror_entries(matrix: &CsMatView<f64>) -> Result<Vec<u32>, LuError> {
 }
 
 fn off_diagonal_graph(matrix: &CsMatView<f64>) -> Graph {
-    let mut graph = Graph { starts: vec![0], neighbours: Vec::with_capacity(matrix.nnz()) };
+    let mut graph = Graph { starts: vec![0], neighbours: memory::with_capacity(matrix.nnz()) };
     for (row, entries) in matrix.outer_iterator().enumerate() {
         let others = entries.indices().iter().filter(|&&column| column != row);
         graph.neighbours.extend(others.map(|&column| column as u32));
@@ -553,7 +556,7 @@ fn off_diagonal_graph(matrix: &CsMatView<f64>) -> Graph {
 
 /// Where each row below a supernode stands in its parent's front; both lists ascend.
 fn parent_places(tree: &EliminationTree) -> Vec<u32> {
-    let mut places = vec![0; tree.rows.len()];
+    let mut places = memory::filled(0, tree.rows.len());
     for supernode in &tree.supernodes {
         let Some(parent) = supernode.parent.map(|parent| &tree.supernodes[parent]) else { continue };
         let parent_rows = &tree.rows[parent.rows.clone()];
@@ -575,9 +578,9 @@ fn parent_places(tree: &EliminationTree) -> Vec<u32> {
 fn place_entries(matrix: &CsMatView<f64>, mirror: &[u32], tree: &EliminationTree) -> (Vec<Slot>, Vec<usize>) {
     let starts = matrix.indptr();
     let (starts, columns) = (starts.raw_storage(), matrix.indices());
-    let mut slots = Vec::with_capacity(columns.len());
+    let mut slots = memory::with_capacity(columns.len());
     let mut slot_starts = vec![0];
-    let mut place_of_row = vec![0_u32; tree.order.len()];
+    let mut place_of_row = memory::filled(0_u32, tree.order.len());
     for supernode in &tree.supernodes {
         let Supernode { columns: pivots, rows, .. } = supernode;
         let (size, width, height) = (supernode.front_size(), pivots.len(), rows.len());

@@ -6,7 +6,9 @@
 //! finite element mesh", SIAM J. Numer. Anal. 10 (1973), 345-363). The parts are ordered in parallel
 //! and give the elimination tree branches of equal weight.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
+use super::cholesky::buffer;
+use crate::memory::{self, CollectVec};
+use faer::dyn_stack::MemStack;
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::amd;
 
@@ -32,8 +34,8 @@ impl Graph {
         let mut part = Self { starts: vec![0], neighbours: Vec::new() };
         for &node in nodes {
             let inside = self.neighbours(node as usize).iter().map(|&other| place[other as usize]);
-            part.neighbours.extend(inside.filter(|&other| other != NONE));
-            part.starts.push(part.neighbours.len() as u32);
+            memory::extend(&mut part.neighbours, inside.filter(|&other| other != NONE));
+            memory::push(&mut part.starts, part.neighbours.len() as u32);
         }
         nodes.iter().for_each(|&node| place[node as usize] = NONE);
         part
@@ -55,13 +57,13 @@ pub(super) fn fill_reducing_order(graph: &Graph) -> Vec<u32> {
         return minimum_degree(graph);
     }
     let Some([left, right, separator]) = bisect(graph) else { return minimum_degree(graph) };
-    let mut place = vec![NONE; graph.len()];
+    let mut place = memory::filled(NONE, graph.len());
     let (left_graph, right_graph) = (graph.induced(&left, &mut place), graph.induced(&right, &mut place));
     let (left_order, right_order) =
         rayon::join(|| fill_reducing_order(&left_graph), || fill_reducing_order(&right_graph));
     let left = left_order.iter().map(|&k| left[k as usize]);
     let right = right_order.iter().map(|&k| right[k as usize]);
-    left.chain(right).chain(separator).collect()
+    left.chain(right).chain(separator).collect_vec()
 }
 
 /// Two parts without a common edge and the nodes between them; none if there is no narrow waist.
@@ -69,7 +71,7 @@ fn bisect(graph: &Graph) -> Option<[Vec<u32>; 3]> {
     let far = *breadth_first(graph, 0).0.last()?;
     let (_, levels) = breadth_first(graph, far);
     let depth = levels.iter().copied().filter(|&level| level != NONE).max()? as usize;
-    let mut counts = vec![0_usize; depth + 1];
+    let mut counts = memory::filled(0_usize, depth + 1);
     levels.iter().filter(|&&level| level != NONE).for_each(|&level| counts[level as usize] += 1);
     let mut before = 0;
     let mut cut: Option<(usize, usize)> = None; // the narrowest level of those near the middle
@@ -98,14 +100,14 @@ fn bisect(graph: &Graph) -> Option<[Vec<u32>; 3]> {
         } else {
             0
         };
-        parts[part].push(node as u32);
+        memory::push(&mut parts[part], node as u32);
     }
     Some(parts)
 }
 
 /// Nodes in the order they are met from `start`, and the level of each.
 fn breadth_first(graph: &Graph, start: u32) -> (Vec<u32>, Vec<u32>) {
-    let mut levels = vec![NONE; graph.len()];
+    let mut levels = memory::filled(NONE, graph.len());
     levels[start as usize] = 0;
     let mut queue = vec![start];
     let mut next = 0;
@@ -125,9 +127,9 @@ fn breadth_first(graph: &Graph, start: u32) -> (Vec<u32>, Vec<u32>) {
 /// Approximate minimum degree.
 fn minimum_degree(graph: &Graph) -> Vec<u32> {
     let n = graph.len();
-    let (mut order, mut position) = (vec![0_u32; n], vec![0_u32; n]);
+    let (mut order, mut position) = (memory::filled(0_u32, n), memory::filled(0_u32, n));
     let pattern = SymbolicSparseColMatRef::new_checked(n, n, &graph.starts, None, &graph.neighbours);
-    let mut memory = MemBuffer::new(amd::order_scratch::<u32>(n, graph.neighbours.len()));
+    let mut memory = buffer(amd::order_scratch::<u32>(n, graph.neighbours.len()));
     amd::order(&mut order, &mut position, pattern, amd::Control::default(), MemStack::new(&mut memory))
         .expect("the pattern has fewer than 2^31 entries");
     order

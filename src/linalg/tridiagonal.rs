@@ -5,6 +5,8 @@
 //! cubic splines are diagonally dominant in their slopes and totally positive in their control points: neither
 //! needs pivots.
 
+use crate::memory;
+
 /// The eliminated matrix.
 #[derive(Debug, Clone)]
 pub struct Tridiagonal {
@@ -28,7 +30,7 @@ struct Corner {
 impl Tridiagonal {
     /// Eliminates; `lower[0]` and the last of `upper` are not looked at.
     pub fn new(lower: Vec<f64>, diagonal: &[f64], mut upper: Vec<f64>) -> Self {
-        let mut inverse = Vec::with_capacity(diagonal.len());
+        let mut inverse = memory::with_capacity(diagonal.len());
         let mut above = 0.0;
         for i in 0..diagonal.len() {
             let pivot = if i == 0 { diagonal[0] } else { diagonal[i] - lower[i] * above };
@@ -55,7 +57,7 @@ impl Tridiagonal {
         diagonal[0] -= gamma;
         diagonal[last] -= bottom_left * ratio;
         let mut open = Self::new(lower, &diagonal, upper);
-        let mut response = vec![0.0; last + 1];
+        let mut response = memory::filled(0.0, last + 1);
         (response[0], response[last]) = (gamma, bottom_left);
         open.solve(&mut response, 1);
         let denominator = 1.0 + response[0] + ratio * response[last];

@@ -11,6 +11,7 @@
 
 use super::{Field, HalfEdge, Mesh, MeshError, Origins};
 use crate::failure::{Classify, ErrorKind};
+use crate::memory::{self, CollectVec};
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
@@ -105,12 +106,12 @@ pub struct Piece {
 impl Piece {
     /// Rows of `dim` numbers, one a node of the other mesh: those of this one.
     pub fn gather(&self, rows: &[f64], dim: usize) -> Vec<f64> {
-        self.nodes.iter().flat_map(|&node| &rows[node as usize * dim..][..dim]).copied().collect()
+        self.nodes.iter().flat_map(|&node| &rows[node as usize * dim..][..dim]).copied().collect_vec()
     }
 
     /// What is known by node of this mesh, by node of the other, which has `count`; `nothing` elsewhere.
     pub fn spread<T: Copy>(&self, values: &[T], count: usize, nothing: T) -> Vec<T> {
-        let mut spread = vec![nothing; count];
+        let mut spread = memory::filled(nothing, count);
         self.nodes.iter().zip(values).for_each(|(&node, &value)| spread[node as usize] = value);
         spread
     }
@@ -120,7 +121,7 @@ impl Mesh {
     /// The mesh without some of its triangles, and without the nodes that no triangle needs any more.
     pub fn remove_triangles(&self, triangles: &[u32]) -> Result<Piece, CutError> {
         let count = self.triangles.len();
-        let mut keeps = vec![true; count];
+        let mut keeps = memory::filled(true, count);
         for &triangle in triangles {
             match keeps.get_mut(triangle as usize) {
                 Some(keep) => *keep = false,
@@ -133,9 +134,9 @@ impl Mesh {
     /// Each part that hangs together by edges as a mesh of its own, in the order of their first triangles.
     pub fn split_components(&self) -> Result<Vec<Piece>, CutError> {
         let (labels, count) = self.topology.components();
-        let mut parts = vec![Vec::new(); count];
+        let mut parts = memory::filled(Vec::new(), count);
         for (triangle, label) in (0..).zip(&self.triangles).zip(labels) {
-            parts[label as usize].push(triangle);
+            memory::push(&mut parts[label as usize], triangle);
         }
         parts.into_iter().map(|triangles| self.compacted(triangles)).collect()
     }
@@ -158,7 +159,7 @@ impl Mesh {
             return Err(CutError::PathTooShort { node_count: path.len() });
         };
         path.iter().try_for_each(|&node| self.check_node(node))?;
-        let mut cut = vec![false; 3 * self.triangles.len()];
+        let mut cut = memory::filled(false, 3 * self.triangles.len());
         for pair in path.windows(2) {
             let edge = self.edge_between(pair[0], pair[1]);
             let edge = edge.ok_or(CutError::NotAnEdge { from: pair[0], to: pair[1] })?;
@@ -169,8 +170,8 @@ impl Mesh {
         }
 
         let mut triangles = self.triangles.clone();
-        let mut nodes: Vec<u32> = (0..self.points.len() as u32).collect();
-        let mut split_nodes = path.to_vec();
+        let mut nodes: Vec<u32> = (0..self.points.len() as u32).collect_vec();
+        let mut split_nodes = memory::copied(path);
         split_nodes.sort_unstable();
         split_nodes.dedup();
         for node in split_nodes {
@@ -179,14 +180,14 @@ impl Mesh {
                     for half_edge in sector {
                         triangles[half_edge.triangle()][half_edge.corner()] = nodes.len() as u32;
                     }
-                    nodes.push(node);
+                    memory::push(&mut nodes, node);
                 }
             }
         }
         if nodes.len() == self.points.len() {
             return Err(CutError::NothingOpened { from, to });
         }
-        let numbers = (0..triangles.len() as u32).collect();
+        let numbers = (0..triangles.len() as u32).collect_vec();
         self.piece(triangles, nodes, numbers)
     }
 
@@ -232,15 +233,15 @@ impl Mesh {
     pub fn shortest_path(&self, from: u32, to: u32) -> Result<Vec<u32>, CutError> {
         self.check_node(from)?;
         self.check_node(to)?;
-        let mut lengths = vec![f64::INFINITY; self.points.len()];
-        let mut before = vec![from; self.points.len()];
+        let mut lengths = memory::filled(f64::INFINITY, self.points.len());
+        let mut before = memory::filled(from, self.points.len());
         let mut heap = BinaryHeap::from([Reverse(Reached { length: 0.0, node: from })]);
         lengths[from as usize] = 0.0;
         while let Some(Reverse(Reached { length, node })) = heap.pop() {
             if node == to {
                 let back =
                     std::iter::successors(Some(to), |&node| (node != from).then(|| before[node as usize]));
-                let mut path: Vec<u32> = back.collect();
+                let mut path: Vec<u32> = back.collect_vec();
                 path.reverse();
                 return Ok(path);
             }
@@ -290,9 +291,9 @@ impl Mesh {
     ) -> Result<Piece, CutError> {
         let (numbers, mut triangles): (Vec<u32>, Vec<[u32; 3]>) =
             triangles.into_iter().map(|(number, triangle)| (number, *triangle.borrow())).unzip();
-        let mut new = vec![u32::MAX; self.points.len()];
+        let mut new = memory::filled(u32::MAX, self.points.len());
         triangles.iter().flatten().for_each(|&node| new[node as usize] = 0);
-        let nodes: Vec<u32> = (0..new.len() as u32).filter(|&node| new[node as usize] == 0).collect();
+        let nodes: Vec<u32> = (0..new.len() as u32).filter(|&node| new[node as usize] == 0).collect_vec();
         nodes.iter().enumerate().for_each(|(i, &node)| new[node as usize] = i as u32);
         triangles.iter_mut().flatten().for_each(|node| *node = new[*node as usize]);
         self.piece(triangles, nodes, numbers)
@@ -300,17 +301,18 @@ impl Mesh {
 
     /// A mesh whose node i is the node `nodes[i]` of this one, and whose triangle t was `numbers[t]`.
     fn piece(&self, triangles: Vec<[u32; 3]>, nodes: Vec<u32>, numbers: Vec<u32>) -> Result<Piece, CutError> {
-        let points = nodes.iter().map(|&node| self.points[node as usize]).collect();
+        let points = nodes.iter().map(|&node| self.points[node as usize]).collect_vec();
         let mut mesh = Mesh::new(points, triangles).map_err(|error| match error {
             MeshError::NoPoints => MeshError::NoTriangles, // the nodes went with the triangles
             error => error,
         })?;
-        mesh.parameters = self.parameters().map(|uv| nodes.iter().map(|&node| uv[node as usize]).collect());
+        mesh.parameters =
+            self.parameters().map(|uv| nodes.iter().map(|&node| uv[node as usize]).collect_vec());
         let fields = self.fields.iter().map(|field| Field {
             name: field.name.clone(),
-            values: nodes.iter().map(|&node| field.values[node as usize]).collect(),
+            values: nodes.iter().map(|&node| field.values[node as usize]).collect_vec(),
         });
-        mesh.fields = fields.collect();
+        mesh.fields = fields.collect_vec();
         mesh.origins = Origins::new(nodes.clone(), numbers);
         Ok(Piece { mesh, nodes })
     }

@@ -30,6 +30,7 @@ pub use repair::{Components, MeshRepairs, Repair};
 pub use topology::{HalfEdge, Topology};
 
 use crate::geometry::{Bounds, safe_scale};
+use crate::memory::{self, CollectVec};
 use glam::{DVec2, DVec3};
 use polygon::Triangulation;
 use repair::Draft;
@@ -74,7 +75,7 @@ impl MeshOptions {
 }
 
 /// A number on each node, by name.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct Field {
     /// Its name, unique in the mesh.
     pub name: String,
@@ -82,8 +83,14 @@ pub struct Field {
     pub values: Vec<f64>,
 }
 
+impl Clone for Field {
+    fn clone(&self) -> Self {
+        Self { name: self.name.clone(), values: memory::copied(&self.values) }
+    }
+}
+
 /// A manifold, consistently oriented triangle mesh.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct Mesh {
     points: Vec<DVec3>,
     triangles: Vec<[u32; 3]>,
@@ -97,12 +104,46 @@ pub struct Mesh {
 }
 
 /// What nodes and triangles were in the arrays, the file or the mesh that they come from.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, PartialEq, Default)]
 struct Origins {
     /// By node; none if the numbers are the same.
     nodes: Option<Vec<u32>>,
     /// By triangle; none if the numbers are the same.
     triangles: Option<Vec<u32>>,
+}
+
+impl Clone for Origins {
+    fn clone(&self) -> Self {
+        let copied = |numbers: &Option<Vec<u32>>| numbers.as_deref().map(memory::copied);
+        Self { nodes: copied(&self.nodes), triangles: copied(&self.triangles) }
+    }
+}
+
+impl Clone for Mesh {
+    fn clone(&self) -> Self {
+        let Self {
+            points,
+            triangles,
+            parameters,
+            fields,
+            topology,
+            loops,
+            component_count,
+            used_count,
+            origins,
+        } = self;
+        Self {
+            points: memory::copied(points),
+            triangles: memory::copied(triangles),
+            parameters: parameters.as_deref().map(memory::copied),
+            fields: fields.clone(),
+            topology: topology.clone(),
+            loops: loops.iter().map(|nodes| memory::copied(nodes)).collect_vec(),
+            component_count: *component_count,
+            used_count: *used_count,
+            origins: origins.clone(),
+        }
+    }
 }
 
 impl Origins {
@@ -361,7 +402,7 @@ impl Mesh {
 
     /// Nodes without triangles, in increasing order.
     pub fn unused_nodes(&self) -> Vec<u32> {
-        (0..self.points.len() as u32).filter(|&node| !self.is_used(node)).collect()
+        (0..self.points.len() as u32).filter(|&node| !self.is_used(node)).collect_vec()
     }
 
     /// All edges, each by that of its half-edges with the smaller number.
@@ -374,7 +415,7 @@ impl Mesh {
     /// The normals of the nodes: sums of the area vectors of their triangles, not of length 1.
     pub fn node_normals(&self) -> Vec<DVec3> {
         let (safe, _) = self.at_safe_scale();
-        let mut normals = vec![DVec3::ZERO; self.points.len()];
+        let mut normals = memory::filled(DVec3::ZERO, self.points.len());
         for triangle in &self.triangles {
             let [a, b, c] = triangle.map(|node| safe.points[node as usize]);
             let area = (b - a).cross(c - a);
@@ -490,7 +531,7 @@ fn check_indices(points: &[DVec3], triangles: &[[u32; 3]], first: u32) -> Result
 fn ordered_loops(points: &[DVec3], triangles: &[[u32; 3]], topology: &Topology) -> Vec<Vec<u32>> {
     let mut loops: Vec<(f64, Vec<u32>)> = Vec::new();
     for chain in topology.boundary() {
-        let mut nodes: Vec<u32> = chain.iter().map(|half_edge| half_edge.origin(triangles)).collect();
+        let mut nodes: Vec<u32> = chain.iter().map(|half_edge| half_edge.origin(triangles)).collect_vec();
         let smallest = (0..nodes.len()).min_by_key(|&i| nodes[i]).unwrap_or(0);
         nodes.rotate_left(smallest);
         let ends = nodes.iter().zip(nodes.iter().cycle().skip(1));
@@ -498,5 +539,5 @@ fn ordered_loops(points: &[DVec3], triangles: &[[u32; 3]], topology: &Topology) 
         loops.push((length, nodes));
     }
     loops.sort_by(|(a, x), (b, y)| b.total_cmp(a).then_with(|| x.cmp(y)));
-    loops.into_iter().map(|(_, nodes)| nodes).collect()
+    loops.into_iter().map(|(_, nodes)| nodes).collect_vec()
 }

@@ -16,6 +16,7 @@
 
 use super::MeshError;
 use crate::geometry::{Orientation, orientation};
+use crate::memory::{self, CollectVec};
 use glam::{DVec2, DVec3};
 
 /// Ears take cubic time at worst, so a polygon that is not convex may have this many corners.
@@ -49,7 +50,7 @@ impl Faces {
 
     /// Adds a corner to the face that is being made.
     pub fn push(&mut self, node: u32) {
-        self.corners.push(node);
+        memory::push(&mut self.corners, node);
     }
 
     /// Ends a face. One of less than three corners is left out: it has no area.
@@ -57,11 +58,11 @@ impl Faces {
         let start = self.ends.last().copied().unwrap_or(0);
         if self.corners.len() - start < 3 {
             self.corners.truncate(start);
-            self.kept.get_or_insert_with(|| (0..self.given as u32).collect());
+            self.kept.get_or_insert_with(|| (0..self.given as u32).collect_vec());
         } else {
-            self.ends.push(self.corners.len());
+            memory::push(&mut self.ends, self.corners.len());
             if let Some(kept) = &mut self.kept {
-                kept.push(self.given as u32);
+                memory::push(kept, self.given as u32);
             }
         }
         self.given += 1;
@@ -106,7 +107,7 @@ impl Faces {
 
     pub(super) fn into_triangles(self, points: &[DVec3]) -> Result<Triangulation, MeshError> {
         let is_plain = self.kept.is_none() && self.corners.len() == 3 * self.ends.len();
-        let mut triangles = Vec::with_capacity(self.ends.len());
+        let mut triangles = memory::with_capacity(self.ends.len());
         let mut faces = Vec::new();
         let mut start = 0;
         for (face, &end) in self.ends.iter().enumerate() {
@@ -131,7 +132,7 @@ fn split(
     triangles: &mut Vec<[u32; 3]>,
 ) -> Result<(), MeshError> {
     // a corner given twice in a row makes a shorter polygon: finite elements write triangles as such quads
-    let mut corners = polygon.to_vec();
+    let mut corners = memory::copied(polygon);
     corners.dedup();
     while corners.len() > 3 && corners.first() == corners.last() {
         corners.pop();
@@ -154,7 +155,7 @@ fn split(
         let arm = point(*corner) - origin;
         DVec2::new(arm.dot(across), arm.dot(up))
     };
-    let mut seen: Vec<DVec2> = corners.iter().map(flat).collect();
+    let mut seen: Vec<DVec2> = corners.iter().map(flat).collect_vec();
     if is_strictly_convex(&corners, &seen) {
         push_fan(&corners, triangles);
         return Ok(());

@@ -12,6 +12,7 @@
 
 use super::topology::{self, Pairing, Topology};
 use super::{Mesh, MeshError, Origins, check_sizes, first_not_finite, weld};
+use crate::memory::{self, CollectVec};
 use glam::DVec3;
 
 /// Which faults are mended; the others are refused.
@@ -176,11 +177,11 @@ impl Draft {
     fn weld(&mut self, distance: f64) -> Result<(), MeshError> {
         let firsts = weld::weld(&self.points, distance);
         let mut nodes = Vec::new();
-        let mut node_map = Vec::with_capacity(firsts.len());
+        let mut node_map = memory::with_capacity(firsts.len());
         for (i, &first) in firsts.iter().enumerate() {
             if first as usize == i {
-                node_map.push(nodes.len() as u32);
-                nodes.push(i as u32);
+                memory::push(&mut node_map, nodes.len() as u32);
+                memory::push(&mut nodes, i as u32);
             } else {
                 node_map.push(node_map[first as usize]); // first < i
             }
@@ -194,7 +195,7 @@ impl Draft {
         if self.triangles.is_empty() {
             return Err(MeshError::NothingLeft { distance });
         }
-        self.points = nodes.iter().map(|&node| self.points[node as usize]).collect();
+        self.points = nodes.iter().map(|&node| self.points[node as usize]).collect_vec();
         self.origins.nodes = Some(nodes);
         self.repairs.node_map = Some(node_map);
         Ok(())
@@ -237,7 +238,7 @@ impl Draft {
             return;
         }
         self.repairs.parted_edges = pairing.crowded.len();
-        let mut nodes: Vec<u32> = pairing.crowded.iter().flat_map(|edge| edge.nodes).collect();
+        let mut nodes: Vec<u32> = pairing.crowded.iter().flat_map(|edge| edge.nodes).collect_vec();
         nodes.sort_unstable();
         nodes.dedup();
         for (node, corners) in pairing.further_groups(&self.triangles, &nodes) {
@@ -269,7 +270,7 @@ impl Draft {
             }
             Components::One(component) => component,
             _ => {
-                let mut sizes = vec![0_usize; count];
+                let mut sizes = memory::filled(0_usize, count);
                 labels.iter().for_each(|&label| sizes[label as usize] += 1);
                 (0..count).rev().max_by_key(|&component| sizes[component]).unwrap_or(0) as u32
             }
@@ -297,7 +298,7 @@ impl Draft {
     /// A new node in the place of another.
     fn append_copy(&mut self, node: u32) -> u32 {
         let copy = self.points.len() as u32;
-        let nodes = self.origins.nodes.get_or_insert_with(|| (0..copy).collect());
+        let nodes = self.origins.nodes.get_or_insert_with(|| (0..copy).collect_vec());
         nodes.push(nodes[node as usize]);
         self.points.push(self.points[node as usize]);
         self.repairs.split_nodes += 1;
@@ -307,12 +308,12 @@ impl Draft {
     /// Keeps some triangles, and returns how many went.
     fn keep(&mut self, is_kept: impl Fn(usize, &[u32; 3]) -> bool) -> usize {
         let before = self.triangles.len();
-        let mut kept = Vec::with_capacity(before);
+        let mut kept = memory::with_capacity(before);
         let mut t = 0;
         self.triangles.retain(|triangle| {
             let keeps = is_kept(t, triangle);
             if keeps {
-                kept.push(self.origins.triangle(t as u32));
+                memory::push(&mut kept, self.origins.triangle(t as u32));
             }
             t += 1;
             keeps

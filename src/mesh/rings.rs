@@ -12,6 +12,7 @@
 //! the reverse order.
 
 use super::Mesh;
+use crate::memory::{self, CollectVec};
 
 /// Neighbours of each node of a closed mesh, counter-clockwise.
 #[derive(Debug, Clone)]
@@ -22,7 +23,11 @@ pub(crate) struct Rings {
 impl Rings {
     /// Of a mesh without boundary and pinched nodes; nodes without triangles have an empty ring.
     pub fn new(mesh: &Mesh) -> Self {
-        Self { rings: (0..mesh.points().len() as u32).map(|node| mesh.neighbours(node).collect()).collect() }
+        Self {
+            rings: (0..mesh.points().len() as u32)
+                .map(|node| mesh.neighbours(node).collect_vec())
+                .collect_vec(),
+        }
     }
 
     /// The neighbours of a node; of a collapsed one those it had, the node it went to first.
@@ -85,7 +90,7 @@ impl Rings {
     /// than in proportion to the logarithm of the nodes (S. Irani, "Coloring inductive graphs on-line", 1994).
     pub fn coloured(&self, nodes: &[u32]) -> Vec<Vec<u32>> {
         const NONE: u8 = u8::MAX;
-        let mut colours = vec![NONE; self.rings.len()];
+        let mut colours = memory::filled(NONE, self.rings.len());
         let mut classes: Vec<Vec<u32>> = Vec::new();
         for &node in nodes {
             let around = self.of(node).iter().map(|&other| colours[other as usize]);
@@ -94,9 +99,9 @@ impl Rings {
             let colour = taken.trailing_ones() as usize;
             colours[node as usize] = colour as u8;
             if colour == classes.len() {
-                classes.push(Vec::new());
+                memory::push(&mut classes, Vec::new());
             }
-            classes[colour].push(node);
+            memory::push(&mut classes[colour], node);
         }
         classes
     }
@@ -111,7 +116,7 @@ pub(crate) struct RingMarks {
 
 impl RingMarks {
     pub fn new(node_count: usize) -> Self {
-        Self { marks: vec![0; node_count], tick: 0 }
+        Self { marks: memory::filled(0, node_count), tick: 0 }
     }
 
     /// Marks these nodes, and no other.

@@ -11,6 +11,7 @@
 //! Edges are paired by a counting sort over their smaller node: linear time, no hash table.
 
 use super::error::MeshError;
+use crate::memory::{self, CollectVec};
 
 /// Stands for "no half-edge" in the arrays.
 const NONE: u32 = u32::MAX;
@@ -65,7 +66,7 @@ impl HalfEdge {
 }
 
 /// Twins and fans of a mesh.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct Topology {
     /// By half-edge; NONE on the boundary.
     twins: Vec<u32>,
@@ -74,6 +75,18 @@ pub struct Topology {
     /// (node, half-edge) of the second and further fans of pinched nodes, by node.
     further_fans: Vec<(u32, u32)>,
     boundary_edge_count: usize,
+}
+
+impl Clone for Topology {
+    fn clone(&self) -> Self {
+        let Self { twins, fans, further_fans, boundary_edge_count } = self;
+        Self {
+            twins: memory::copied(twins),
+            fans: memory::copied(fans),
+            further_fans: memory::copied(further_fans),
+            boundary_edge_count: *boundary_edge_count,
+        }
+    }
 }
 
 impl Topology {
@@ -134,7 +147,7 @@ impl Topology {
 
     /// Nodes of more than one fan, in increasing order.
     pub fn pinched_nodes(&self) -> Vec<u32> {
-        let mut nodes: Vec<u32> = self.further_fans.iter().map(|&(node, _)| node).collect();
+        let mut nodes: Vec<u32> = self.further_fans.iter().map(|&(node, _)| node).collect_vec();
         nodes.dedup();
         nodes
     }
@@ -153,7 +166,7 @@ impl Topology {
     /// Components are counted by their smallest triangle.
     pub fn components(&self) -> (Vec<u32>, usize) {
         let triangle_count = self.twins.len() / 3;
-        let mut labels = vec![NONE; triangle_count];
+        let mut labels = memory::filled(NONE, triangle_count);
         let mut count = 0;
         let mut stack = Vec::new();
         for seed in 0..triangle_count {
@@ -161,13 +174,13 @@ impl Topology {
                 continue;
             }
             labels[seed] = count;
-            stack.push(seed);
+            memory::push(&mut stack, seed);
             while let Some(t) = stack.pop() {
                 for &twin in self.twins[3 * t..3 * t + 3].iter().filter(|&&twin| twin != NONE) {
                     let neighbour = twin as usize / 3;
                     if labels[neighbour] == NONE {
                         labels[neighbour] = count;
-                        stack.push(neighbour);
+                        memory::push(&mut stack, neighbour);
                     }
                 }
             }
@@ -187,7 +200,7 @@ impl Topology {
 
     /// The loops of boundary half-edges, by their smallest.
     pub fn boundary(&self) -> Vec<Vec<HalfEdge>> {
-        let mut seen = vec![false; if self.boundary_edge_count > 0 { self.twins.len() } else { 0 }];
+        let mut seen = memory::filled(false, if self.boundary_edge_count > 0 { self.twins.len() } else { 0 });
         let mut loops = Vec::new();
         for h in 0..seen.len() {
             if self.twins[h] != NONE || seen[h] {
@@ -196,10 +209,10 @@ impl Topology {
             let mut chain = Vec::new();
             let mut half_edge = HalfEdge(h as u32);
             while !std::mem::replace(&mut seen[half_edge.index()], true) {
-                chain.push(half_edge);
+                memory::push(&mut chain, half_edge);
                 half_edge = self.next_on_boundary(half_edge);
             }
-            loops.push(chain);
+            memory::push(&mut loops, chain);
         }
         loops
     }
@@ -215,7 +228,7 @@ pub(super) fn orient(triangles: &mut [[u32; 3]], node_count: usize) -> Result<us
         return Err(error);
     }
     // 0: not reached, 1: stays, 2: is turned, seen from the component's seed
-    let mut turns = vec![0u8; triangles.len()];
+    let mut turns = memory::filled(0u8, triangles.len());
     let mut flipped_count = 0;
     let mut component = Vec::new();
     for seed in 0..triangles.len() {
@@ -224,7 +237,7 @@ pub(super) fn orient(triangles: &mut [[u32; 3]], node_count: usize) -> Result<us
         }
         turns[seed] = 1;
         component.clear();
-        component.push(seed);
+        memory::push(&mut component, seed);
         let mut done = 0;
         while done < component.len() {
             let t = component[done];
@@ -237,7 +250,7 @@ pub(super) fn orient(triangles: &mut [[u32; 3]], node_count: usize) -> Result<us
                 match turns[mate.triangle()] {
                     0 => {
                         turns[mate.triangle()] = turn;
-                        component.push(mate.triangle());
+                        memory::push(&mut component, mate.triangle());
                     }
                     known if known == turn => {}
                     _ => return Err(one_sided(triangles, [half_edge, mate])),
@@ -278,7 +291,7 @@ pub(super) struct Pairing {
 impl Pairing {
     pub fn new(triangles: &[[u32; 3]], node_count: usize) -> Self {
         // counting sort by the smaller node: entries of node i end at ends[i]
-        let mut ends = vec![0u32; node_count + 1];
+        let mut ends = memory::filled(0u32, node_count + 1);
         for &[a, b, c] in triangles {
             for node in [a.min(b), b.min(c), c.min(a)] {
                 ends[node as usize + 1] += 1;
@@ -288,7 +301,7 @@ impl Pairing {
             ends[node + 1] += ends[node];
         }
         // one number for each half-edge: larger node, half-edge, whether it leaves the smaller node
-        let mut entries = vec![0u64; 3 * triangles.len()];
+        let mut entries = memory::filled(0u64, 3 * triangles.len());
         for (t, &[a, b, c]) in triangles.iter().enumerate() {
             for (corner, (from, to)) in [(a, b), (b, c), (c, a)].into_iter().enumerate() {
                 let place = &mut ends[from.min(to) as usize];
@@ -299,7 +312,7 @@ impl Pairing {
             }
         }
 
-        let mut mates = vec![NONE; entries.len()];
+        let mut mates = memory::filled(NONE, entries.len());
         let mut clash = None;
         let mut crowded = Vec::new();
         let mut start = 0;
@@ -332,8 +345,8 @@ impl Pairing {
     /// The corners, 3 * triangle + corner, at each of some nodes, in groups of triangles that hang together by edges of
     /// two triangles; without the first group of each node, which is that of the smallest corner.
     pub fn further_groups(&self, triangles: &[[u32; 3]], nodes: &[u32]) -> Vec<(u32, Vec<usize>)> {
-        let mut has_group = vec![false; nodes.len()];
-        let mut seen = vec![false; self.mates.len()];
+        let mut has_group = memory::filled(false, nodes.len());
+        let mut seen = memory::filled(false, self.mates.len());
         let mut groups = Vec::new();
         for corner in 0..seen.len() {
             let node = HalfEdge(corner as u32).origin(triangles);
@@ -351,12 +364,12 @@ impl Pairing {
                 {
                     let next = if mate.origin(triangles) == node { mate } else { mate.next() };
                     if !std::mem::replace(&mut seen[next.index()], true) {
-                        group.push(next.index());
+                        memory::push(&mut group, next.index());
                     }
                 }
             }
             if std::mem::replace(&mut has_group[place], true) {
-                groups.push((node, group));
+                memory::push(&mut groups, (node, group));
             }
         }
         groups
@@ -365,9 +378,9 @@ impl Pairing {
 
 /// The first fan of each node, and the others as (node, half-edge) by node. Open fans go first.
 fn find_fans(triangles: &[[u32; 3]], twins: &[u32], node_count: usize) -> (Vec<u32>, Vec<(u32, u32)>) {
-    let mut fans = vec![NONE; node_count];
+    let mut fans = memory::filled(NONE, node_count);
     let mut further = Vec::new();
-    let mut seen = vec![false; twins.len()];
+    let mut seen = memory::filled(false, twins.len());
     let open = (0..twins.len()).filter(|&h| twins[h] == NONE);
     for h in open.chain(0..twins.len()) {
         if seen[h] {
@@ -399,7 +412,7 @@ fn duplicate(triangles: &[[u32; 3]]) -> Option<MeshError> {
 
 /// Whether each triangle is the first one with its nodes.
 pub(super) fn first_copies(triangles: &[[u32; 3]]) -> Vec<bool> {
-    let mut is_first = vec![true; triangles.len()];
+    let mut is_first = memory::filled(true, triangles.len());
     for pair in sorted_by_nodes(triangles).windows(2) {
         is_first[pair[1].1] = pair[0].0 != pair[1].0;
     }
@@ -413,7 +426,7 @@ fn sorted_by_nodes(triangles: &[[u32; 3]]) -> Vec<([u32; 3], usize)> {
         nodes.sort_unstable();
         (nodes, t)
     };
-    let mut keys: Vec<([u32; 3], usize)> = triangles.iter().enumerate().map(sorted).collect();
+    let mut keys: Vec<([u32; 3], usize)> = triangles.iter().enumerate().map(sorted).collect_vec();
     keys.sort_unstable();
     keys
 }

@@ -5,6 +5,7 @@
 //! chain of near nodes does not shrink to a point. Kept nodes lie in a hash grid whose cells hold only so
 //! many of them: linear time.
 
+use crate::memory;
 use glam::DVec3;
 
 /// Cells are this many distances wide. Wider cells hold more nodes, narrower ones make a ball touch more.
@@ -19,15 +20,15 @@ pub(super) fn weld(points: &[DVec3], distance: f64) -> Vec<u32> {
 
 fn weld_equal(points: &[DVec3]) -> Vec<u32> {
     let mut table = Table::new(points.len());
-    let mut firsts = Vec::with_capacity(points.len());
+    let mut firsts = memory::with_capacity(points.len());
     for (i, &point) in points.iter().enumerate() {
         if !point.is_finite() {
-            firsts.push(i as u32);
+            memory::push(&mut firsts, i as u32);
             continue;
         }
         let hash = hash(point.to_array().map(|x| (x + 0.0).to_bits())); // -0 + 0 = 0
         let first = table.chain(hash).find(|&j| points[j as usize] == point);
-        firsts.push(first.unwrap_or(i as u32));
+        memory::push(&mut firsts, first.unwrap_or(i as u32));
         if first.is_none() {
             table.insert(hash, i as u32);
         }
@@ -46,14 +47,14 @@ fn weld_near(points: &[DVec3], equal: &[u32], distance: f64) -> Vec<u32> {
     let distance_sq = |i: u32, point: DVec3| points[i as usize].distance_squared(point);
 
     let mut table = Table::new(points.len());
-    let mut firsts: Vec<u32> = Vec::with_capacity(points.len());
+    let mut firsts: Vec<u32> = memory::with_capacity(points.len());
     for (i, &point) in points.iter().enumerate() {
         if (equal[i] as usize) < i {
             firsts.push(firsts[equal[i] as usize]);
             continue;
         }
         if !point.is_finite() {
-            firsts.push(i as u32);
+            memory::push(&mut firsts, i as u32);
             continue;
         }
         let [from, to] = [cell_of(point - distance), cell_of(point + distance)];
@@ -70,7 +71,7 @@ fn weld_near(points: &[DVec3], equal: &[u32], distance: f64) -> Vec<u32> {
                 }
             }
         }
-        firsts.push(nearest.map_or(i as u32, |(_, j)| j));
+        memory::push(&mut firsts, nearest.map_or(i as u32, |(_, j)| j));
         if nearest.is_none() {
             table.insert(hash(cell_of(point).map(|x| (x + 0.0).to_bits())), i as u32);
         }
@@ -100,7 +101,10 @@ impl Table {
     const END: u32 = u32::MAX;
 
     fn new(point_count: usize) -> Self {
-        Self { heads: vec![Self::END; point_count.next_power_of_two()], nexts: vec![Self::END; point_count] }
+        Self {
+            heads: memory::filled(Self::END, point_count.next_power_of_two()),
+            nexts: memory::filled(Self::END, point_count),
+        }
     }
 
     fn slot(&self, hash: u64) -> usize {

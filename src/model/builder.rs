@@ -291,7 +291,7 @@ fn curve_deviation(model: &Model) -> f64 {
 fn deviation(carrier: &Carrier, curve: &EdgeCurve, pcurve: Option<&Curve>) -> f64 {
     let mut breaks = curve.breaks();
     breaks.extend(pcurve.into_iter().flat_map(|pcurve| pcurve.knots().breaks()));
-    breaks.sort_by(f64::total_cmp);
+    breaks.sort_unstable_by(f64::total_cmp);
     let parameters: Vec<f64> = breaks
         .windows(2)
         .flat_map(|span| {

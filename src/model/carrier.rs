@@ -2,6 +2,7 @@
 
 use super::EdgeCurve;
 use crate::geometry::Domain;
+use crate::memory::{self, CollectVec};
 use crate::surface::tensor::TensorSurface;
 use crate::surface::{Surface, derivative_rows};
 use glam::{DVec2, DVec3};
@@ -162,9 +163,9 @@ impl Carrier {
 
     /// The points at each of `uv`.
     pub fn points(&self, uv: &[DVec2]) -> Vec<DVec3> {
-        let mut rows = vec![0.0; 3 * uv.len()];
+        let mut rows = memory::filled(0.0, 3 * uv.len());
         self.eval_rows(uv, 0, &mut rows);
-        rows.chunks_exact(3).map(DVec3::from_slice).collect()
+        rows.chunks_exact(3).map(DVec3::from_slice).collect_vec()
     }
 
     /// The parameters of the place of an exact surface that is nearest to a point; none on a spline, which has no formula

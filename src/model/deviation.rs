@@ -2,6 +2,7 @@
 
 use super::{FaceId, Model, ModelProjector};
 use crate::control::Pool;
+use crate::memory::ParallelCollectVec;
 use crate::mesh::Mesh;
 use crate::query::deviation::{DeviationError, DeviationOptions};
 use crate::query::project::ProjectOptions;
@@ -58,7 +59,7 @@ impl Model {
             let places = self.samples(options.chord_tolerance, longest, pool)?;
             let tree = TriangleTree::new(mesh);
             let distance = |&place: &DVec3| tree.nearest(place).map_or(f64::NAN, |near| near.distance);
-            let errors = summarize(pool.run(|| places.par_iter().map(distance).collect()));
+            let errors = summarize(pool.run(|| places.par_iter().map(distance).collect_vec()));
             report.max_back_distance = errors.max;
             report.worst_back_place = places[errors.worst_index];
             report.back_count = places.len();

@@ -12,9 +12,12 @@
 //! ```
 
 use super::{Border, ParameterizeError, ParameterizeOptions, patch};
+use crate::memory::{self, CollectVec};
 use crate::mesh::Mesh;
 use glam::{DVec2, DVec3};
 
+/// Corners are wanted this far apart, as a share of the border, before any place will do: below it lies rounding.
+const LEAST_APART: f64 = 1e-12;
 /// Half the stretch of the loop over which a turn is measured, in loop lengths.
 const TURN_REACH: f64 = 0.05;
 /// Least distance of two corners in loop lengths; halved until four corners are found.
@@ -44,7 +47,7 @@ pub(super) fn candidates(
     let outer = &mesh.loops()[patch::outer_loop(mesh).unwrap_or(0)];
     let mut nodes = outer.clone();
     nodes.rotate_left(patch::landmark(mesh, outer));
-    let points: Vec<DVec3> = nodes.iter().map(|&node| mesh.points()[node as usize]).collect();
+    let points: Vec<DVec3> = nodes.iter().map(|&node| mesh.points()[node as usize]).collect_vec();
     let lengths = edge_lengths(&points)?;
     let line = |kind, corners, slide| BorderLine {
         kind,
@@ -66,11 +69,11 @@ pub(super) fn candidates(
         Border::Auto | Border::Free => {
             let mut lines = vec![line(Border::Circle, None, 0.0)];
             if nodes.len() >= 4 {
-                lines.push(line(Border::SquareByTurns, turns(), 0.0));
-                lines.push(line(Border::SquareByArc, arcs(), 0.0));
+                memory::push(&mut lines, line(Border::SquareByTurns, turns(), 0.0));
+                memory::push(&mut lines, line(Border::SquareByArc, arcs(), 0.0));
             }
             if slide > 0.0 {
-                lines.push(line(Border::Circle, None, slide));
+                memory::push(&mut lines, line(Border::Circle, None, slide));
             }
             lines
         }
@@ -107,8 +110,8 @@ impl BorderLine {
         for side in 0..4 {
             let (start, next) = (corners[side], corners[(side + 1) % 4]);
             let places: Vec<usize> =
-                (0..(next + count - start) % count).map(|k| (start + k) % count).collect();
-            let lengths: Vec<f64> = places.iter().map(|&place| self.lengths[place]).collect();
+                (0..(next + count - start) % count).map(|k| (start + k) % count).collect_vec();
+            let lengths: Vec<f64> = places.iter().map(|&place| self.lengths[place]).collect_vec();
             let along = ends[(side + 1) % 4] - ends[side];
             let outward = DVec2::new(along.y, -along.x);
             for (&place, t) in places.iter().zip(fractions(&lengths)) {
@@ -142,44 +145,44 @@ fn fractions(lengths: &[f64]) -> impl Iterator<Item = f64> + '_ {
 
 fn edge_lengths(points: &[DVec3]) -> Result<Vec<f64>, ParameterizeError> {
     let ends = points.iter().zip(points.iter().cycle().skip(1));
-    let lengths: Vec<f64> = ends.map(|(a, b)| a.distance(*b)).collect();
+    let lengths: Vec<f64> = ends.map(|(a, b)| a.distance(*b)).collect_vec();
     let total: f64 = lengths.iter().sum();
     if !(total > 0.0 && total.is_finite()) {
         return Err(ParameterizeError::ZeroBorder { count: points.len() });
     }
     let least = LEAST_EDGE * total / points.len() as f64;
-    Ok(lengths.into_iter().map(|length| length.max(least)).collect())
+    Ok(lengths.into_iter().map(|length| length.max(least)).collect_vec())
 }
 
 /// The four sharpest turns, largest first and apart from each other.
 fn corners_by_turns(points: &[DVec3], lengths: &[f64]) -> [usize; 4] {
-    let at: Vec<f64> = fractions(lengths).collect();
+    let at: Vec<f64> = fractions(lengths).collect_vec();
     let turns: Vec<f64> = (0..points.len())
         .map(|i| {
             let before = points[i] - point_at(points, &at, at[i] - TURN_REACH);
             let after = point_at(points, &at, at[i] + TURN_REACH) - points[i];
             before.cross(after).length().atan2(before.dot(after))
         })
-        .collect();
-    let mut sharpest: Vec<usize> = (0..points.len()).collect();
+        .collect_vec();
+    let mut sharpest: Vec<usize> = (0..points.len()).collect_vec();
     sharpest.sort_by(|&i, &j| turns[j].total_cmp(&turns[i])); // stable: the earlier of equals
     let mut distance = CORNER_DISTANCE;
     loop {
-        let mut corners: Vec<usize> = Vec::with_capacity(4);
+        let mut corners: Vec<usize> = memory::with_capacity(4);
         for &i in &sharpest {
             let apart = |&j: &usize| {
                 let gap = (at[i] - at[j]).abs();
                 i != j && gap.min(1.0 - gap) >= distance
             };
             if corners.len() < 4 && corners.iter().all(apart) {
-                corners.push(i);
+                memory::push(&mut corners, i);
             }
         }
         corners.sort_unstable();
         if let Ok(corners) = corners.try_into() {
             return corners;
         }
-        distance = if distance > 1e-12 { distance / 2.0 } else { 0.0 };
+        distance = if distance > LEAST_APART { distance / 2.0 } else { 0.0 };
     }
 }
 
@@ -193,7 +196,7 @@ fn point_at(points: &[DVec3], at: &[f64], t: f64) -> DVec3 {
 
 /// The nodes nearest to each quarter of the length, kept in order.
 fn corners_by_arc(lengths: &[f64]) -> [usize; 4] {
-    let at: Vec<f64> = fractions(lengths).collect();
+    let at: Vec<f64> = fractions(lengths).collect_vec();
     let mut corners = [0; 4];
     for quarter in 1..4 {
         let target = quarter as f64 / 4.0;

@@ -6,6 +6,7 @@
 
 use super::patch::edges;
 use crate::geometry::{Orientation, orientation};
+use crate::memory::{self, CollectVec};
 use crate::mesh::Mesh;
 use glam::DVec2;
 use std::ops::ControlFlow;
@@ -20,8 +21,8 @@ pub(super) fn boundary_crosses(mesh: &Mesh, uv: &[DVec2]) -> bool {
 pub fn crossing_nodes(mesh: &Mesh, uv: &[DVec2]) -> Vec<u32> {
     let mut nodes = Vec::new();
     let _ = visit_meetings(mesh, uv, |first, second| {
-        nodes.extend(first);
-        nodes.extend(second);
+        memory::extend(&mut nodes, first);
+        memory::extend(&mut nodes, second);
         ControlFlow::Continue(())
     });
     nodes
@@ -33,7 +34,7 @@ fn visit_meetings(
     mut visit: impl FnMut([u32; 2], [u32; 2]) -> ControlFlow<()>,
 ) -> ControlFlow<()> {
     let mut pieces: Vec<[u32; 2]> =
-        mesh.loops().iter().flat_map(|nodes| edges(nodes).map(|(a, b)| [a, b])).collect();
+        mesh.loops().iter().flat_map(|nodes| edges(nodes).map(|(a, b)| [a, b])).collect_vec();
     let place = |node: u32| uv[node as usize];
     let left = |piece: &[u32; 2]| place(piece[0]).x.min(place(piece[1]).x);
     let right = |piece: &[u32; 2]| place(piece[0]).x.max(place(piece[1]).x);
@@ -47,7 +48,7 @@ fn visit_meetings(
                 visit(other, piece)?;
             }
         }
-        active.push(piece);
+        memory::push(&mut active, piece);
     }
     ControlFlow::Continue(())
 }

@@ -18,6 +18,7 @@
 //! ```
 //! in tangent coordinates; on the sphere minus (x . g) for its curvature.
 
+use crate::memory;
 use glam::{DVec2, DVec3};
 
 /// A triangle has at least this much of its longest edge squared as its area: slivers count as if they were wider, or
@@ -134,7 +135,7 @@ impl Star {
 
     /// A triangle whose first corner is the node; `a` and `b` are the images of the others.
     pub fn push(&mut self, shape: &Shape, a: DVec3, b: DVec3) {
-        self.triangles.push(Image::new(shape, a, b));
+        memory::push(&mut self.triangles, Image::new(shape, a, b));
     }
 
     /// E with the node at `x`.

@@ -6,6 +6,7 @@
 use super::crossings::boundary_crosses;
 use super::isometric::in_unit_square;
 use crate::geometry::Orientation;
+use crate::memory::CollectVec;
 use crate::mesh::Mesh;
 use glam::{DVec2, DVec3};
 
@@ -30,7 +31,7 @@ pub fn flatten(mesh: &Mesh, least_cosine: f64) -> Option<Vec<DVec2>> {
         return None;
     }
     let (e1, e2) = direction.any_orthonormal_pair();
-    let flat: Vec<DVec2> = mesh.points().iter().map(|p| DVec2::new(p.dot(e1), p.dot(e2))).collect();
+    let flat: Vec<DVec2> = mesh.points().iter().map(|p| DVec2::new(p.dot(e1), p.dot(e2))).collect_vec();
     let uv = in_unit_square(mesh, &flat);
     let is_positive = |t: &[u32; 3]| super::triangle_orientation(&uv, t) == Orientation::Positive;
     (mesh.triangles().iter().all(is_positive) && !boundary_crosses(mesh, &uv)).then_some(uv)
@@ -50,7 +51,7 @@ pub fn plane_coordinates(mesh: &Mesh) -> Option<Vec<DVec2>> {
 /// normals (M. Badoiu and K. Clarkson, "Smaller core-sets for balls", 2003), from the mean normal on.
 fn best_direction(mesh: &Mesh) -> Option<DVec3> {
     let normals: Vec<DVec3> =
-        mesh.triangles().iter().filter_map(|t| area_vector(mesh, t).try_normalize()).collect();
+        mesh.triangles().iter().filter_map(|t| area_vector(mesh, t).try_normalize()).collect_vec();
     let mut middle = mesh.triangles().iter().map(|t| area_vector(mesh, t)).sum::<DVec3>().try_normalize()?;
     for step in 1..=STEPS {
         let least = normals.iter().map(|normal| normal.dot(middle)).fold(f64::INFINITY, f64::min);

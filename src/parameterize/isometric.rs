@@ -15,6 +15,7 @@ use super::patch::{landmark, outer_loop};
 use crate::control::Pool;
 use crate::geometry::{Orientation, orientation};
 use crate::linalg::SymbolicCholesky;
+use crate::memory::{self, CollectVec, ParallelCollectVec};
 use crate::mesh::Mesh;
 use glam::{DMat2, DVec2, DVec3};
 use rayon::prelude::*;
@@ -41,7 +42,7 @@ pub fn unroll(mesh: &Mesh, start: &[DVec2], pool: &Pool) -> Option<Vec<DVec2>> {
         pool.check().ok()?;
         let mut columns = pool.run(|| sheet.right_sides(mesh, &uv));
         factor.solve(&mut columns, 2);
-        let moved: Vec<DVec2> = (0..n).map(|i| DVec2::new(columns[i], columns[n + i])).collect();
+        let moved: Vec<DVec2> = (0..n).map(|i| DVec2::new(columns[i], columns[n + i])).collect_vec();
         // both maps are known up to a shift only; counted by triangles, so that unused nodes do not matter, nor
         // which node is first
         let corners = || mesh.triangles().iter().flatten().map(|&node| node as usize);
@@ -79,7 +80,7 @@ impl Sheet {
     fn new(mesh: &Mesh) -> Self {
         let corners = |t: &[u32; 3]| t.map(|n| mesh.points()[n as usize]);
         let twice_area = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).length();
-        let areas: Vec<f64> = mesh.triangles().iter().map(|t| twice_area(corners(t))).collect();
+        let areas: Vec<f64> = mesh.triangles().iter().map(|t| twice_area(corners(t))).collect_vec();
         let total: f64 = areas.iter().sum();
         let least = LEAST_AREA * total / areas.len() as f64;
         let flat = |[a, b, c]: [DVec3; 3]| {
@@ -96,8 +97,12 @@ impl Sheet {
         };
         let triangles = mesh.triangles();
         Self {
-            flat: triangles.iter().map(|t| flat(corners(t))).collect(),
-            cotangents: triangles.iter().zip(&areas).map(|(t, &area)| cotangents(corners(t), area)).collect(),
+            flat: triangles.iter().map(|t| flat(corners(t))).collect_vec(),
+            cotangents: triangles
+                .iter()
+                .zip(&areas)
+                .map(|(t, &area)| cotangents(corners(t), area))
+                .collect_vec(),
             area: total / 2.0,
             size: mesh.diagonal(),
             pinned: triangles[0][0] as usize,
@@ -110,7 +115,7 @@ impl Sheet {
             .iter()
             .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(min, max), p| (min.min(*p), max.max(*p)));
         let scale = (self.area / (max - min).element_product().max(f64::MIN_POSITIVE)).sqrt();
-        uv.iter().map(|p| (*p - min) * scale).collect()
+        uv.iter().map(|p| (*p - min) * scale).collect_vec()
     }
 
     /// Lower triangle of the cotangent Laplacian. The first used node is held; nodes without triangles stay at
@@ -137,9 +142,9 @@ impl Sheet {
         let pulls: Vec<[DVec2; 3]> = (mesh.triangles(), &self.flat, &self.cotangents)
             .into_par_iter()
             .map(|(triangle, flat, cotangents)| pulls(triangle.map(|n| uv[n as usize]), flat, cotangents))
-            .collect();
+            .collect_vec();
         let n = uv.len();
-        let mut columns = vec![0.0; 2 * n];
+        let mut columns = memory::filled(0.0, 2 * n);
         for (triangle, pulls) in mesh.triangles().iter().zip(pulls) {
             for (&node, pull) in triangle.iter().zip(pulls) {
                 columns[node as usize] += pull.x;
@@ -179,10 +184,10 @@ pub(super) fn in_unit_square(mesh: &Mesh, uv: &[DVec2]) -> Vec<DVec2> {
     const SAME: f64 = 1e-9;
     let border = &mesh.loops()[outer_loop(mesh).unwrap_or(0)];
     let mark = uv[border[landmark(mesh, border)] as usize];
-    let hull = convex_hull(border.iter().map(|&n| uv[n as usize]).collect());
+    let hull = convex_hull(border.iter().map(|&n| uv[n as usize]).collect_vec());
     // a square may lie on either pair of sides
     let boxes: Vec<(DMat2, DVec2, DVec2)> =
-        rectangles(&hull).into_iter().filter(|(_, _, size)| size.x >= (1.0 - SAME) * size.y).collect();
+        rectangles(&hull).into_iter().filter(|(_, _, size)| size.x >= (1.0 - SAME) * size.y).collect_vec();
     let least = boxes.iter().map(|(_, _, size)| size.element_product()).fold(f64::INFINITY, f64::min);
     let place = |(turn, min, size): &(DMat2, DVec2, DVec2)| (*turn * mark - *min) / size.x;
     let smallest = boxes.iter().filter(|(_, _, size)| size.element_product() <= (1.0 + SAME) * least);
@@ -190,8 +195,8 @@ pub(super) fn in_unit_square(mesh: &Mesh, uv: &[DVec2]) -> Vec<DVec2> {
         let (a, b) = (place(a), place(b));
         if (a.x - b.x).abs() > SAME { a.x.total_cmp(&b.x) } else { a.y.total_cmp(&b.y) }
     });
-    let Some(&(turn, min, size)) = best else { return uv.to_vec() };
-    uv.iter().map(|&p| (turn * p - min) / size.x).collect()
+    let Some(&(turn, min, size)) = best else { return memory::copied(uv) };
+    uv.iter().map(|&p| (turn * p - min) / size.x).collect_vec()
 }
 
 /// The rectangles around a convex polygon with a side along one of its own, each as it lies on either pair of sides: the
@@ -219,7 +224,7 @@ fn rectangles(hull: &[DVec2]) -> Vec<(DMat2, DVec2, DVec2)> {
         let points = touched.map(|k| hull[k]);
         [box_along(side, &points), box_along(side.perp(), &points)]
     });
-    boxes.collect()
+    boxes.collect_vec()
 }
 
 /// The corner that lies farthest in a direction.
@@ -255,7 +260,7 @@ fn convex_hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
         {
             hull.pop();
         }
-        hull.push(p);
+        memory::push(&mut hull, p);
     }
     hull.pop();
     hull

@@ -40,6 +40,7 @@ pub use stretch::{StretchMeasure, stretch};
 use crate::Control;
 use crate::control::Stage;
 use crate::geometry::{Orientation, orientation};
+use crate::memory::{self, CollectVec};
 use crate::mesh::Mesh;
 use border::BorderLine;
 use glam::DVec2;
@@ -154,21 +155,22 @@ pub fn parameterize_weighted(
     let first_weights = weights::weights(&patch, options.method)?;
     control.enter(Stage::Parameterize);
     control.report(0.0, f64::NAN)?;
-    let mut system = MapSystem::new(&patch, first_weights.clone(), control)?;
+    let mut system = MapSystem::new(&patch, memory::copied(&first_weights), control)?;
     let mut first_maps = Vec::new();
     for line in &lines {
-        let mut uv = given.clone();
+        let mut uv = memory::copied(&given);
+        memory::reserve(&mut uv, patch.points.len().saturating_sub(given.len()));
         uv.resize(patch.points.len(), DVec2::ZERO);
         line.place(&mut uv);
         control.pool().check()?;
         system.solve(&mut uv, control);
-        first_maps.push(uv);
+        memory::push(&mut first_maps, uv);
     }
     let mut best: Option<Map> = None;
     let count = lines.len() as f64;
     for (i, (line, uv)) in lines.into_iter().zip(first_maps).enumerate() {
         control.pool().check()?;
-        let map = Map::new(&patch, line, first_weights.clone(), uv, node_weights, control);
+        let map = Map::new(&patch, line, memory::copied(&first_weights), uv, node_weights, control);
         let mut stage = Part { control: &mut *control, from: i as f64 / count, to: (i + 1) as f64 / count };
         let map = lower_stretch(map, &mut system, options, node_weights, &mut stage)?;
         best = Some(match best {
@@ -348,7 +350,7 @@ fn next_map(
     control: &Control,
 ) -> Result<Map, ParameterizeError> {
     let patch = system.patch();
-    let divisors: Vec<f64> = s.iter().map(|s| s.powf(eta)).collect();
+    let divisors: Vec<f64> = s.iter().map(|s| s.powf(eta)).collect_vec();
     let mut weights = map.weights.clone();
     for (weight, &neighbour) in weights.iter_mut().zip(patch.neighbours.nodes()) {
         *weight /= divisors[neighbour as usize];
@@ -399,9 +401,9 @@ fn holes(options: &ParameterizeOptions) -> Holes {
 /// The parameters that nodes have before the map: those given, else zeros.
 fn start_values(mesh: &Mesh, options: &ParameterizeOptions) -> Result<Vec<DVec2>, ParameterizeError> {
     match mesh.parameters() {
-        Some(given) => Ok(given.to_vec()),
+        Some(given) => Ok(memory::copied(given)),
         None if options.border == Border::Kept => Err(ParameterizeError::NoParameters),
-        None => Ok(vec![DVec2::ZERO; mesh.points().len()]),
+        None => Ok(memory::filled(DVec2::ZERO, mesh.points().len())),
     }
 }
 

@@ -5,6 +5,7 @@
 
 use super::ParameterizeError;
 use crate::lists::Lists;
+use crate::memory::{self, CollectVec};
 use crate::mesh::Mesh;
 use glam::DVec3;
 use std::cmp::Ordering;
@@ -80,13 +81,13 @@ pub(super) enum Holes {
 
 impl Patch {
     pub fn new(mesh: &Mesh, holes: Holes) -> Self {
-        let (mut points, mut triangles) = (mesh.points().to_vec(), mesh.triangles().to_vec());
+        let (mut points, mut triangles) = (memory::copied(mesh.points()), memory::copied(mesh.triangles()));
         let loops = mesh.loops();
         let outer = outer_loop(mesh);
         let (outer, inner): (Vec<&Vec<u32>>, Vec<&Vec<u32>>) = match outer {
             Some(outer) => {
                 let inner = loops.iter().enumerate().filter(|&(k, _)| k != outer);
-                (vec![&loops[outer]], inner.map(|(_, nodes)| nodes).collect())
+                (vec![&loops[outer]], inner.map(|(_, nodes)| nodes).collect_vec())
             }
             None => (Vec::new(), Vec::new()),
         };
@@ -99,12 +100,12 @@ impl Patch {
             Holes::Open => (all, outer),
             Holes::Fixed => (all.clone(), all),
         };
-        let open_edges: Vec<(u32, u32)> = open.iter().flat_map(|nodes| edges(nodes)).collect();
+        let open_edges: Vec<(u32, u32)> = open.iter().flat_map(|nodes| edges(nodes)).collect_vec();
         let neighbours = Neighbours::new(points.len(), &triangles, &open_edges);
-        let mut is_fixed: Vec<bool> = (0..points.len()).map(|i| neighbours.slots(i).is_empty()).collect();
+        let mut is_fixed: Vec<bool> = (0..points.len()).map(|i| neighbours.slots(i).is_empty()).collect_vec();
         fixed.iter().copied().flatten().for_each(|&node| is_fixed[node as usize] = true);
-        let nodes: Vec<u32> = (0..points.len() as u32).filter(|&i| !is_fixed[i as usize]).collect();
-        let mut unknown = vec![FIXED; points.len()];
+        let nodes: Vec<u32> = (0..points.len() as u32).filter(|&i| !is_fixed[i as usize]).collect_vec();
+        let mut unknown = memory::filled(FIXED, points.len());
         nodes.iter().enumerate().for_each(|(k, &node)| unknown[node as usize] = k as u32);
         Self {
             mesh_node_count: mesh.points().len(),
@@ -135,7 +136,7 @@ const SAME_LENGTH: f64 = 1e-9;
 pub(super) fn outer_loop(mesh: &Mesh) -> Option<usize> {
     let place = |node: u32| mesh.points()[node as usize];
     let length = |nodes: &Vec<u32>| edges(nodes).map(|(a, b)| place(a).distance(place(b))).sum::<f64>();
-    let lengths: Vec<f64> = mesh.loops().iter().map(length).collect();
+    let lengths: Vec<f64> = mesh.loops().iter().map(length).collect_vec();
     let longest = lengths.iter().copied().fold(0.0, f64::max);
     let first = |k: usize| place(mesh.loops()[k][landmark(mesh, &mesh.loops()[k])]);
     (0..lengths.len())

@@ -11,6 +11,7 @@ use super::system::MapSystem;
 use super::{Method, ParameterizeError, folds, weights};
 use crate::Control;
 use crate::control::Stage;
+use crate::memory::{self, CollectVec};
 use crate::mesh::Mesh;
 use glam::{DVec2, DVec3};
 use std::time::Instant;
@@ -139,7 +140,7 @@ pub fn regularize(
         Regularization { uv, report }
     };
     if options.when == RegularizeWhen::Auto && before <= UNEVEN {
-        return Ok(finish(given.to_vec(), false, before));
+        return Ok(finish(memory::copied(given), false, before));
     }
     control.enter(Stage::Parameterize);
     control.report(0.0, f64::NAN)?;
@@ -148,7 +149,7 @@ pub fn regularize(
     let after = unevenness(mesh, &uv)?;
     let helps = folds(mesh.triangles(), &uv) == (0, 0) && after * LEAST_GAIN <= before;
     Ok(match options.when {
-        RegularizeWhen::Auto if !helps => finish(given.to_vec(), false, after),
+        RegularizeWhen::Auto if !helps => finish(memory::copied(given), false, after),
         _ => finish(uv, true, after),
     })
 }
@@ -159,7 +160,7 @@ fn regularized(
     options: &RegularizeOptions,
     control: &Control,
 ) -> Result<Vec<DVec2>, ParameterizeError> {
-    let mut uv = given.to_vec();
+    let mut uv = memory::copied(given);
     if options.boundary == Boundary::Slide {
         for nodes in mesh.loops() {
             slide(nodes, mesh.points(), options.corner_angle, &mut uv);
@@ -174,7 +175,7 @@ fn regularized(
 /// Worst over median of the largest singular values; infinite where a triangle collapsed.
 fn unevenness(mesh: &Mesh, uv: &[DVec2]) -> Result<f64, ParameterizeError> {
     let part = |triangle| -> TriangleStretch { triangle_stretch(mesh.points(), uv, triangle) };
-    let mut values: Vec<f64> = mesh.triangles().iter().map(|triangle| part(triangle).largest).collect();
+    let mut values: Vec<f64> = mesh.triangles().iter().map(|triangle| part(triangle).largest).collect_vec();
     let middle = values.len() / 2;
     let (_, &mut median, upper) = values.select_nth_unstable_by(middle, f64::total_cmp);
     match upper.iter().copied().fold(median, f64::max) / median {
@@ -185,19 +186,19 @@ fn unevenness(mesh: &Mesh, uv: &[DVec2]) -> Result<f64, ParameterizeError> {
 
 /// Spaces the nodes between corners by their distance in space, on the polyline they had.
 fn slide(nodes: &[u32], points: &[DVec3], corner_angle: f64, uv: &mut [DVec2]) {
-    let old: Vec<DVec2> = nodes.iter().map(|&node| uv[node as usize]).collect();
+    let old: Vec<DVec2> = nodes.iter().map(|&node| uv[node as usize]).collect_vec();
     let count = old.len();
     let turn = |i: usize| {
         let (before, after) = (old[i] - old[(i + count - 1) % count], old[(i + 1) % count] - old[i]);
         before.perp_dot(after).atan2(before.dot(after)).abs()
     };
-    let corners: Vec<usize> = (0..count).filter(|&i| turn(i) > corner_angle).collect();
+    let corners: Vec<usize> = (0..count).filter(|&i| turn(i) > corner_angle).collect_vec();
     if corners.len() < 2 {
         return;
     }
     for (&start, &end) in corners.iter().zip(corners.iter().cycle().skip(1)) {
         let steps = (end + count - start - 1) % count + 1;
-        let places: Vec<usize> = (0..=steps).map(|k| (start + k) % count).collect();
+        let places: Vec<usize> = (0..=steps).map(|k| (start + k) % count).collect_vec();
         let along = cumulative(places.iter().map(|&place| old[place]), |a, b| a.distance(b));
         let in_space =
             cumulative(places.iter().map(|&place| points[nodes[place] as usize]), |a, b| a.distance(b));
@@ -223,5 +224,5 @@ fn cumulative<P: Copy>(points: impl Iterator<Item = P>, distance: impl Fn(P, P) 
             sum += last.replace(point).map_or(0.0, |last| distance(last, point));
             sum
         })
-        .collect()
+        .collect_vec()
 }

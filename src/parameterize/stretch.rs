@@ -12,6 +12,7 @@
 use super::patch::Patch;
 use crate::Control;
 use crate::geometry::safe_scale;
+use crate::memory::{self, CollectVec, ParallelCollectVec};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -81,7 +82,7 @@ pub fn stretch(points: &[DVec3], triangles: &[[u32; 3]], uv: &[DVec2]) -> Stretc
         let places = t.map(|node| scale * points[node as usize]);
         TriangleStretch::new(places, t.map(|node| uv[node as usize]))
     };
-    let parts: Vec<TriangleStretch> = triangles.iter().map(part).collect();
+    let parts: Vec<TriangleStretch> = triangles.iter().map(part).collect_vec();
     summed(parts.iter().map(|part| (part, 1.0)))
 }
 
@@ -130,7 +131,7 @@ impl PatchStretch {
     /// `node_weights`: b of section 5; E is weighted by b^2.
     pub fn new(patch: &Patch, uv: &[DVec2], node_weights: Option<&[f64]>, control: &Control) -> Self {
         let part = |triangle| triangle_stretch(&patch.points, uv, triangle);
-        let parts: Vec<TriangleStretch> = control.run(|| patch.triangles.par_iter().map(part).collect());
+        let parts: Vec<TriangleStretch> = control.run(|| patch.triangles.par_iter().map(part).collect_vec());
         let weight_sq = |triangle: &[u32; 3]| match node_weights {
             Some(b) => triangle.iter().map(|&node| weight_of(b, node).powi(2)).sum::<f64>() / 3.0,
             None => 1.0,
@@ -154,7 +155,7 @@ impl PatchStretch {
         let movable =
             patch.triangles.iter().zip(&self.parts).filter(|(triangle, _)| patch.is_movable(triangle));
         let floor = area_floor(movable.clone().map(|(_, part)| part));
-        let mut sums = vec![(0.0, 0.0); patch.points.len()];
+        let mut sums = memory::filled((0.0, 0.0), patch.points.len());
         for (triangle, part) in movable {
             let area = part.area.max(floor);
             for &node in triangle {
@@ -168,15 +169,15 @@ impl PatchStretch {
             let sigma_sq: f64 = (square / total).clamp(f64::MIN_POSITIVE, f64::MAX);
             (total > 0.0).then(|| 0.5 * sigma_sq.ln() + weight.ln())
         };
-        let logarithms: Vec<Option<f64>> = sums.iter().enumerate().map(logarithm).collect();
+        let logarithms: Vec<Option<f64>> = sums.iter().enumerate().map(logarithm).collect_vec();
         let known = logarithms.iter().flatten();
         let mean = known.clone().sum::<f64>() / known.count().max(1) as f64;
         let mut logarithms: Vec<f64> =
-            logarithms.into_iter().map(|log| log.map_or(0.0, |log| log - mean)).collect();
+            logarithms.into_iter().map(|log| log.map_or(0.0, |log| log - mean)).collect_vec();
         for _ in 0..rings {
             logarithms = averaged(patch, &logarithms);
         }
-        logarithms.into_iter().map(f64::exp).collect()
+        logarithms.into_iter().map(f64::exp).collect_vec()
     }
 }
 
@@ -193,5 +194,5 @@ fn averaged(patch: &Patch, values: &[f64]) -> Vec<f64> {
             let sum: f64 = around.iter().map(|&other| values[other as usize]).sum();
             (values[node] + sum) / (1 + around.len()) as f64
         })
-        .collect()
+        .collect_vec()
 }

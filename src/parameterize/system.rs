@@ -10,6 +10,7 @@ use super::ParameterizeError;
 use super::patch::{FIXED, Patch};
 use crate::Control;
 use crate::linalg::{LuError, NumericLu, SymbolicLu};
+use crate::memory;
 use glam::DVec2;
 use sprs::CsMat;
 
@@ -62,7 +63,7 @@ impl<'p> MapSystem<'p> {
 
     /// The map with the present weights; `uv` has the fixed nodes and receives the others.
     pub fn solve(&self, uv: &mut [DVec2], control: &Control) {
-        let mut rhs = vec![[0.0; 2]; self.patch.nodes.len()];
+        let mut rhs = memory::filled([0.0; 2], self.patch.nodes.len());
         for (sum, &node) in rhs.iter_mut().zip(&self.patch.nodes) {
             for slot in self.patch.neighbours.slots(node as usize) {
                 let other = self.patch.neighbours.nodes()[slot];
@@ -88,22 +89,22 @@ fn pattern(patch: &Patch) -> (CsMat<f64>, Vec<u32>) {
         for slot in patch.neighbours.slots(node as usize) {
             let column = patch.unknown[patch.neighbours.nodes()[slot] as usize];
             if !diagonal_done && column as usize > row && column != FIXED {
-                columns.push(row);
-                slots.push(DIAGONAL);
+                memory::push(&mut columns, row);
+                memory::push(&mut slots, DIAGONAL);
                 diagonal_done = true;
             }
             if column != FIXED {
-                columns.push(column as usize);
-                slots.push(slot as u32);
+                memory::push(&mut columns, column as usize);
+                memory::push(&mut slots, slot as u32);
             }
         }
         if !diagonal_done {
-            columns.push(row);
-            slots.push(DIAGONAL);
+            memory::push(&mut columns, row);
+            memory::push(&mut slots, DIAGONAL);
         }
-        starts.push(columns.len());
+        memory::push(&mut starts, columns.len());
     }
-    let values = vec![0.0; columns.len()];
+    let values = memory::filled(0.0, columns.len());
     (CsMat::new((size, size), starts, columns, values), slots)
 }
 

@@ -11,11 +11,12 @@
 
 use super::patch::Patch;
 use super::{Method, ParameterizeError};
+use crate::memory::{self, CollectVec};
 use glam::DVec3;
 
 /// The weights by slot, rows of unknowns scaled to sum 1.
 pub(super) fn weights(patch: &Patch, method: Method) -> Result<Vec<f64>, ParameterizeError> {
-    let mut weights = vec![0.0; patch.neighbours.nodes().len()];
+    let mut weights = memory::filled(0.0, patch.neighbours.nodes().len());
     for &[a, b, c] in &patch.triangles {
         for [n, next, last] in [[a, b, c], [b, c, a], [c, a, b]] {
             let corner = [n, next, last].map(|node| patch.points[node as usize]);
@@ -79,8 +80,8 @@ pub(super) fn scale_rows(patch: &Patch, weights: &mut [f64]) -> Result<(), Param
 
 /// Each unknown needs a path of weights to a fixed node, else the system is singular.
 fn check_ties(patch: &Patch, weights: &[f64]) -> Result<(), ParameterizeError> {
-    let mut tied: Vec<bool> = (0..patch.points.len()).map(|i| patch.is_fixed(i as u32)).collect();
-    let mut stack: Vec<u32> = (0..patch.points.len() as u32).filter(|&i| patch.is_fixed(i)).collect();
+    let mut tied: Vec<bool> = (0..patch.points.len()).map(|i| patch.is_fixed(i as u32)).collect_vec();
+    let mut stack: Vec<u32> = (0..patch.points.len() as u32).filter(|&i| patch.is_fixed(i)).collect_vec();
     while let Some(node) = stack.pop() {
         for &other in patch.neighbours.of(node as usize) {
             if !tied[other as usize] && weights[patch.neighbours.slot(other, node)] != 0.0 {

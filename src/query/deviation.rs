@@ -4,6 +4,7 @@
 
 use crate::control::Pool;
 use crate::failure::{Classify, ErrorKind};
+use crate::memory::{self, CollectVec, ParallelCollectVec};
 use crate::mesh::Mesh;
 use crate::query::extent::bounding_box;
 use crate::query::project::{ProjectError, ProjectOptions, Projector};
@@ -125,12 +126,12 @@ pub fn deviation_with(
 ) -> Result<DeviationReport, DeviationError> {
     check_in_space(surface)?;
     // nodes that no triangle needs are none of the shape's
-    let nodes: Vec<usize> = (0..mesh.points().len()).filter(|&node| mesh.is_used(node as u32)).collect();
-    let points: Vec<f64> = nodes.iter().flat_map(|&node| mesh.points()[node].to_array()).collect();
+    let nodes: Vec<usize> = (0..mesh.points().len()).filter(|&node| mesh.is_used(node as u32)).collect_vec();
+    let points: Vec<f64> = nodes.iter().flat_map(|&node| mesh.points()[node].to_array()).collect_vec();
     let guesses: Option<Vec<DVec2>> = mesh
         .parameters()
         .filter(|_| options.use_parameters)
-        .map(|uv| nodes.iter().map(|&node| uv[node]).collect());
+        .map(|uv| nodes.iter().map(|&node| uv[node]).collect_vec());
     let project = ProjectOptions {
         guesses: guesses.as_deref(),
         keep_trims: options.keep_trims,
@@ -143,8 +144,8 @@ pub fn deviation_with(
         false => (f64::NAN, DVec2::NAN, 0),
     };
     let mut errors = summarize(projection.distances);
-    let mut uv = vec![DVec2::NAN; mesh.points().len()];
-    let mut each = vec![f64::NAN; mesh.points().len()];
+    let mut uv = memory::filled(DVec2::NAN, mesh.points().len());
+    let mut each = memory::filled(f64::NAN, mesh.points().len());
     for (&node, (&place, &distance)) in nodes.iter().zip(projection.uv.iter().zip(&errors.each)) {
         (uv[node], each[node]) = (place, distance);
     }
@@ -176,15 +177,15 @@ fn measure_back(
     let parameters = samples.parameters().unwrap_or(&[]);
     let middles =
         samples.triangles().iter().map(|t| t.map(|n| parameters[n as usize]).iter().sum::<DVec2>() / 3.0);
-    let uv: Vec<DVec2> = parameters.iter().copied().chain(middles).collect();
-    let mut rows = vec![0.0; 3 * uv.len()];
+    let uv: Vec<DVec2> = parameters.iter().copied().chain(middles).collect_vec();
+    let mut rows = memory::filled(0.0, 3 * uv.len());
     surface.eval_rows(&uv, 0, &mut rows);
     let tree = TriangleTree::new(mesh);
     let distance = |row: &[f64]| match pool.check() {
         Ok(()) => tree.nearest(DVec3::from_slice(row)).map_or(f64::NAN, |near| near.distance),
         Err(_) => f64::NAN,
     };
-    let errors = summarize(pool.run(|| rows.par_chunks_exact(3).map(distance).collect()));
+    let errors = summarize(pool.run(|| rows.par_chunks_exact(3).map(distance).collect_vec()));
     pool.check().map_err(ProjectError::from)?;
     Ok((errors.max, uv[errors.worst_index], uv.len()))
 }

@@ -11,6 +11,7 @@
 use crate::bezier::BezierPatch;
 use crate::control::Pool;
 use crate::geometry::{Bounds, Domain};
+use crate::memory::{self, CollectVec, ParallelCollectVec};
 use crate::query::tessellate::{TessellateError, TessellateOptions, tessellate_watched};
 use crate::surface::{Patches, Surface};
 use glam::{DVec2, DVec3};
@@ -34,8 +35,8 @@ pub fn bounding_box(surface: &dyn Surface) -> Bounds {
             let inner = triangles
                 .iter()
                 .flat_map(|&[a, b, c]| [half(a, b), half(b, c), half(c, a), middle([a, b, c])]);
-            let uv: Vec<DVec2> = places.iter().copied().chain(inner).collect();
-            let mut rows = vec![0.0; surface.dim() * uv.len()];
+            let uv: Vec<DVec2> = places.iter().copied().chain(inner).collect_vec();
+            let mut rows = memory::filled(0.0, surface.dim() * uv.len());
             surface.eval_rows(&uv, 0, &mut rows);
             Bounds::of_rows(&rows, surface.dim())
         }
@@ -45,7 +46,7 @@ pub fn bounding_box(surface: &dyn Surface) -> Bounds {
 
 fn patch_box(patches: &dyn Patches, dim: usize) -> Bounds {
     let all = || (0..patches.patch_count()).map(|index| patches.patch(index));
-    let corners: Vec<f64> = all().flat_map(|patch| corner_values(&patch)).collect();
+    let corners: Vec<f64> = all().flat_map(|patch| corner_values(&patch)).collect_vec();
     let mut reached = Bounds::of_rows(&corners, dim);
     let tolerance = TOLERANCE * reached.diagonal();
     let exceeds = |patch: &BezierPatch, reached: &Bounds| {
@@ -65,7 +66,7 @@ fn patch_box(patches: &dyn Patches, dim: usize) -> Bounds {
             for quarter in quarters {
                 let values = corner_values(&quarter);
                 reached = Bounds::of_rows(&[values.as_slice(), &reached.min, &reached.max].concat(), dim);
-                open.push((quarter, depth + 1));
+                memory::push(&mut open, (quarter, depth + 1));
             }
         }
     }
@@ -78,7 +79,7 @@ fn corner_values(patch: &BezierPatch) -> Vec<f64> {
     [min, DVec2::new(max.x, min.y), DVec2::new(min.x, max.y), max]
         .iter()
         .flat_map(|&uv| patch.eval(uv))
-        .collect()
+        .collect_vec()
 }
 
 /// The area of the part of a surface in space that is inside its trims.
@@ -87,7 +88,7 @@ pub fn area(surface: &dyn Surface, options: &TessellateOptions, pool: &Pool) -> 
     let uv = mesh.parameters().unwrap_or(&[]);
     let over = |triangle: &[u32; 3]| over_triangle(surface, triangle.map(|node| uv[node as usize]));
     // pieces are added in their order, so that the sum does not depend on the number of threads
-    let parts: Vec<f64> = pool.run(|| mesh.triangles().par_iter().map(over).collect());
+    let parts: Vec<f64> = pool.run(|| mesh.triangles().par_iter().map(over).collect_vec());
     Ok(parts.iter().sum())
 }
 
@@ -137,13 +138,16 @@ pub fn is_closed(surface: &dyn Surface, axis: usize) -> bool {
                 (patch.domain.min[1 - axis], patch.domain.max[1 - axis], patch.degree[1 - axis]);
             // rational pieces are equal if products of a numerator and a denominator are: twice the degree
             let count = if patch.is_rational { 2 * degree } else { degree };
-            along.extend((0..=count).map(|i| from + (to - from) * i as f64 / count.max(1) as f64));
+            memory::extend(
+                &mut along,
+                (0..=count).map(|i| from + (to - from) * i as f64 / count.max(1) as f64),
+            );
         }
     }
     let side = |across: f64| {
         let at = |&t: &f64| if axis == 0 { DVec2::new(across, t) } else { DVec2::new(t, across) };
-        let uv: Vec<DVec2> = along.iter().map(at).collect();
-        let mut rows = vec![0.0; surface.dim() * uv.len()];
+        let uv: Vec<DVec2> = along.iter().map(at).collect_vec();
+        let mut rows = memory::filled(0.0, surface.dim() * uv.len());
         surface.eval_rows(&uv, 0, &mut rows);
         rows
     };

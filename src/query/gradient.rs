@@ -2,6 +2,7 @@
 
 use crate::control::Pool;
 use crate::failure::{Classify, ErrorKind};
+use crate::memory;
 use crate::surface::{Surface, surface_gradient};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -88,7 +89,8 @@ pub fn field_gradient(
     let dim = field.dim();
     assert_eq!(out.len(), 3 * dim * uv.len(), "three numbers for each component of each point");
     let piece = |(uv, out): (&[DVec2], &mut [f64])| {
-        let (mut places, mut values) = (vec![0.0; 9 * uv.len()], vec![0.0; 3 * dim * uv.len()]);
+        let (mut places, mut values) =
+            (memory::filled(0.0, 9 * uv.len()), memory::filled(0.0, 3 * dim * uv.len()));
         shape.eval_rows(uv, 1, &mut places);
         field.eval_rows(uv, 1, &mut values);
         let rows = places.chunks_exact(9).zip(values.chunks_exact(3 * dim));

@@ -3,6 +3,7 @@
 //! A binary hierarchy of boxes over the triangles; the closest point of one triangle by its Voronoi regions
 //! (C. Ericson, "Real-Time Collision Detection" (2005), section 5.1.5).
 
+use crate::memory::{self, CollectVec};
 use crate::mesh::Mesh;
 use glam::DVec3;
 use std::borrow::Borrow;
@@ -44,10 +45,10 @@ pub struct NearestTriangle {
 impl<M: Borrow<Mesh>> TriangleTree<M> {
     /// Sorts the triangles.
     pub fn new(mesh: M) -> Self {
-        let order = (0..mesh.borrow().triangles().len() as u32).collect();
+        let order = (0..mesh.borrow().triangles().len() as u32).collect_vec();
         let mut tree = Self { mesh, order, nodes: Vec::new() };
         let middles: Vec<DVec3> =
-            (0..tree.order.len()).map(|t| tree.corners(t as u32).iter().sum()).collect();
+            (0..tree.order.len()).map(|t| tree.corners(t as u32).iter().sum()).collect_vec();
         if !tree.order.is_empty() {
             tree.add(0, tree.order.len(), &middles);
         }
@@ -75,7 +76,7 @@ impl<M: Borrow<Mesh>> TriangleTree<M> {
             (least, most) = (least.min(middle), most.max(middle));
         }
         let node = self.nodes.len();
-        self.nodes.push(Node { min, max, first: first as u32, count: count as u32, second: 0 });
+        memory::push(&mut self.nodes, Node { min, max, first: first as u32, count: count as u32, second: 0 });
         if count <= LEAF_SIZE {
             return;
         }
@@ -112,7 +113,7 @@ impl<M: Borrow<Mesh>> TriangleTree<M> {
     /// The place of the mesh nearest to a point; None for a mesh without triangles.
     pub fn nearest(&self, point: DVec3) -> Option<NearestTriangle> {
         let mut best = NearestTriangle { point: DVec3::NAN, distance: f64::INFINITY, triangle: 0 };
-        let mut stack = Vec::with_capacity(64);
+        let mut stack = memory::with_capacity(64);
         stack.extend(self.nodes.first().map(|root| (root.distance(point), 0)));
         while let Some((bound, at)) = stack.pop() {
             if bound >= best.distance {

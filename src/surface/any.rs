@@ -5,11 +5,15 @@ use super::d1rc::D1rcSurface;
 use super::pht::PhtSurface;
 use super::tensor::{TensorError, TensorSurface};
 use super::tspline::{TSplineError, TSplineSurface};
+use crate::control::{Cancelled, Watch};
 use crate::failure::{Classify, ErrorKind};
 
 /// A surface cannot be converted.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ConvertError {
+    /// The progress callback asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
     /// The result would have more control points than allowed.
     #[error("the surface would have {needed} control points, {limit} are allowed")]
     TooLarge {
@@ -32,6 +36,7 @@ pub enum ConvertError {
 impl Classify for ConvertError {
     fn kind(&self) -> ErrorKind {
         match self {
+            Self::Cancelled(_) => ErrorKind::Cancelled,
             Self::TooLarge { .. } => ErrorKind::TooLarge,
             Self::NotTensor => ErrorKind::WrongKind,
             Self::Tensor(error) => error.kind(),
@@ -66,7 +71,7 @@ impl AnySurface {
     }
 
     /// The same surface as a tensor product of at most `max_coefficients` control points.
-    pub fn to_tensor(&self, max_coefficients: usize) -> Result<TensorSurface, ConvertError> {
+    pub fn to_tensor(&self, max_coefficients: usize, watch: &Watch) -> Result<TensorSurface, ConvertError> {
         match self {
             Self::Tensor(surface) => match surface.coefficient_count() {
                 needed if needed > max_coefficients => {
@@ -74,7 +79,7 @@ impl AnySurface {
                 }
                 _ => Ok(surface.clone()),
             },
-            Self::Pht(surface) => surface.to_tensor(max_coefficients),
+            Self::Pht(surface) => surface.to_tensor_watched(max_coefficients, watch),
             Self::TSpline(surface) => surface.to_tensor(max_coefficients),
             Self::D1rc(_) => Err(ConvertError::NotTensor),
         }

@@ -9,6 +9,7 @@
 
 use crate::bezier::extraction;
 use crate::knots::KnotVector;
+use crate::memory::CollectVec;
 use pulp::Simd;
 
 /// Basis functions of one span.
@@ -39,7 +40,7 @@ impl CubicSpan {
 
     /// All spans of positive length, in their order.
     pub fn all(knots: &KnotVector) -> Vec<Self> {
-        knots.spans().map(|k| Self::new(knots, k)).collect()
+        knots.spans().map(|k| Self::new(knots, k)).collect_vec()
     }
 
     #[inline(always)]

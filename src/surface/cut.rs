@@ -7,6 +7,7 @@
 //!      '-----------'
 //! ```
 
+use crate::memory::{self, CollectVec};
 use glam::DVec2;
 
 /// The half plane `normal . uv > offset`, its normal along an axis.
@@ -41,19 +42,19 @@ pub(super) fn cut(loops: &[Vec<DVec2>], half: HalfPlane) -> Vec<Vec<DVec2>> {
     let mut chains = Vec::new();
     for polyline in loops {
         if polyline.iter().all(|&p| half.height(p) > 0.0) {
-            whole.push(polyline.clone());
+            memory::push(&mut whole, polyline.clone());
         } else {
             chains.extend(chains_inside(polyline, half));
         }
     }
     let mut left = whole;
-    left.extend(join(&chains, half));
+    memory::extend(&mut left, join(&chains, half));
     left.iter_mut().for_each(|polyline| polyline.dedup());
     left.retain(|polyline| polyline.len() >= 3 && area(polyline) != 0.0);
     left.sort_by(|a, b| area(b).abs().total_cmp(&area(a).abs()));
     if left.is_empty() {
         let place = loops.iter().flatten().next().map(|&p| p - half.normal * half.height(p).min(0.0));
-        left.extend(place.map(|place| vec![place; 3]));
+        memory::extend(&mut left, place.map(|place| vec![place; 3]));
     }
     left
 }
@@ -88,13 +89,13 @@ fn join(chains: &[Vec<DVec2>], half: HalfPlane) -> Vec<Vec<DVec2>> {
         let chain = &chains[end / 2];
         half.along(if end.is_multiple_of(2) { chain[0] } else { chain[chain.len() - 1] })
     };
-    let mut ends: Vec<usize> = (0..2 * chains.len()).collect();
+    let mut ends: Vec<usize> = (0..2 * chains.len()).collect_vec();
     ends.sort_by(|&a, &b| place(a).total_cmp(&place(b)));
-    let mut partner = vec![0; ends.len()];
+    let mut partner = memory::filled(0, ends.len());
     for pair in ends.chunks_exact(2) {
         (partner[pair[0]], partner[pair[1]]) = (pair[1], pair[0]);
     }
-    let mut is_used = vec![false; chains.len()];
+    let mut is_used = memory::filled(false, chains.len());
     let mut loops = Vec::new();
     for first in 0..chains.len() {
         let mut polyline = Vec::new();
@@ -109,7 +110,7 @@ fn join(chains: &[Vec<DVec2>], half: HalfPlane) -> Vec<Vec<DVec2>> {
             }
             entry = partner[entry ^ 1];
         }
-        loops.push(polyline);
+        memory::push(&mut loops, polyline);
     }
     loops
 }

@@ -4,6 +4,7 @@ use super::differential::{curvatures, normal};
 use super::{Domain, Surface, derivative_rows};
 use crate::control::Pool;
 use crate::failure::{Classify, ErrorKind};
+use crate::memory::{self, CollectVec};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -202,7 +203,7 @@ pub fn evaluate(
     let wants_flags = !flags.is_empty();
     let piece = |chunk: usize, rows: &mut [f64], flags: &mut [u8]| {
         let first = chunk * CHUNK;
-        let uv: Vec<DVec2> = (first..points.count.min(first + CHUNK)).map(|i| points.get(i)).collect();
+        let uv: Vec<DVec2> = (first..points.count.min(first + CHUNK)).map(|i| points.get(i)).collect_vec();
         eval_piece(surface, quantity, &uv, rule, Output { rows, stride, flags })
     };
     if pool.thread_count() == 1 || points.count <= CHUNK {
@@ -297,7 +298,7 @@ fn eval_piece(
         surface.eval_rows(uv, quantity.max_derivative(), &mut out[..uv.len() * width]);
     } else {
         let row = dim * derivative_rows(quantity.max_derivative());
-        let mut rows = vec![0.0; uv.len() * row];
+        let mut rows = memory::filled(0.0, uv.len() * row);
         surface.eval_rows(uv, quantity.max_derivative(), &mut rows);
         for (k, row) in rows.chunks_exact(row).enumerate() {
             derive(quantity, row, &mut out[k * out_stride..][..width]);

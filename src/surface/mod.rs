@@ -26,6 +26,7 @@ pub use label::{Label, Unit};
 pub use region::{Region, TrimError, Trims};
 
 use crate::bezier::BezierPatch;
+use crate::memory::{self, CollectVec};
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
@@ -141,16 +142,16 @@ pub trait Patches: Send + Sync {
 
 /// The lower sides of all patches, and the upper ones at the end of the domain.
 fn sides(patches: &dyn Patches, end: DVec2) -> Vec<[DVec2; 2]> {
-    let mut sides = Vec::with_capacity(2 * patches.patch_count());
+    let mut sides = memory::with_capacity(2 * patches.patch_count());
     for index in 0..patches.patch_count() {
         let Domain { min, max } = patches.patch(index).domain;
         let (lower_right, upper_left) = (DVec2::new(max.x, min.y), DVec2::new(min.x, max.y));
-        sides.extend([[min, lower_right], [min, upper_left]]);
+        memory::extend(&mut sides, [[min, lower_right], [min, upper_left]]);
         if max.x == end.x {
-            sides.push([lower_right, max]);
+            memory::push(&mut sides, [lower_right, max]);
         }
         if max.y == end.y {
-            sides.push([upper_left, max]);
+            memory::push(&mut sides, [upper_left, max]);
         }
     }
     sides
@@ -159,10 +160,10 @@ fn sides(patches: &dyn Patches, end: DVec2) -> Vec<[DVec2; 2]> {
 /// The edges of all facets, each once.
 fn edges(facets: &dyn Facets) -> Vec<[DVec2; 2]> {
     let ends = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [c, a]].map(|[p, q]| [p.min(q), p.max(q)]);
-    let mut edges: Vec<[u32; 2]> = facets.triangles().into_iter().flat_map(ends).collect();
+    let mut edges: Vec<[u32; 2]> = facets.triangles().into_iter().flat_map(ends).collect_vec();
     edges.sort_unstable();
     edges.dedup();
-    edges.into_iter().map(|ends| ends.map(|corner| facets.places()[corner as usize])).collect()
+    edges.into_iter().map(|ends| ends.map(|corner| facets.places()[corner as usize])).collect_vec()
 }
 
 /// The view of a surface over triangles in the parameter plane, for those who keep it and divide its facets.
@@ -187,7 +188,7 @@ pub trait Facets: Surface + std::fmt::Debug {
 fn eval_grid_by_rows<S: Surface + ?Sized>(surface: &S, u: &[f64], v: &[f64], out: &mut [f64]) {
     let row = v.len() * surface.dim();
     for (&u, out) in u.iter().zip(out.chunks_exact_mut(row.max(1))) {
-        let uv: Vec<DVec2> = v.iter().map(|&v| DVec2::new(u, v)).collect();
+        let uv: Vec<DVec2> = v.iter().map(|&v| DVec2::new(u, v)).collect_vec();
         surface.eval_rows(&uv, 0, out);
     }
 }

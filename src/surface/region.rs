@@ -4,6 +4,7 @@ use super::cut::{HalfPlane, cut};
 use super::label::Label;
 use crate::failure::{Classify, ErrorKind};
 use crate::geometry::{Domain, Orientation, orientation};
+use crate::memory::{self, CollectVec};
 use glam::DVec2;
 use std::sync::OnceLock;
 
@@ -139,7 +140,7 @@ impl Bands {
         let bearable = ENTRIES_PER_SEGMENT * count as f64 / met.max(1.0);
         let band_count = (bearable.ceil() as usize).clamp(1, count.max(1));
         let bands_per_unit = band_count as f64 / height;
-        let mut bands = Self { start, bands_per_unit, segments: vec![Vec::new(); band_count + 1] };
+        let mut bands = Self { start, bands_per_unit, segments: memory::filled(Vec::new(), band_count + 1) };
         for (a, b) in segments(loops) {
             let (low, high) = (bands.band(a.y.min(b.y)), bands.band(a.y.max(b.y)));
             bands.segments[low..=high].iter_mut().for_each(|band| band.push((a, b)));
@@ -210,8 +211,8 @@ impl Region {
     /// With other parameters for the same places.
     pub(super) fn map(&self, change: impl Fn(DVec2) -> DVec2) -> Self {
         let data_box = self.data_box.map(|data| Domain::around([change(data.min), change(data.max)]));
-        let mapped = |polyline: &Vec<DVec2>| polyline.iter().map(|&uv| change(uv)).collect();
-        let loops = self.trims.loops.iter().map(mapped).collect();
+        let mapped = |polyline: &Vec<DVec2>| polyline.iter().map(|&uv| change(uv)).collect_vec();
+        let loops = self.trims.loops.iter().map(mapped).collect_vec();
         Self { data_box, trims: Trims { loops, bands: OnceLock::new() }, label: self.label.clone() }
     }
 }

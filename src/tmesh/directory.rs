@@ -5,6 +5,7 @@ use super::cell::{Cell, MAX_LEVEL, Vertex};
 use super::mesh::{NodeId, TMesh};
 use crate::geometry::Axis;
 use crate::knots::KnotVector;
+use crate::memory::{self, CollectVec};
 use glam::DVec2;
 
 /// The buckets of one mesh.
@@ -28,7 +29,7 @@ impl Directory {
         let level = level.unwrap_or(0);
         let side = Vertex::side_at(level);
         let lines = [(Axis::U, count_u), (Axis::V, count_v)].map(|(axis, count)| {
-            let breaks: Vec<f64> = (0..=count << level).map(|k| mesh.parameter(axis, k * side)).collect();
+            let breaks: Vec<f64> = (0..=count << level).map(|k| mesh.parameter(axis, k * side)).collect_vec();
             // lines so close that they coincide after rounding leave the initial grid
             KnotVector::clamped(&breaks, 1).ok().filter(|_| breaks.windows(2).all(|pair| pair[0] < pair[1]))
         });
@@ -37,7 +38,7 @@ impl Directory {
             _ => ([Axis::U, Axis::V].map(|axis| mesh.grid_lines(axis).clone()), 0),
         };
         let [count_u, count_v] = [count_u << level, count_v << level];
-        let mut nodes = Vec::with_capacity(count_u as usize * count_v as usize);
+        let mut nodes = memory::with_capacity(count_u as usize * count_v as usize);
         for i in 0..count_u {
             for j in 0..count_v {
                 nodes.push(mesh.find_or_holder(Cell { level, i, j }));

@@ -4,6 +4,7 @@ use super::cell::{Cell, EDGES, Edge, MAX_GRID, MAX_LEVEL, QUADRANTS, UNIT, Verte
 use super::error::TMeshError;
 use crate::geometry::{Axis, Domain};
 use crate::knots::KnotVector;
+use crate::memory::{self, CollectVec};
 use glam::DVec2;
 
 /// Number of a node of the quadtrees; its meaning ends when the node is merged away.
@@ -38,7 +39,7 @@ pub enum Role {
 }
 
 /// A hierarchical T-mesh.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct TMesh {
     /// The initial grid, as knots of degree 1.
     grid: [KnotVector; 2],
@@ -49,9 +50,21 @@ pub struct TMesh {
     leaf_count: usize,
 }
 
+impl Clone for TMesh {
+    fn clone(&self) -> Self {
+        let Self { grid, nodes, free, leaf_count } = self;
+        Self {
+            grid: grid.clone(),
+            nodes: memory::copied(nodes),
+            free: memory::copied(free),
+            leaf_count: *leaf_count,
+        }
+    }
+}
+
 impl PartialEq for TMesh {
     fn eq(&self, other: &Self) -> bool {
-        let leaves = |mesh: &Self| mesh.leaves().map(|leaf| mesh.cell(leaf)).collect::<Vec<_>>();
+        let leaves = |mesh: &Self| mesh.leaves().map(|leaf| mesh.cell(leaf)).collect_vec();
         self.grid == other.grid && self.leaf_count == other.leaf_count && leaves(self) == leaves(other)
     }
 }
@@ -74,7 +87,7 @@ impl TMesh {
         let grid = [grid(Axis::U, breaks_u)?, grid(Axis::V, breaks_v)?];
         let [count_u, count_v] = [breaks_u.len() as u32 - 1, breaks_v.len() as u32 - 1];
         let leaf_count = count_u as usize * count_v as usize;
-        let mut mesh = Self { grid, nodes: Vec::with_capacity(leaf_count), free: Vec::new(), leaf_count };
+        let mut mesh = Self { grid, nodes: memory::with_capacity(leaf_count), free: Vec::new(), leaf_count };
         for i in 0..count_u {
             for j in 0..count_v {
                 let node = mesh.leaf(Cell { level: 0, i, j });
@@ -160,7 +173,7 @@ impl TMesh {
     /// The leaves: initial cells in their order, in each of them quarter after quarter.
     pub fn leaves(&self) -> impl Iterator<Item = NodeId> + '_ {
         let [count_u, count_v] = self.grid_size();
-        let mut stack: Vec<NodeId> = (0..count_u * count_v).rev().map(NodeId).collect();
+        let mut stack: Vec<NodeId> = (0..count_u * count_v).rev().map(NodeId).collect_vec();
         std::iter::from_fn(move || {
             loop {
                 let node = stack.pop()?;
@@ -175,7 +188,7 @@ impl TMesh {
     /// The cells that are split, each before its quarters.
     pub fn splits(&self) -> impl Iterator<Item = Cell> + '_ {
         let [count_u, count_v] = self.grid_size();
-        let mut stack: Vec<NodeId> = (0..count_u * count_v).rev().map(NodeId).collect();
+        let mut stack: Vec<NodeId> = (0..count_u * count_v).rev().map(NodeId).collect_vec();
         std::iter::from_fn(move || {
             loop {
                 let node = stack.pop()?;
@@ -311,7 +324,7 @@ impl TMesh {
                 first
             }
             None => {
-                self.nodes.extend(children);
+                memory::extend(&mut self.nodes, children);
                 (self.nodes.len() - 4) as u32
             }
         };
@@ -353,7 +366,7 @@ impl TMesh {
     /// Leaves that share a part of an edge with a leaf, in the order of the edges at least u, largest u, least
     /// v, largest v, and along each of them.
     pub fn neighbours(&self, leaf: NodeId) -> Vec<NodeId> {
-        EDGES.iter().flat_map(|&edge| self.across(leaf, edge)).collect()
+        EDGES.iter().flat_map(|&edge| self.across(leaf, edge)).collect_vec()
     }
 
     /// The leaves on the other side of an edge, in order along it.

@@ -3,6 +3,7 @@
 use super::cell::{EDGES, QUADRANTS, Vertex};
 use super::mesh::{NodeId, Role, TMesh};
 use crate::geometry::Axis;
+use crate::memory::{self, CollectVec};
 
 /// What a vertex of the tables is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,17 +46,17 @@ pub struct Topology {
 impl Topology {
     /// Derives the tables: time n log n.
     pub fn new(mesh: &TMesh) -> Self {
-        let leaves: Vec<NodeId> = mesh.leaves().collect();
-        let mut leaf_of_node = vec![u32::MAX; mesh.node_count()];
+        let leaves: Vec<NodeId> = mesh.leaves().collect_vec();
+        let mut leaf_of_node = memory::filled(u32::MAX, mesh.node_count());
         leaves.iter().enumerate().for_each(|(leaf, node)| leaf_of_node[node.index()] = leaf as u32);
         let mut incidences: Vec<(Vertex, u32)> = leaves
             .iter()
             .zip((0..).step_by(4))
             .flat_map(|(&node, first)| mesh.cell(node).corners().into_iter().zip(first..))
-            .collect();
+            .collect_vec();
         incidences.sort_unstable();
         let mut tables = Self {
-            corners: vec![[0; 4]; leaves.len()],
+            corners: memory::filled([0; 4], leaves.len()),
             leaves,
             vertices: Vec::new(),
             kinds: Vec::new(),
@@ -69,14 +70,15 @@ impl Topology {
                 tables.corners[corner as usize / 4][corner as usize % 4] = number;
             }
             if around.len() == QUADRANTS.len() || mesh.is_border(vertex) {
-                tables.kinds.push(VertexKind::Basis(tables.basis.len() as u32));
-                tables.basis.push(number);
+                let basis = VertexKind::Basis(tables.basis.len() as u32);
+                memory::push(&mut tables.kinds, basis);
+                memory::push(&mut tables.basis, number);
             } else {
                 // the host is looked up below, when all corners have their numbers
-                tables.kinds.push(VertexKind::Basis(u32::MAX));
-                tables.hanging.push(number);
+                memory::push(&mut tables.kinds, VertexKind::Basis(u32::MAX));
+                memory::push(&mut tables.hanging, number);
             }
-            tables.vertices.push(vertex);
+            memory::push(&mut tables.vertices, vertex);
         }
         tables.find_hosts(mesh);
         tables

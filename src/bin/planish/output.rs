@@ -5,6 +5,7 @@ use crate::picture::{Picture, View};
 use crate::step::Step;
 use glam::DVec2;
 use planish::Control;
+use planish::control::Watch;
 use planish::export::gltf::{self, Colours};
 use planish::export::html::{self, ReportOptions};
 use planish::export::mesh::Encoding;
@@ -171,7 +172,12 @@ pub fn write_deviation(moved: &Mesh, errors: &[f64], path: &Path) -> Result<(), 
 pub fn write_surface(surface: &AnySurface, path: &Path, step: &Step) -> Result<(), Failure> {
     match extension(path).as_str() {
         "step" | "stp" => {
-            step::write(&to_model(surface, &step.conversion, &mut Control::default())?, &step.text, path)?;
+            step::write(
+                &to_model(surface, &step.conversion, &mut Control::default())?,
+                &step.text,
+                path,
+                &Watch::default(),
+            )?;
         }
         "vtu" => match surface.as_surface().patches() {
             Some(patches) => vtk::write_patches(patches, path)?,
@@ -190,7 +196,7 @@ pub fn write_surface(surface: &AnySurface, path: &Path, step: &Step) -> Result<(
 pub fn write_model(model: &Model, path: &Path, step: &Step) -> Result<(), Failure> {
     match extension(path).as_str() {
         "step" | "stp" => {
-            step::write(model, &step.text, path)?;
+            step::write(model, &step.text, path, &Watch::default())?;
         }
         "vtu" => {
             let options = vtk::SurfaceOptions { tessellate: step.triangles, ..Default::default() };

@@ -2,6 +2,7 @@
 
 use super::{LoadError, MAGIC, VERSION};
 use crate::knots::KnotVector;
+use crate::memory::{self, CollectVec};
 use crate::surface::{Domain, Label, Region, Trims, Unit};
 use glam::DVec2;
 
@@ -24,11 +25,11 @@ impl Writer {
     }
 
     pub(super) fn count(&mut self, number: usize) {
-        self.bytes.extend((number as u64).to_le_bytes());
+        memory::extend(&mut self.bytes, (number as u64).to_le_bytes());
     }
 
     pub(super) fn doubles(&mut self, values: &[f64]) {
-        self.bytes.extend(values.iter().flat_map(|x| x.to_le_bytes()));
+        memory::extend(&mut self.bytes, values.iter().flat_map(|x| x.to_le_bytes()));
     }
 
     /// The flag and the count that say what [`Writer::region`] writes.
@@ -57,7 +58,7 @@ impl Writer {
     /// The whole, with its checksum.
     pub(super) fn finish(mut self) -> Vec<u8> {
         let sum = crc32fast::hash(&self.bytes);
-        self.bytes.extend(u64::from(sum).to_le_bytes());
+        memory::extend(&mut self.bytes, u64::from(sum).to_le_bytes());
         debug_assert_eq!(self.bytes.len(), self.size, "the family's size is wrong");
         self.bytes
     }
@@ -164,7 +165,7 @@ impl<'a> Reader<'a> {
             return Err(self.wrong(format!("{count} numbers are announced, {} bytes are left", rest.len())));
         };
         self.at += taken.len();
-        Ok(taken.as_chunks().0.iter().map(|&number| f64::from_le_bytes(number)).collect())
+        Ok(taken.as_chunks().0.iter().map(|&number| f64::from_le_bytes(number)).collect_vec())
     }
 
     /// `count` numbers that are knots.
@@ -185,7 +186,7 @@ impl<'a> Reader<'a> {
         for _ in 0..trim_count {
             let count = self.count()?;
             let numbers = self.doubles(count.saturating_mul(2))?;
-            loops.push(numbers.chunks_exact(2).map(DVec2::from_slice).collect());
+            memory::push(&mut loops, numbers.chunks_exact(2).map(DVec2::from_slice).collect_vec());
         }
         let trims = Trims::new(loops, domain).map_err(|error| self.wrong(error.to_string()))?;
         Ok(Region { data_box, trims, ..Region::default() })

@@ -22,6 +22,7 @@
 
 use super::bytes::{Reader, Writer, region_size};
 use super::{D1RC, LoadError, Save};
+use crate::memory::{self, CollectVec};
 use crate::surface::d1rc::{
     Boundary, D1rcError, D1rcMode, D1rcOptions, D1rcSurface, Recipe, SharpRule, Space,
 };
@@ -89,7 +90,8 @@ pub(super) fn read(reader: &mut Reader) -> Result<D1rcSurface, LoadError> {
     let has_data_box = reader.flag()?;
     let trim_count = reader.count()?;
     let sharp_weight = reader.doubles(1)?[0];
-    let uv = reader.doubles(vertex_count.saturating_mul(2))?.chunks_exact(2).map(DVec2::from_slice).collect();
+    let uv =
+        reader.doubles(vertex_count.saturating_mul(2))?.chunks_exact(2).map(DVec2::from_slice).collect_vec();
     let points = reader.doubles(vertex_count.saturating_mul(dim))?;
     let recipe = Recipe {
         uv,
@@ -114,7 +116,7 @@ fn read_vertices(reader: &mut Reader, count: usize) -> Result<Vec<u32>, LoadErro
     for _ in 0..count {
         let vertex = reader.count()?;
         let vertex = u32::try_from(vertex);
-        vertices.push(vertex.map_err(|_| reader.wrong("a vertex number is too large"))?);
+        memory::push(&mut vertices, vertex.map_err(|_| reader.wrong("a vertex number is too large"))?);
     }
     Ok(vertices)
 }

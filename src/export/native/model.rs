@@ -29,6 +29,7 @@ use super::bytes::{Reader, Writer};
 use super::{FIRST_VERSION, LoadError, MODEL, Save, curve, pht, tensor};
 use crate::curve::Curve;
 use crate::layout::{Creases, Layout, Sector, Side};
+use crate::memory;
 use crate::model::{
     Arc, Builder, Carrier, Coedge, Cylinder, Edge, EdgeCurve, EdgeId, Face, FaceId, Frame, Loop, Model,
     NodePlace, Origin, PatchPiece, Plane, Role, ShellId, SurfaceId, VertexId,
@@ -239,7 +240,7 @@ pub(super) fn read(reader: &mut Reader) -> Result<Model, LoadError> {
         };
         let mut faces = Vec::new();
         for _ in 0..count {
-            faces.push(FaceId::new(reader.number()?));
+            memory::push(&mut faces, FaceId::new(reader.number()?));
         }
         builder.shell(faces, role);
     }
@@ -354,9 +355,9 @@ fn read_face(reader: &mut Reader) -> Result<Face, LoadError> {
             let edge = EdgeId::new(reader.number()?);
             let is_forward = reader.flag()?;
             let pcurve: Option<Curve> = if reader.flag()? { Some(curve::read(reader)?) } else { None };
-            bound.push(Coedge { edge, is_forward, pcurve });
+            memory::push(&mut bound, Coedge { edge, is_forward, pcurve });
         }
-        bounds.push(bound);
+        memory::push(&mut bounds, bound);
     }
     Ok(Face { surface, is_forward, bounds, label })
 }

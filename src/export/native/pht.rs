@@ -17,6 +17,7 @@
 
 use super::bytes::{Reader, Writer, region_size};
 use super::{LoadError, PHT, Save};
+use crate::memory;
 use crate::surface::pht::{PhtError, PhtSurface};
 use crate::surface::tensor::Axis;
 use crate::surface::{Label, Surface};
@@ -89,7 +90,7 @@ pub(super) fn read_splits(reader: &mut Reader, count: usize) -> Result<Vec<Cell>
             let number = reader.count()?;
             u32::try_from(number).map_err(|_| reader.wrong(format!("the cell number {number} is too large")))
         };
-        splits.push(Cell { level: number()?, i: number()?, j: number()? });
+        memory::push(&mut splits, Cell { level: number()?, i: number()?, j: number()? });
     }
     Ok(splits)
 }

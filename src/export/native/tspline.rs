@@ -14,6 +14,7 @@
 use super::bytes::{Reader, Writer, region_size};
 use super::{LoadError, Save, TSPLINE};
 use crate::curve::Curve;
+use crate::memory;
 use crate::surface::tspline::{DEGREE, TSplineSurface};
 use crate::surface::{Label, Surface};
 
@@ -57,7 +58,10 @@ pub(super) fn read(reader: &mut Reader) -> Result<TSplineSurface, LoadError> {
         let count = reader.count()?;
         let knots = reader.knots(DEGREE, count)?;
         let points = reader.doubles(knots.basis_count().saturating_mul(dim))?;
-        curves.push(Curve::new(dim, knots, points).map_err(|error| reader.wrong(error.to_string()))?);
+        memory::push(
+            &mut curves,
+            Curve::new(dim, knots, points).map_err(|error| reader.wrong(error.to_string()))?,
+        );
     }
     let mut surface =
         TSplineSurface::new(knots_v, curves).map_err(|error| reader.wrong(error.to_string()))?;

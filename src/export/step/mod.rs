@@ -12,6 +12,7 @@ mod part21;
 mod write;
 
 use super::error::ExportError;
+use crate::control::{Cancelled, Watch};
 use crate::failure::{Classify, ErrorKind};
 use crate::file;
 use crate::model::{CURVE_TOLERANCE, Model};
@@ -82,6 +83,9 @@ pub struct StepReport {
 /// A model cannot be written.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StepError {
+    /// The progress callback asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
     /// The file.
     #[error(transparent)]
     Export(#[from] ExportError),
@@ -93,6 +97,7 @@ pub enum StepError {
 impl Classify for StepError {
     fn kind(&self) -> ErrorKind {
         match self {
+            Self::Cancelled(_) => ErrorKind::Cancelled,
             Self::Export(error) => error.kind(),
             Self::Tensor(_) => ErrorKind::Degenerate,
         }
@@ -105,14 +110,24 @@ const LEAST_UNCERTAINTY: f64 = CURVE_TOLERANCE;
 const UNCERTAINTY_MARGIN: f64 = 2.0;
 
 /// Writes a model; the file appears whole or not at all.
-pub fn write(model: &Model, options: &StepOptions, path: &Path) -> Result<StepReport, StepError> {
-    let (text, report) = to_text(model, options)?;
+pub fn write(
+    model: &Model,
+    options: &StepOptions,
+    path: &Path,
+    watch: &Watch,
+) -> Result<StepReport, StepError> {
+    let (text, report) = to_text(model, options, watch)?;
+    watch.check()?;
     file::write(path, text.as_bytes()).map_err(ExportError::from)?;
     Ok(report)
 }
 
 /// The content of a file.
-pub fn to_text(model: &Model, options: &StepOptions) -> Result<(String, StepReport), StepError> {
+pub fn to_text(
+    model: &Model,
+    options: &StepOptions,
+    watch: &Watch,
+) -> Result<(String, StepReport), StepError> {
     let report = StepReport {
         face_count: model.faces().len(),
         pole_count: model.pole_count(),
@@ -122,7 +137,7 @@ pub fn to_text(model: &Model, options: &StepOptions) -> Result<(String, StepRepo
         uncertainty: (LEAST_UNCERTAINTY * model.diagonal()).max(UNCERTAINTY_MARGIN * model.curve_deviation()),
         diagonal: model.diagonal(),
     };
-    Ok((write::file(model, &report, options)?, report))
+    Ok((write::file(model, &report, options, watch)?, report))
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 //! the ends of its domain.
 
 use crate::geometry::Axis;
+use crate::memory::{self, CollectVec};
 use crate::surface::Surface;
 use crate::surface::tensor::{TensorError, TensorSurface};
 use glam::DVec3;
@@ -26,8 +27,8 @@ impl Net {
         let knots = [Axis::U, Axis::V].map(|axis| whole.knots(axis).clone());
         Ok(Self {
             degree: [knots[0].degree(), knots[1].degree()],
-            knots: knots.map(|knots| knots.knots().to_vec()),
-            points: whole.control_points().chunks_exact(whole.dim()).map(DVec3::from_slice).collect(),
+            knots: knots.map(|knots| memory::copied(knots.knots())),
+            points: whole.control_points().chunks_exact(whole.dim()).map(DVec3::from_slice).collect_vec(),
             weights: whole.weights().map(<[f64]>::to_vec),
         })
     }
@@ -47,7 +48,7 @@ mod tests {
             for is_rational in [false, true] {
                 let mut knots = || {
                     let mut t: Vec<f64> = (0..2 * degree + 5).map(|_| random.unit()).collect();
-                    t.sort_by(f64::total_cmp);
+                    t.sort_unstable_by(f64::total_cmp);
                     KnotVector::new(t, degree).unwrap()
                 };
                 let (u, v) = (knots(), knots());

@@ -1,5 +1,6 @@
 //! The clear text encoding of the exchange structure, ISO 10303-21: entities with numbers, reals, texts, lists.
 
+use crate::memory::{self, CollectVec};
 use std::fmt::{self, Display, Write};
 
 /// The number of an entity of one file.
@@ -32,6 +33,8 @@ impl Part21 {
     }
 
     fn push_wrapped(&mut self, line: &str) {
+        // a line may be broken after each comma
+        memory::reserve_text(&mut self.text, 2 * line.len() + 1);
         let (mut length, mut is_text) = (0, false);
         for letter in line.chars() {
             self.text.push(letter);
@@ -53,6 +56,7 @@ impl Part21 {
             let _ = writeln!(file, "{entity};");
         }
         file.push_str("ENDSEC;\nDATA;\n");
+        memory::reserve_text(&mut file, self.text.len() + 100);
         file.push_str(&self.text);
         file.push_str("ENDSEC;\nEND-ISO-10303-21;\n");
         file
@@ -95,7 +99,7 @@ impl Display for Text<'_> {
 
 /// `(a,b,c)`.
 pub(super) fn list<T: Display>(items: impl IntoIterator<Item = T>) -> String {
-    let items: Vec<String> = items.into_iter().map(|item| item.to_string()).collect();
+    let items: Vec<String> = items.into_iter().map(|item| item.to_string()).collect_vec();
     format!("({})", items.join(","))
 }
 

@@ -1,5 +1,6 @@
 use super::*;
 use crate::Control;
+use crate::control::Watch;
 use crate::fit::tensor::{TensorOptions, fit_mesh};
 use crate::geometry::Axis;
 use crate::knots::KnotVector;
@@ -16,7 +17,7 @@ fn model(surface: &TensorSurface) -> Model {
 }
 
 fn text(surface: &TensorSurface) -> (String, StepReport) {
-    to_text(&model(surface), &StepOptions::default()).unwrap()
+    to_text(&model(surface), &StepOptions::default(), &Watch::default()).unwrap()
 }
 
 /// The numbers of the entities that a text without quotes refers to.
@@ -75,14 +76,15 @@ fn options_are_in_the_file() {
         organization: "O'Hara",
         timestamp: "2026-01-31T12:00:00",
     };
-    let text = to_text(&model(&wave()), &options).unwrap().0;
+    let text = to_text(&model(&wave()), &options, &Watch::default()).unwrap().0;
     check_syntax(&text);
     for part in
         ["AP242_MANAGED", "'INCH'", "Fl\\X2\\00E4\\X0\\che", "('A. N. Other'),('O''Hara')", "2026-01-31"]
     {
         assert!(text.contains(part), "{part}");
     }
-    let metres = to_text(&model(&wave()), &StepOptions { unit: Unit::Metre, ..options }).unwrap().0;
+    let metres =
+        to_text(&model(&wave()), &StepOptions { unit: Unit::Metre, ..options }, &Watch::default()).unwrap().0;
     assert!(metres.contains("SI_UNIT($,.METRE.)"));
 }
 
@@ -134,11 +136,11 @@ fn a_fitted_panel_keeps_its_windows() {
 #[test]
 fn files_appear_whole_or_not_at_all() {
     let path = std::env::temp_dir().join(format!("planish_{}.step", std::process::id()));
-    write(&model(&wave()), &StepOptions::default(), &path).unwrap();
+    write(&model(&wave()), &StepOptions::default(), &path, &Watch::default()).unwrap();
     let written = std::fs::read_to_string(&path).unwrap();
     assert_eq!(written, text(&wave()).0);
     let nowhere = path.join("below_a_file.step");
-    assert!(write(&model(&wave()), &StepOptions::default(), &nowhere).is_err());
+    assert!(write(&model(&wave()), &StepOptions::default(), &nowhere, &Watch::default()).is_err());
     assert_eq!(std::fs::read_to_string(&path).unwrap(), written);
     std::fs::remove_file(&path).unwrap();
 }
@@ -152,8 +154,9 @@ fn a_t_spline_is_written_whole_or_in_strips() {
     let fit = skin(&rows, &SkinOptions::default(), &mut Control::new(1)).unwrap();
     let surface = AnySurface::from(fit.surface.clone());
     let in_form = |surface: &AnySurface, form| {
-        let model = of_surface(surface, &FormOptions { form, ..FormOptions::default() }).unwrap();
-        to_text(&model, &StepOptions::default()).unwrap()
+        let model =
+            of_surface(surface, &FormOptions { form, ..FormOptions::default() }, &Watch::default()).unwrap();
+        to_text(&model, &StepOptions::default(), &Watch::default()).unwrap()
     };
     let (_, report) = in_form(&surface, Form::Tensor);
     assert_eq!((report.face_count, report.pole_count), (1, fit.skin.tensor_count));
@@ -163,7 +166,7 @@ fn a_t_spline_is_written_whole_or_in_strips() {
 
     let limited = FormOptions { max_coefficients: 10, ..FormOptions::default() };
     let too_large = ConvertError::TooLarge { needed: fit.skin.tensor_count, limit: 10 };
-    assert_eq!(of_surface(&surface, &limited), Err(ModelError::Convert(too_large)));
+    assert_eq!(of_surface(&surface, &limited, &Watch::default()), Err(ModelError::Convert(too_large)));
     let mut trimmed = fit.surface;
     let triangle = [(0.1, 0.1), (0.9, 0.1), (0.5, 0.8)].map(|(u, v)| DVec2::new(u, v)).to_vec();
     trimmed.region_mut().trims = Trims::new(vec![triangle], &trimmed.domain()).unwrap();
@@ -185,8 +188,8 @@ fn a_pht_spline_is_a_shell_of_patches() {
         let surface = AnySurface::from(pht.clone());
         let holes = loops.len().saturating_sub(1);
         for level_spread in [0, 1, 20] {
-            let model = of_surface(&surface, &options(level_spread)).unwrap();
-            let (text, report) = to_text(&model, &StepOptions::default()).unwrap();
+            let model = of_surface(&surface, &options(level_spread), &Watch::default()).unwrap();
+            let (text, report) = to_text(&model, &StepOptions::default(), &Watch::default()).unwrap();
             check_syntax(&text);
             let counts = ["=ADVANCED_FACE(", "=EDGE_CURVE(", "=VERTEX_POINT(", "=EDGE_LOOP("]
                 .map(|name| text.matches(name).count());
@@ -214,12 +217,13 @@ fn a_closed_skin_is_written_closed() {
     for (form, method) in forms {
         let options = SkinOptions { method, ..SkinOptions::default() };
         let surface = skin(&rows, &options, &mut Control::new(2)).unwrap().surface.into();
-        let model = of_surface(&surface, &FormOptions { form, ..FormOptions::default() }).unwrap();
+        let model =
+            of_surface(&surface, &FormOptions { form, ..FormOptions::default() }, &Watch::default()).unwrap();
         // only the first and the last row are free, each a closed edge
         let free: Vec<_> = model.edge_ids().filter(|&edge| model.is_free(edge)).collect();
         assert_eq!(free.len(), 2, "{form:?}");
         assert!(free.iter().all(|&edge| model.edge(edge).vertices[0] == model.edge(edge).vertices[1]));
-        let (text, report) = to_text(&model, &StepOptions::default()).unwrap();
+        let (text, report) = to_text(&model, &StepOptions::default(), &Watch::default()).unwrap();
         check_syntax(&text);
         assert_eq!(text.matches("=SEAM_CURVE(").count(), report.face_count, "{form:?}");
         assert!(report.curve_deviation <= 1e-7 * report.diagonal, "{report:?}");
@@ -234,11 +238,11 @@ fn a_face_lies_on_what_is_around_its_trims() {
     let whole = wave();
     let loops = vec![rectangle(0.3, 0.4), circle([0.35, 0.35], 0.02, 9)];
     let surface = AnySurface::from(trimmed(whole.clone(), loops.clone()));
-    let model = of_surface(&surface, &FormOptions::default()).unwrap();
+    let model = of_surface(&surface, &FormOptions::default(), &Watch::default()).unwrap();
     let part = model.carrier(model.face_ids().next().unwrap()).domain().unwrap();
     assert!((part.min.x - 0.299).abs() < 1e-15 && (part.max.y - 0.401).abs() < 1e-15, "{part:?}");
     assert_eq!(model.trims(model.face_ids().next().unwrap()).unwrap().loops().len(), 2);
-    let (text, report) = to_text(&model, &StepOptions::default()).unwrap();
+    let (text, report) = to_text(&model, &StepOptions::default(), &Watch::default()).unwrap();
     check_syntax(&text);
     assert!(report.curve_deviation <= 1e-7 * report.diagonal, "{report:?}");
 }

@@ -3,17 +3,24 @@
 use super::net::Net;
 use super::part21::{Id, Part21, Real, Text, list};
 use super::{Schema, StepError, StepOptions, StepReport, Unit};
+use crate::control::Watch;
 use crate::curve::Curve;
+use crate::memory::{self, CollectVec};
 use crate::model::{Arc, Carrier, EdgeCurve, EdgeId, Face, Frame, Model, Role, Shell};
 use glam::DVec3;
 
 /// The whole file.
-pub(super) fn file(model: &Model, report: &StepReport, options: &StepOptions) -> Result<String, StepError> {
+pub(super) fn file(
+    model: &Model,
+    report: &StepReport,
+    options: &StepOptions,
+    watch: &Watch,
+) -> Result<String, StepError> {
     let mut out = Part21::default();
     let definition = product(&mut out, options);
     let context = context(&mut out, options.unit, report.uncertainty);
     let placement = axes(&mut out, DVec3::ZERO, DVec3::Z, DVec3::X);
-    let faces = faces(&mut out, model)?;
+    let faces = faces(&mut out, model, watch)?;
     let items = items(&mut out, model, &faces);
     let name = Text(options.product);
     let kind = match model.shells().iter().all(|shell| shell.role == Role::Open) {
@@ -43,7 +50,7 @@ fn items(out: &mut Part21, model: &Model, faces: &[Id]) -> Vec<Id> {
                 let mut voids = Vec::new();
                 for void in model.shells().iter().filter(|void| void.role == Role::VoidIn(id)) {
                     let inner = shell_of(out, "CLOSED_SHELL", void);
-                    voids.push(out.add(format!("ORIENTED_CLOSED_SHELL('',*,{inner},.T.)")));
+                    memory::push(&mut voids, out.add(format!("ORIENTED_CLOSED_SHELL('',*,{inner},.T.)")));
                 }
                 items.push(match voids.is_empty() {
                     true => out.add(format!("MANIFOLD_SOLID_BREP('',{outer})")),
@@ -53,7 +60,7 @@ fn items(out: &mut Part21, model: &Model, faces: &[Id]) -> Vec<Id> {
         }
     }
     if !open.is_empty() {
-        items.push(out.add(format!("SHELL_BASED_SURFACE_MODEL('',{})", list(open))));
+        memory::push(&mut items, out.add(format!("SHELL_BASED_SURFACE_MODEL('',{})", list(open))));
     }
     items
 }
@@ -160,10 +167,10 @@ fn with_multiplicities(knots: &[f64]) -> (String, String) {
     (list(runs().map(<[f64]>::len)), list(runs().map(|run| Real(run[0]))))
 }
 
-fn carrier(out: &mut Part21, carrier: &Carrier) -> Result<Id, StepError> {
+fn carrier(out: &mut Part21, carrier: &Carrier, watch: &Watch) -> Result<Id, StepError> {
     let placed = |out: &mut Part21, frame: &Frame| axes(out, frame.origin(), frame.z(), frame.x());
     Ok(match carrier {
-        Carrier::Spline(spline) => surface(out, &Net::new(spline)?),
+        Carrier::Spline(spline) => surface(out, &Net::new(spline)?, watch)?,
         Carrier::Plane(plane) => {
             let axes = placed(out, &plane.0);
             out.add(format!("PLANE('',{axes})"))
@@ -175,38 +182,44 @@ fn carrier(out: &mut Part21, carrier: &Carrier) -> Result<Id, StepError> {
     })
 }
 
-fn surface(out: &mut Part21, net: &Net) -> Id {
+fn surface(out: &mut Part21, net: &Net, watch: &Watch) -> Result<Id, StepError> {
     let line = net.knots[1].len() - net.degree[1] - 1;
-    let ids: Vec<Id> = net.points.iter().map(|p| point(out, &p.to_array())).collect();
+    let mut ids: Vec<Id> = memory::with_capacity(net.points.len());
+    for (number, p) in net.points.iter().enumerate() {
+        watch.check_at(number)?;
+        ids.push(point(out, &p.to_array()));
+    }
     let points = list(ids.chunks_exact(line).map(list));
     let [u, v] = net.degree;
     let [(count_u, knots_u), (count_v, knots_v)] = [0, 1].map(|axis| with_multiplicities(&net.knots[axis]));
     let spline = format!("{u},{v},{points},.UNSPECIFIED.,.F.,.F.,.F.");
     let knots = format!("{count_u},{count_v},{knots_u},{knots_v},.UNSPECIFIED.");
     let Some(weights) = &net.weights else {
-        return out.add(format!("B_SPLINE_SURFACE_WITH_KNOTS('',{spline},{knots})"));
+        return Ok(out.add(format!("B_SPLINE_SURFACE_WITH_KNOTS('',{spline},{knots})")));
     };
     let weights = list(weights.chunks_exact(line).map(|line| list(line.iter().map(|&w| Real(w)))));
-    out.add(format!(
+    Ok(out.add(format!(
         "(BOUNDED_SURFACE()B_SPLINE_SURFACE({spline})B_SPLINE_SURFACE_WITH_KNOTS({knots})\
          GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_SURFACE({weights})REPRESENTATION_ITEM('')SURFACE())"
-    ))
+    )))
 }
 
 /// Surfaces, vertices and edges once each, then the faces that refer to them.
-fn faces(out: &mut Part21, model: &Model) -> Result<Vec<Id>, StepError> {
+fn faces(out: &mut Part21, model: &Model, watch: &Watch) -> Result<Vec<Id>, StepError> {
     let plane = out.add(
         "(GEOMETRIC_REPRESENTATION_CONTEXT(2)PARAMETRIC_REPRESENTATION_CONTEXT()\
          REPRESENTATION_CONTEXT('','parameters'))",
     );
-    let surfaces =
-        model.surfaces().iter().map(|surface| carrier(out, surface)).collect::<Result<Vec<_>, _>>()?;
-    let vertices: Vec<Id> = model.vertices().iter().map(|&place| vertex(out, place)).collect();
-    let edges: Vec<Id> = model
-        .edge_ids()
-        .map(|id| edge(out, model, id, Shared { plane, surfaces: &surfaces, vertices: &vertices }))
-        .collect();
-    Ok(model.faces().iter().map(|of| face(out, surfaces[of.surface.index()], &edges, of)).collect())
+    let surfaces = model.surfaces().iter().map(|surface| carrier(out, surface, watch)).try_collect_vec()?;
+    watch.check()?;
+    let vertices: Vec<Id> = model.vertices().iter().map(|&place| vertex(out, place)).collect_vec();
+    let shared = Shared { plane, surfaces: &surfaces, vertices: &vertices };
+    let mut edges: Vec<Id> = memory::with_capacity(model.edges().len());
+    for (number, id) in model.edge_ids().enumerate() {
+        watch.check_at(16 * number)?;
+        edges.push(edge(out, model, id, shared));
+    }
+    Ok(model.faces().iter().map(|of| face(out, surfaces[of.surface.index()], &edges, of)).collect_vec())
 }
 
 /// What edges refer to.
@@ -219,16 +232,16 @@ struct Shared<'a> {
 }
 
 fn face(out: &mut Part21, surface: Id, edges: &[Id], face: &Face) -> Id {
-    let mut bounds = Vec::with_capacity(face.bounds.len());
+    let mut bounds = memory::with_capacity(face.bounds.len());
     for (index, coedges) in face.bounds.iter().enumerate() {
         let oriented = coedges.iter().map(|coedge| {
             let sense = if coedge.is_forward { 'T' } else { 'F' };
             out.add(format!("ORIENTED_EDGE('',*,*,{},.{sense}.)", edges[coedge.edge.index()]))
         });
-        let oriented: Vec<Id> = oriented.collect();
+        let oriented: Vec<Id> = oriented.collect_vec();
         let edge_loop = out.add(format!("EDGE_LOOP('',{})", list(oriented)));
         let kind = if index == 0 { "FACE_OUTER_BOUND" } else { "FACE_BOUND" };
-        bounds.push(out.add(format!("{kind}('',{edge_loop},.T.)")));
+        memory::push(&mut bounds, out.add(format!("{kind}('',{edge_loop},.T.)")));
     }
     let sense = if face.is_forward { 'T' } else { 'F' };
     out.add(format!("ADVANCED_FACE('',{},{surface},.{sense}.)", list(bounds)))
@@ -257,11 +270,14 @@ fn edge(out: &mut Part21, model: &Model, id: EdgeId, shared: Shared) -> Id {
             let in_plane = curve(out, pcurve);
             out.add(format!("DEFINITIONAL_REPRESENTATION('',({in_plane}),{})", shared.plane))
         });
-        definitions.push((pcurve, definition));
-        surfaces.push((model.face(at.face).surface, definition));
+        memory::push(&mut definitions, (pcurve, definition));
+        memory::push(&mut surfaces, (model.face(at.face).surface, definition));
     }
     for &(surface, definition) in &surfaces {
-        pcurves.push(out.add(format!("PCURVE('',{},{definition})", shared.surfaces[surface.index()])));
+        memory::push(
+            &mut pcurves,
+            out.add(format!("PCURVE('',{},{definition})", shared.surfaces[surface.index()])),
+        );
     }
     let all = match surfaces[..] {
         [] => in_space,
@@ -279,7 +295,7 @@ fn curve(out: &mut Part21, curve: &Curve) -> Id {
         return line(out, curve, [a, b].map(DVec3::from));
     }
     let points = curve.control_points().chunks_exact(curve.dim());
-    let ids: Vec<Id> = points.map(|p| point(out, p)).collect();
+    let ids: Vec<Id> = points.map(|p| point(out, p)).collect_vec();
     let (counts, knots) = with_multiplicities(curve.knots().knots());
     out.add(format!(
         "B_SPLINE_CURVE_WITH_KNOTS('',{},{},.UNSPECIFIED.,.F.,.F.,{counts},{knots},.UNSPECIFIED.)",

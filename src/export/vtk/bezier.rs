@@ -15,12 +15,14 @@ use super::grid::{self, Grid};
 use crate::bezier::BezierPatch;
 use crate::export::error::ExportError;
 use crate::file;
+use crate::memory::{self, CollectVec};
 use crate::surface::Patches;
 use std::path::Path;
 
 /// Writes all patches of a surface in space as Bezier cells. Trims are not shown: a cell is a whole patch.
 pub fn write_patches(patches: &dyn Patches, path: &Path) -> Result<(), ExportError> {
-    let patches: Vec<BezierPatch> = (0..patches.patch_count()).map(|index| patches.patch(index)).collect();
+    let patches: Vec<BezierPatch> =
+        (0..patches.patch_count()).map(|index| patches.patch(index)).collect_vec();
     if let Some(patch) = patches.iter().find(|patch| patch.dim != 3) {
         return Err(ExportError::Dimension { dim: patch.dim });
     }
@@ -29,10 +31,10 @@ pub fn write_patches(patches: &dyn Patches, path: &Path) -> Result<(), ExportErr
         for at in order(patch.degree) {
             let row = &patch.ordinates[at * patch.width()..][..patch.width()];
             let weight = if patch.is_rational { row[3] } else { 1.0 };
-            points.extend(row[..3].iter().map(|x| x / weight));
-            weights.push(weight);
+            memory::extend(&mut points, row[..3].iter().map(|x| x / weight));
+            memory::push(&mut weights, weight);
         }
-        degrees.extend([patch.degree[0] as f64, patch.degree[1] as f64, 0.0]);
+        memory::extend(&mut degrees, [patch.degree[0] as f64, patch.degree[1] as f64, 0.0]);
     }
     let is_rational = patches.iter().any(|patch| patch.is_rational);
     let mut grid = Grid::new(weights.len(), patches.len());
@@ -66,11 +68,11 @@ pub fn write_patches(patches: &dyn Patches, path: &Path) -> Result<(), ExportErr
 fn order([p, q]: [usize; 2]) -> Vec<usize> {
     let at = |i: usize, j: usize| i * (q + 1) + j;
     let mut order = vec![at(0, 0), at(p, 0), at(p, q), at(0, q)];
-    order.extend((1..p).map(|i| at(i, 0)));
-    order.extend((1..q).map(|j| at(p, j)));
-    order.extend((1..p).map(|i| at(i, q)));
-    order.extend((1..q).map(|j| at(0, j)));
-    order.extend((1..q).flat_map(|j| (1..p).map(move |i| at(i, j))));
+    memory::extend(&mut order, (1..p).map(|i| at(i, 0)));
+    memory::extend(&mut order, (1..q).map(|j| at(p, j)));
+    memory::extend(&mut order, (1..p).map(|i| at(i, q)));
+    memory::extend(&mut order, (1..q).map(|j| at(0, j)));
+    memory::extend(&mut order, (1..q).flat_map(|j| (1..p).map(move |i| at(i, j))));
     order
 }
 

@@ -1,5 +1,6 @@
 //! A file in the making.
 
+use crate::memory;
 use std::fmt::Write;
 
 /// VTK_POLY_LINE
@@ -46,8 +47,8 @@ impl Grid {
     pub(super) fn cells<C: IntoIterator<Item = i64>>(&mut self, kind: u8, cells: impl Iterator<Item = C>) {
         let (mut points, mut ends) = (Vec::new(), Vec::new());
         for cell in cells {
-            points.extend(cell);
-            ends.push(points.len() as i64);
+            memory::extend(&mut points, cell);
+            memory::push(&mut ends, points.len() as i64);
         }
         self.section("Cells", "", |grid| {
             let count = ends.len();
@@ -65,8 +66,8 @@ impl Grid {
              offset=\"{offset}\"/>",
             escape(name)
         );
-        self.appended.extend([0; 8]);
-        self.appended.extend(bytes);
+        memory::extend(&mut self.appended, [0; 8]);
+        memory::extend(&mut self.appended, bytes);
         let size = (self.appended.len() - offset - 8) as u64;
         self.appended[offset..offset + 8].copy_from_slice(&size.to_le_bytes());
     }
@@ -74,7 +75,7 @@ impl Grid {
     pub(super) fn finish(self) -> Vec<u8> {
         let mut bytes = self.xml.into_bytes();
         bytes.extend_from_slice(b"</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
-        bytes.extend(self.appended);
+        memory::extend(&mut bytes, self.appended);
         bytes.extend_from_slice(b"\n</AppendedData>\n</VTKFile>\n");
         bytes
     }

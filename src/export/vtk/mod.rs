@@ -11,6 +11,7 @@ use super::error::ExportError;
 use crate::control::Pool;
 use crate::failure::{Classify, ErrorKind};
 use crate::file;
+use crate::memory::{self, CollectVec};
 use crate::mesh::{Mesh, MeshError};
 use crate::model::{Model, ModelTessellation};
 use crate::query::deviation::{DeviationError, DeviationOptions, deviation};
@@ -89,8 +90,8 @@ fn write_triangles(
             return Err(ExportError::Count { name, count: data.values.len(), expected });
         }
     }
-    let uv: Vec<f64> = mesh.parameters().unwrap_or(&[]).iter().flat_map(|uv| uv.to_array()).collect();
-    let points: Vec<f64> = mesh.points().iter().flat_map(|p| p.to_array()).collect();
+    let uv: Vec<f64> = mesh.parameters().unwrap_or(&[]).iter().flat_map(|uv| uv.to_array()).collect_vec();
+    let points: Vec<f64> = mesh.points().iter().flat_map(|p| p.to_array()).collect_vec();
     let triangles = mesh.triangles();
     let mut grid = Grid::new(count, triangles.len());
     grid.section("PointData", "", |grid| {
@@ -145,13 +146,13 @@ pub fn write_model(
 ) -> Result<(), VtkError> {
     let Some(mesh) = options.deviation_from else {
         let ModelTessellation { mesh, faces, .. } = model.tessellate(&options.tessellate)?;
-        let faces: Vec<f64> = faces.iter().map(|face| face.index() as f64).collect();
+        let faces: Vec<f64> = faces.iter().map(|face| face.index() as f64).collect_vec();
         return Ok(write_triangles(&mesh, &[], &[("face", &faces)], path)?);
     };
     let report = model.deviation(mesh, &DeviationOptions::default(), pool)?;
     let feet = report.faces.iter().zip(&report.uv);
     let places = feet.map(|(face, &uv)| face.map_or(DVec3::NAN, |face| model.carrier(face).points(&[uv])[0]));
-    let moved = Mesh::new(places.collect(), mesh.triangles().to_vec())?;
+    let moved = Mesh::new(places.collect_vec(), memory::copied(mesh.triangles()))?;
     let deviation = PointData { name: "deviation", dim: 1, values: &report.nodes.each };
     Ok(write_mesh(&moved, &[deviation], path)?)
 }
@@ -162,15 +163,17 @@ pub fn on_surface(surface: &dyn Surface, mesh: &Mesh, uv: &[DVec2]) -> Result<Me
     let some_place = uv[mesh.triangles()[0][0] as usize];
     let is_used = |node: usize| mesh.is_used(node as u32);
     let uv: Vec<DVec2> =
-        uv.iter().enumerate().map(|(node, &uv)| if is_used(node) { uv } else { some_place }).collect();
-    let mut rows = vec![0.0; 3 * uv.len()];
+        uv.iter().enumerate().map(|(node, &uv)| if is_used(node) { uv } else { some_place }).collect_vec();
+    let mut rows = memory::filled(0.0, 3 * uv.len());
     surface.eval_rows(&uv, 0, &mut rows);
     let place = |(node, row): (usize, &[f64])| match mesh.points()[node] {
         point if point.is_finite() && !is_used(node) => point,
         _ => DVec3::from_slice(row),
     };
-    let mut moved =
-        Mesh::new(rows.chunks_exact(3).enumerate().map(place).collect(), mesh.triangles().to_vec())?;
+    let mut moved = Mesh::new(
+        rows.chunks_exact(3).enumerate().map(place).collect_vec(),
+        memory::copied(mesh.triangles()),
+    )?;
     moved.set_parameters(uv)?;
     Ok(moved)
 }
@@ -178,7 +181,7 @@ pub fn on_surface(surface: &dyn Surface, mesh: &Mesh, uv: &[DVec2]) -> Result<Me
 /// Writes the control points of a surface in space, joined by the lines of its control net.
 pub fn write_control_net(net: &ControlNet, path: &Path) -> Result<(), ExportError> {
     let mut grid = Grid::new(net.points.len(), net.lines.len());
-    let points: Vec<f64> = net.points.iter().flat_map(|p| p.to_array()).collect();
+    let points: Vec<f64> = net.points.iter().flat_map(|p| p.to_array()).collect_vec();
     grid.section("PointData", "", |grid| {
         if let Some(weights) = &net.weights {
             grid.doubles("weight", 1, weights);

@@ -1,6 +1,7 @@
 //! The one measure of error: on the finished surface, through its public evaluation.
 
 use crate::control::Pool;
+use crate::memory;
 use crate::query::project::{ProjectOptions, Projector};
 pub use crate::summary::{DataErrors, summarize};
 use crate::surface::Surface;
@@ -13,7 +14,7 @@ const CHUNK: usize = 1024;
 /// Euclidean distances between the surface at `uv` and the rows of `values`.
 pub fn data_errors(surface: &dyn Surface, uv: &[DVec2], values: &[f64], pool: &Pool) -> DataErrors {
     let dim = surface.dim();
-    let mut each = vec![0.0; uv.len()];
+    let mut each = memory::filled(0.0, uv.len());
     pool.run(|| {
         each.par_chunks_mut(CHUNK).zip(uv.par_chunks(CHUNK)).zip(values.par_chunks(CHUNK * dim)).for_each(
             |((each, uv), values)| {
@@ -21,7 +22,7 @@ pub fn data_errors(surface: &dyn Surface, uv: &[DVec2], values: &[f64], pool: &P
                 if pool.check().is_err() {
                     return;
                 }
-                let mut rows = vec![0.0; uv.len() * dim];
+                let mut rows = memory::filled(0.0, uv.len() * dim);
                 surface.eval_rows(uv, 0, &mut rows);
                 for ((error, row), value) in each.iter_mut().zip(rows.chunks(dim)).zip(values.chunks(dim)) {
                     *error = row.iter().zip(value).map(|(s, p)| (s - p) * (s - p)).sum::<f64>().sqrt();

@@ -5,6 +5,7 @@
 
 use crate::control::Pool;
 use crate::geometry::safe_scale;
+use crate::memory::{self, CollectVec};
 use crate::mesh::Mesh;
 use crate::parameterize::crossing_nodes;
 use crate::surface::Surface;
@@ -35,11 +36,11 @@ pub fn foot_points(
     pool: &Pool,
 ) -> Vec<DVec2> {
     let dim = surface.dim();
-    let mut moved = uv.to_vec();
+    let mut moved = memory::copied(uv);
     pool.run(|| {
         let data = moved.par_iter_mut().zip(values.par_chunks(dim)).enumerate().with_min_len(PIECE);
         data.for_each_init(
-            || vec![0.0; 3 * dim],
+            || memory::filled(0.0, 3 * dim),
             |row, (datum, (uv, value))| {
                 // a cancelled call throws its foot points away
                 if pool.check().is_err() {
@@ -64,7 +65,7 @@ fn gauss_newton_step(row: &[f64], value: &[f64]) -> DVec2 {
     // products of products, of tangents of any length
     let scale = safe_scale(row[dim..].iter().fold(0.0, |most: f64, x| most.max(x.abs())));
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (scale * a) * (scale * b)).sum::<f64>();
-    let miss: Vec<f64> = value.iter().zip(s).map(|(p, s)| p - s).collect();
+    let miss: Vec<f64> = value.iter().zip(s).map(|(p, s)| p - s).collect_vec();
     let (a, b, c) = (dot(su, su), dot(su, sv), dot(sv, sv));
     let (p, q) = (dot(su, &miss), dot(sv, &miss));
     let determinant = a * c - b * b;
@@ -87,13 +88,13 @@ pub fn hold_back(mesh: &Mesh, (first, least): (&[DVec2], f64), from: &[DVec2], t
     };
     let turned = triangles.iter().filter(|t| area(first, t) < 0.0).count();
     let sign = if 2 * turned > triangles.len() { -1.0 } else { 1.0 };
-    let mut halvings = vec![0; from.len()];
+    let mut halvings = memory::filled(0, from.len());
     loop {
         let is_spoilt = |t: &&[u32; 3]| {
             let before = sign * area(first, t);
             !(sign * area(to, t) >= least * before) && before > 0.0
         };
-        let mut nodes: Vec<u32> = triangles.iter().filter(is_spoilt).flatten().copied().collect();
+        let mut nodes: Vec<u32> = triangles.iter().filter(is_spoilt).flatten().copied().collect_vec();
         nodes.extend(crossing_nodes(mesh, to));
         nodes.sort_unstable();
         nodes.dedup();

@@ -4,6 +4,7 @@
 //! H_u H_v f_uv`. In these the energy is the same matrix for all cells.
 
 use crate::hermite::shape_functions;
+use crate::memory;
 use std::sync::LazyLock;
 
 /// Unknowns of a cell.
@@ -40,7 +41,7 @@ pub struct CellSums {
 
 impl CellSums {
     pub fn new(dim: usize) -> Self {
-        Self { matrix: [[0.0; COUNT]; COUNT], right: vec![0.0; COUNT * dim] }
+        Self { matrix: [[0.0; COUNT]; COUNT], right: memory::filled(0.0, COUNT * dim) }
     }
 
     /// Adds a sample.

@@ -5,6 +5,7 @@ use super::errors::data_errors;
 use super::neighbours::triangles_between;
 use crate::control::{Pool, Watch};
 use crate::geometry::Domain;
+use crate::memory::{self, CollectVec};
 use crate::mesh::{HalfEdge, Mesh};
 use crate::surface::{Surface, normal};
 use glam::{DVec2, DVec3};
@@ -98,11 +99,11 @@ impl Between {
     pub fn thinned(&self, most: usize) -> Self {
         let every = self.explained.heights.len().div_ceil(most).max(1);
         let width = self.values.len() / self.uv.len().max(1);
-        let places = self.uv.chunks(4).step_by(every).flatten().copied().collect();
-        let values = self.values.chunks((4 * width).max(1)).step_by(every).flatten().copied().collect();
+        let places = self.uv.chunks(4).step_by(every).flatten().copied().collect_vec();
+        let values = self.values.chunks((4 * width).max(1)).step_by(every).flatten().copied().collect_vec();
         let explained = Sagittas {
-            heights: self.explained.heights.iter().step_by(every).copied().collect(),
-            is_sharp: self.explained.is_sharp.iter().step_by(every).copied().collect(),
+            heights: self.explained.heights.iter().step_by(every).copied().collect_vec(),
+            is_sharp: self.explained.is_sharp.iter().step_by(every).copied().collect_vec(),
         };
         let factors = self.factors.iter().step_by(every).copied().collect();
         Self { uv: places, values, explained, factors, is_shape: self.is_shape }
@@ -175,7 +176,7 @@ fn factors(triangles: &[[u32; 3]], standards: &Standards) -> Vec<f64> {
 /// error of the shape. Where the surface has no tangent plane the whole distance counts.
 pub fn heights_over(surface: &dyn Surface, uv: &[DVec2], values: &[f64], pool: &Pool) -> Vec<f64> {
     const CHUNK: usize = 1024;
-    let mut heights = vec![0.0; uv.len()];
+    let mut heights = memory::filled(0.0, uv.len());
     pool.run(|| {
         let data = uv.par_chunks(CHUNK).zip(values.par_chunks(3 * CHUNK));
         heights.par_chunks_mut(CHUNK).zip(data).for_each(|(heights, (uv, values))| {
@@ -183,7 +184,7 @@ pub fn heights_over(surface: &dyn Surface, uv: &[DVec2], values: &[f64], pool: &
             if pool.check().is_err() {
                 return;
             }
-            let mut rows = vec![0.0; uv.len() * 9];
+            let mut rows = memory::filled(0.0, uv.len() * 9);
             surface.eval_rows(uv, 1, &mut rows);
             for ((height, row), value) in heights.iter_mut().zip(rows.chunks(9)).zip(values.chunks(3)) {
                 let [s, su, sv] = [0, 3, 6].map(|k| DVec3::from_slice(&row[k..]));
@@ -204,13 +205,16 @@ fn interior_samples(
     dim: usize,
 ) -> (Vec<DVec2>, Vec<f64>) {
     let count = 4 * triangles.len();
-    let (mut places, mut rows) = (Vec::with_capacity(count), Vec::with_capacity(count * dim));
+    let (mut places, mut rows) = (memory::with_capacity(count), memory::with_capacity(count * dim));
     for &[a, b, c] in triangles {
         for nodes in [[a, b, c].as_slice(), &[a, b], &[b, c], &[c, a]] {
             let share = 1.0 / nodes.len() as f64;
-            places.push(nodes.iter().map(|&n| uv[n as usize]).sum::<DVec2>() * share);
+            memory::push(&mut places, nodes.iter().map(|&n| uv[n as usize]).sum::<DVec2>() * share);
             for k in 0..dim {
-                rows.push(nodes.iter().map(|&n| values[n as usize * dim + k]).sum::<f64>() * share);
+                memory::push(
+                    &mut rows,
+                    nodes.iter().map(|&n| values[n as usize * dim + k]).sum::<f64>() * share,
+                );
             }
         }
     }
@@ -228,7 +232,7 @@ pub struct Sagittas {
 impl Sagittas {
     /// Without sharp edges.
     fn smooth(heights: Vec<f64>) -> Self {
-        Self { is_sharp: vec![false; heights.len()], heights }
+        Self { is_sharp: memory::filled(false, heights.len()), heights }
     }
 
     /// By how much a facet may be missed.
@@ -255,7 +259,7 @@ pub fn triangle_sagittas(mesh: &Mesh) -> Sagittas {
     let (mesh, scale) = mesh.at_safe_scale();
     let mesh = mesh.as_ref();
     let (points, triangles) = (mesh.points(), mesh.triangles());
-    let areas: Vec<DVec3> = triangles.iter().map(|t| area_vector(points, t)).collect();
+    let areas: Vec<DVec3> = triangles.iter().map(|t| area_vector(points, t)).collect_vec();
     let half_edges = (0..triangles.len()).flat_map(|t| (0..3).map(move |k| HalfEdge::new(t, k)));
     let twin = |h: HalfEdge| mesh.topology().twin(h);
     let is_sharp = |h: HalfEdge| {
@@ -271,9 +275,9 @@ pub fn triangle_sagittas(mesh: &Mesh) -> Sagittas {
             sides.join(h.next().index(), twin.index());
         }
     }
-    let side: Vec<usize> = (0..3 * triangles.len()).map(|corner| sides.of(corner)).collect();
-    let mut normals = vec![DVec3::ZERO; side.len()];
-    let mut is_open = vec![false; side.len()];
+    let side: Vec<usize> = (0..3 * triangles.len()).map(|corner| sides.of(corner)).collect_vec();
+    let mut normals = memory::filled(DVec3::ZERO, side.len());
+    let mut is_open = memory::filled(false, side.len());
     for h in half_edges.clone() {
         normals[side[h.index()]] += areas[h.triangle()];
         if twin(h).is_none() || is_sharp(h) {
@@ -281,7 +285,7 @@ pub fn triangle_sagittas(mesh: &Mesh) -> Sagittas {
             is_open[side[h.next().index()]] = true;
         }
     }
-    let mut heights = vec![0.0_f64; side.len()];
+    let mut heights = memory::filled(0.0_f64, side.len());
     for h in half_edges.clone() {
         let (a, b) = (side[h.index()], side[h.next().index()]);
         let angle = normals[a].cross(normals[b]).length().atan2(normals[a].dot(normals[b]));
@@ -296,8 +300,8 @@ pub fn triangle_sagittas(mesh: &Mesh) -> Sagittas {
     let highest = |t: usize| corners(t).map(|corner| heights[side[corner]]).fold(0.0, f64::max);
     let all = 0..triangles.len();
     Sagittas {
-        heights: all.clone().map(|t| 4.0 / 3.0 * highest(t) / scale).collect(),
-        is_sharp: all.map(|t| (0..3).any(|k| is_sharp(HalfEdge::new(t, k)))).collect(),
+        heights: all.clone().map(|t| 4.0 / 3.0 * highest(t) / scale).collect_vec(),
+        is_sharp: all.map(|t| (0..3).any(|k| is_sharp(HalfEdge::new(t, k)))).collect_vec(),
     }
 }
 
@@ -308,7 +312,7 @@ struct Sides {
 
 impl Sides {
     fn new(count: usize) -> Self {
-        Self { towards: (0..count as u32).collect() }
+        Self { towards: (0..count as u32).collect_vec() }
     }
 
     fn of(&mut self, corner: usize) -> usize {
@@ -337,7 +341,7 @@ fn area_vector(points: &[DVec3], triangle: &[u32; 3]) -> DVec3 {
 /// is unknown, but a surface that leaves the values of a facet by more than they change around it oscillates.
 fn triangle_spreads(triangles: &[[u32; 3]], values: &[f64], dim: usize) -> Vec<f64> {
     let value = |node: usize| &values[node * dim..][..dim];
-    let mut spreads = vec![0.0_f64; values.len() / dim];
+    let mut spreads = memory::filled(0.0_f64, values.len() / dim);
     for &[a, b, c] in triangles {
         for (a, b) in [(a, b), (b, c), (c, a)] {
             let (a, b) = (a as usize, b as usize);
@@ -347,7 +351,7 @@ fn triangle_spreads(triangles: &[[u32; 3]], values: &[f64], dim: usize) -> Vec<f
         }
     }
     let largest = |nodes: &[u32; 3]| nodes.iter().map(|&n| spreads[n as usize]).fold(0.0, f64::max);
-    triangles.iter().map(largest).collect()
+    triangles.iter().map(largest).collect_vec()
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use super::plane::prefer_plane;
 use super::report::Remarks;
 use crate::control::Control;
 use crate::geometry::Domain;
+use crate::memory::{self, CollectVec};
 use crate::mesh::Mesh;
 use crate::parameterize::{
     Border, ParameterizeError, ParameterizeOptions, ParameterizeReport, RegularizeOptions, parameterize,
@@ -48,7 +49,7 @@ pub(in crate::fit) fn node_parameters(
         return if is_choice { prefer_plane(mesh, map, control) } else { Ok(map) };
     };
     let choice = match when {
-        Regularize::Never => return Ok(NodeParameters { uv: given.to_vec(), remarks }),
+        Regularize::Never => return Ok(NodeParameters { uv: memory::copied(given), remarks }),
         Regularize::Auto => crate::parameterize::RegularizeWhen::Auto,
         Regularize::Always => crate::parameterize::RegularizeWhen::Always,
     };
@@ -60,7 +61,7 @@ pub(in crate::fit) fn node_parameters(
         }
         Err(ParameterizeError::Cancelled(cancelled)) => Err(cancelled.into()),
         Err(error) if when == Regularize::Always => Err(error.into()),
-        Err(_) => Ok(NodeParameters { uv: given.to_vec(), remarks }),
+        Err(_) => Ok(NodeParameters { uv: memory::copied(given), remarks }),
     }
 }
 
@@ -71,7 +72,7 @@ fn has_high_stretch(report: &ParameterizeReport) -> bool {
 /// The boundary loops of a mesh in the parameter plane.
 pub(in crate::fit) fn trims(mesh: Option<&Mesh>, uv: &[DVec2], domain: &Domain) -> Trims {
     let loops = mesh.map_or(&[][..], |mesh| mesh.loops());
-    let loops = loops.iter().map(|nodes| nodes.iter().map(|&n| uv[n as usize]).collect());
+    let loops = loops.iter().map(|nodes| nodes.iter().map(|&n| uv[n as usize]).collect_vec());
     // parameters of data lie in the domain, and loops have three nodes at least
-    Trims::new(loops.collect(), domain).unwrap_or_default()
+    Trims::new(loops.collect_vec(), domain).unwrap_or_default()
 }

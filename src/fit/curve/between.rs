@@ -3,6 +3,7 @@
 use super::Candidate;
 use crate::curve::Curve;
 use crate::fit::common::interior::InteriorErrors;
+use crate::memory::{self, CollectVec};
 
 /// Places between two neighbours, as shares of the way.
 const SHARES: [f64; 3] = [0.25, 0.5, 0.75];
@@ -18,23 +19,26 @@ pub struct Between {
 
 impl Between {
     pub fn new(u: &[f64], values: &[f64], dim: usize) -> Self {
-        let mut order: Vec<usize> = (0..u.len()).collect();
+        let mut order: Vec<usize> = (0..u.len()).collect_vec();
         order.sort_by(|&a, &b| u[a].total_cmp(&u[b]));
         let value = |datum: usize| &values[datum * dim..][..dim];
         let pairs: Vec<[usize; 2]> =
-            order.windows(2).map(|pair| [pair[0], pair[1]]).filter(|&[a, b]| u[a] < u[b]).collect();
+            order.windows(2).map(|pair| [pair[0], pair[1]]).filter(|&[a, b]| u[a] < u[b]).collect_vec();
         let chord = |&[a, b]: &[usize; 2]| distance(value(a), value(b));
-        let chords: Vec<f64> = pairs.iter().map(chord).collect();
+        let chords: Vec<f64> = pairs.iter().map(chord).collect_vec();
         let allowances = (0..chords.len())
             .map(|k| {
                 chords[k.saturating_sub(1)..(k + 2).min(chords.len())].iter().copied().fold(0.0, f64::max)
             })
-            .collect();
+            .collect_vec();
         let mut between = Self { u: Vec::new(), values: Vec::new(), allowances };
         for [a, b] in pairs {
             for share in SHARES {
-                between.u.push(u[a] + share * (u[b] - u[a]));
-                between.values.extend(value(a).iter().zip(value(b)).map(|(x, y)| x + share * (y - x)));
+                memory::push(&mut between.u, u[a] + share * (u[b] - u[a]));
+                memory::extend(
+                    &mut between.values,
+                    value(a).iter().zip(value(b)).map(|(x, y)| x + share * (y - x)),
+                );
             }
         }
         between
@@ -42,7 +46,7 @@ impl Between {
 
     /// Measures a curve.
     pub fn measure(&self, curve: &Curve) -> InteriorErrors {
-        let mut rows = vec![0.0; self.values.len()];
+        let mut rows = memory::filled(0.0, self.values.len());
         curve.eval_rows(&self.u, 0, &mut rows);
         let dim = rows.len() / self.u.len().max(1);
         let mut result = InteriorErrors::default();

@@ -27,6 +27,7 @@ use crate::control::Control;
 use crate::curve::Curve;
 use crate::geometry::Bounds;
 use crate::linalg::{Cholesky, SymbolicCholesky};
+use crate::memory::{self, CollectVec};
 use between::{Between, distance};
 use sprs::CsMat;
 use std::time::Instant;
@@ -218,7 +219,7 @@ impl<'a> CurveProblem<'a> {
         let (n, width, dim) = (basis.len(), basis.width(), self.dim);
         let mut matrix = basis.gram(2);
         matrix.rows.iter_mut().flatten().for_each(|x| *x *= smoothing / 12.0);
-        let mut right = vec![0.0; n * dim];
+        let mut right = memory::filled(0.0, n * dim);
         let values = self.frame.inward(self.values);
         for (datum, &u) in self.u.iter().enumerate() {
             let (cell, s) = basis.grid.locate(u);
@@ -231,12 +232,12 @@ impl<'a> CurveProblem<'a> {
                 }
             }
         }
-        let starts = (0..=n).map(|i| (0..i).map(|i| 4.min(n - i)).sum()).collect();
+        let starts = (0..=n).map(|i| (0..i).map(|i| 4.min(n - i)).sum()).collect_vec();
         let entries = || (0..n).flat_map(|i| (0..4.min(n - i)).map(move |d| (i, d)));
-        let rows = entries().map(|(i, d)| i + d).collect();
-        let data = entries().map(|(i, d)| matrix.rows[i][d]).collect();
+        let rows = entries().map(|(i, d)| i + d).collect_vec();
+        let data = entries().map(|(i, d)| matrix.rows[i][d]).collect_vec();
         let matrix = CsMat::new_csc((n, n), starts, rows, data);
-        let symbolic = SymbolicCholesky::new(&matrix.view(), Some(&(0..n).collect::<Vec<_>>()));
+        let symbolic = SymbolicCholesky::new(&matrix.view(), Some(&(0..n).collect_vec()));
         let factor = symbolic.factor(&matrix.view()).map_err(|_| FitError::Singular)?;
         Ok(System { factor, right })
     }
@@ -246,7 +247,7 @@ impl<'a> CurveProblem<'a> {
         let mut right = system.right.clone();
         system.factor.solve(&mut right, dim);
         let unknowns: Vec<f64> =
-            (0..n).flat_map(|i| (0..dim).map(move |k| (i, k))).map(|(i, k)| right[k * n + i]).collect();
+            (0..n).flat_map(|i| (0..dim).map(move |k| (i, k))).map(|(i, k)| right[k * n + i]).collect_vec();
         self.candidate(basis, basis.control_points(&unknowns, dim), smoothing, n)
     }
 
@@ -262,10 +263,10 @@ impl<'a> CurveProblem<'a> {
         let knots = knots.map_err(|_| FitError::DegenerateRange { axis: 'u', at: self.range.0 })?;
         // an overflow in the solution is the one thing that can be wrong
         let curve = Curve::new(self.dim, knots, control_points).map_err(|_| FitError::Singular)?;
-        let mut measured = vec![0.0; self.values.len()];
+        let mut measured = memory::filled(0.0, self.values.len());
         curve.eval_rows(self.u, 0, &mut measured);
         let rows = measured.chunks(self.dim).zip(self.values.chunks(self.dim));
-        let errors = summarize(rows.map(|(a, b)| distance(a, b)).collect());
+        let errors = summarize(rows.map(|(a, b)| distance(a, b)).collect_vec());
         let between = self.between.measure(&curve);
         Ok(Candidate { curve, errors, between, smoothing, count: basis.grid.count, coefficient_count })
     }
@@ -301,9 +302,9 @@ impl System {
             let (cell, s) = basis.grid.locate(u);
             basis.window(cell, s, 0)
         };
-        let mut leverages = Vec::with_capacity(problem.u.len());
+        let mut leverages = memory::with_capacity(problem.u.len());
         for chunk in problem.u.chunks(CHUNK) {
-            let mut columns = vec![0.0; n * chunk.len()];
+            let mut columns = memory::filled(0.0, n * chunk.len());
             let entries = |k: usize, u: f64| {
                 let window = window(u);
                 (0..basis.width()).map(move |a| (k * n + window.first + a, window.weights[a]))
@@ -316,7 +317,7 @@ impl System {
                 let weight = problem.options.weights.map_or(1.0, |weights| weights[leverages.len()]);
                 let own: f64 = entries(k, u).map(|(at, share)| share * columns[at]).sum();
                 // rounding must not make a datum decide all
-                leverages.push((weight * own).min(MOST_LEVERAGE));
+                memory::push(&mut leverages, (weight * own).min(MOST_LEVERAGE));
             }
         }
         leverages

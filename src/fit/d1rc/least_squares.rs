@@ -10,6 +10,7 @@
 
 use crate::control::{Cancelled, Pool, Watch};
 use crate::linalg::SymbolicCholesky;
+use crate::memory::{self, CollectVec, ParallelCollectVec};
 use crate::mesh::Mesh;
 use crate::surface::d1rc::D1rcSurface;
 use glam::DVec2;
@@ -39,22 +40,22 @@ struct Rows {
 impl Rows {
     fn push(&mut self, row: impl IntoIterator<Item = (u32, f64)>) {
         for (column, number) in row {
-            self.columns.push(column as usize);
-            self.numbers.push(number);
+            memory::push(&mut self.columns, column as usize);
+            memory::push(&mut self.numbers, number);
         }
-        self.ends.push(self.columns.len());
+        memory::push(&mut self.ends, self.columns.len());
     }
 
     fn append(&mut self, other: Self) {
         let before = self.columns.len();
-        self.ends.extend(other.ends.iter().map(|end| before + end));
-        self.columns.extend(other.columns);
-        self.numbers.extend(other.numbers);
+        memory::extend(&mut self.ends, other.ends.iter().map(|end| before + end));
+        memory::extend(&mut self.columns, other.columns);
+        memory::extend(&mut self.numbers, other.numbers);
     }
 
     fn into_matrix(self, columns: usize) -> CsMat<f64> {
         let count = self.ends.len();
-        let starts = [0].into_iter().chain(self.ends).collect();
+        let starts = [0].into_iter().chain(self.ends).collect_vec();
         CsMat::new((count, columns), starts, self.columns, self.numbers)
     }
 }
@@ -74,7 +75,7 @@ impl Energy {
         };
         let whole: f64 = (0..triangles.len()).map(double_area).sum();
         let ordered = |&[a, b]: &[u32; 2]| [a.min(b), a.max(b)];
-        let mut sharp: Vec<[u32; 2]> = sharp_edges.iter().map(ordered).collect();
+        let mut sharp: Vec<[u32; 2]> = sharp_edges.iter().map(ordered).collect_vec();
         sharp.sort_unstable();
         let inner = mesh.edges().filter_map(|edge| Some((edge, topology.twin(edge)?)));
         let rows = inner.map(|(edge, twin)| {
@@ -85,7 +86,7 @@ impl Energy {
             let scale = (0.5 * share / whole).sqrt() * areas;
             jump(ends, tips, uv).map(|(node, number)| (node, scale * number))
         });
-        Self { rows: rows.collect() }
+        Self { rows: rows.collect_vec() }
     }
 }
 
@@ -120,7 +121,7 @@ pub fn solve(
 ) -> Result<Option<Vec<f64>>, Cancelled> {
     let count = surface.space().vertex_count();
     let mut rows = Rows::default();
-    let mut right = Vec::with_capacity(samples.values.len());
+    let mut right = memory::with_capacity(samples.values.len());
     // batches bound the time between looks at the watch
     for (k, uv) in samples.uv.chunks(64 * CHUNK).enumerate() {
         watch.check()?;
@@ -135,12 +136,12 @@ pub fn solve(
                 }
                 rows
             };
-            uv.par_chunks(CHUNK).enumerate().map(part).collect()
+            uv.par_chunks(CHUNK).enumerate().map(part).collect_vec()
         });
         parts.into_iter().for_each(|part| rows.append(part));
     }
     for (value, weight) in samples.values.chunks_exact(3).zip(samples.weights) {
-        right.extend(value.iter().map(|x| weight.sqrt() * x));
+        memory::extend(&mut right, value.iter().map(|x| weight.sqrt() * x));
     }
     let (energy, weight) = energy;
     let scale = weight.sqrt();
@@ -157,17 +158,20 @@ pub fn solve(
 /// Solves `A^T A x = A^T b` for three components; rows beyond those of b have zeros there.
 fn solve_normal_equations(matrix: &CsMat<f64>, right: &[f64]) -> Option<Vec<f64>> {
     let n = matrix.cols();
-    let mut columns = vec![0.0; 3 * n];
+    let mut columns = memory::filled(0.0, 3 * n);
     for (row, value) in matrix.outer_iterator().zip(right.chunks_exact(3)) {
         for (column, number) in row.iter() {
             (0..3).for_each(|k| columns[k * n + column] += number * value[k]);
         }
     }
+    // sprs cannot be refused: the transpose, and at most as many products as pairs in a row
+    let products: usize = matrix.outer_iterator().map(|row| row.nnz() * row.nnz()).sum();
+    memory::ensure((matrix.nnz() + products).saturating_mul(size_of::<(usize, f64)>()));
     let transposed = matrix.transpose_view().to_csr();
     let lower = lower_triangle(&(&transposed * matrix));
     let factor = SymbolicCholesky::new(&lower.view(), None).factor(&lower.view()).ok()?;
     factor.solve(&mut columns, 3);
-    Some((0..n).flat_map(|i| [0, 1, 2].map(|k| columns[k * n + i])).collect())
+    Some((0..n).flat_map(|i| [0, 1, 2].map(|k| columns[k * n + i])).collect_vec())
 }
 
 /// The lower triangle in columns of a symmetric matrix in rows.
@@ -176,10 +180,10 @@ fn lower_triangle(symmetric: &CsMat<f64>) -> CsMat<f64> {
     let (mut starts, mut indices, mut numbers) = (vec![0], Vec::new(), Vec::new());
     for (k, row) in symmetric.outer_iterator().enumerate() {
         for (column, &number) in row.iter().filter(|&(column, _)| column >= k) {
-            indices.push(column);
-            numbers.push(number);
+            memory::push(&mut indices, column);
+            memory::push(&mut numbers, number);
         }
-        starts.push(indices.len());
+        memory::push(&mut starts, indices.len());
     }
     CsMat::new_csc((n, n), starts, indices, numbers)
 }

@@ -6,6 +6,7 @@
 //! place in space.
 
 use crate::control::Pool;
+use crate::memory::{self, CollectVec, ParallelCollectVec};
 use crate::mesh::Mesh;
 use crate::query::triangles::TriangleTree;
 use glam::{DVec2, DVec3};
@@ -57,7 +58,7 @@ impl Placement {
             let shares = barycentric(near.point, nodes.map(|node| coarse.points()[node]));
             nodes.iter().zip(shares).map(|(&node, share)| share * places[node]).sum()
         };
-        let uv = pool.run(|| mesh.points().par_iter().map(place).collect());
+        let uv = pool.run(|| mesh.points().par_iter().map(place).collect_vec());
         Self::on_lines(uv, mesh, coarse, (&[], &[]))
     }
 
@@ -65,14 +66,14 @@ impl Placement {
     fn on_lines(uv: Vec<DVec2>, mesh: &Mesh, coarse: &Mesh, sharp: (&[[u32; 2]], &[[u32; 2]])) -> Self {
         let places = coarse.parameters().unwrap_or_default();
         let segment = |edge: [u32; 2]| edge.map(|node| places[node as usize]);
-        let mut lines = vec![Line::None; uv.len()];
+        let mut lines = memory::filled(Line::None, uv.len());
         sharp.0.iter().flatten().for_each(|&node| lines[node as usize] = Line::Crease);
         mesh.loops().iter().flatten().for_each(|&node| lines[node as usize] = Line::Boundary);
-        let boundary = boundary_edges(coarse).map(segment).collect();
-        let creases = sharp.1.iter().copied().map(segment).collect();
+        let boundary = boundary_edges(coarse).map(segment).collect_vec();
+        let creases = sharp.1.iter().copied().map(segment).collect_vec();
         let mut placement = Self { uv, lines, boundary, creases };
         placement.uv =
-            (0..placement.uv.len()).map(|node| placement.settled(node, placement.uv[node])).collect();
+            (0..placement.uv.len()).map(|node| placement.settled(node, placement.uv[node])).collect_vec();
         placement
     }
 
@@ -89,7 +90,7 @@ impl Placement {
 /// A mesh of the parameters.
 fn flat(mesh: &Mesh) -> Option<Mesh> {
     let places = mesh.parameters()?.iter().map(|uv| uv.extend(0.0));
-    Mesh::new(places.collect(), mesh.triangles().to_vec()).ok()
+    Mesh::new(places.collect_vec(), memory::copied(mesh.triangles())).ok()
 }
 
 fn boundary_edges(mesh: &Mesh) -> impl Iterator<Item = [u32; 2]> {

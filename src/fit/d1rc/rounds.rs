@@ -12,6 +12,7 @@ use crate::fit::common::report::{FitReport, Goal, Remarks, StopReason};
 use crate::fit::common::rounds::{self, Next, Outcome, Rounds, Standing};
 use crate::fit::common::{FitError, Frame, Standards, node_parameters, prefer_plane};
 use crate::geometry::Bounds;
+use crate::memory::{self, CollectVec};
 use crate::mesh::{DecimateOptions, Mesh};
 use crate::parameterize::{ParameterizeOptions, parameterize};
 use crate::surface::Surface;
@@ -42,12 +43,12 @@ impl Source {
     pub fn new(mesh: &Mesh, options: &D1rcFitOptions, control: &mut Control) -> Result<Self, D1rcFitError> {
         let sharp_edges_of = |mesh: &Mesh| {
             let mut known: Vec<[u32; 2]> =
-                options.sharp_edges.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect();
+                options.sharp_edges.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect_vec();
             known.sort_unstable();
             let mut found = options.sharp_angle.map(|angle| mesh.sharp_edges(angle)).unwrap_or_default();
             found.retain(|edge| known.binary_search(edge).is_err());
             // those given come first: errors tell their places
-            options.sharp_edges.iter().copied().chain(found).collect()
+            options.sharp_edges.iter().copied().chain(found).collect_vec()
         };
         if let Some(given) = options.control_mesh {
             let mut coarse = given.clone();
@@ -171,7 +172,7 @@ impl<'a> Problem<'a> {
     pub fn new(mesh: &'a Mesh, values: &'a [f64], source: Source, options: &'a D1rcFitOptions<'a>) -> Self {
         let bounds = Bounds::of_rows(values, 3);
         let frame = Frame::new(&bounds);
-        let weights = options.weights.map_or(vec![1.0; mesh.points().len()], <[f64]>::to_vec);
+        let weights = options.weights.map_or(memory::filled(1.0, mesh.points().len()), <[f64]>::to_vec);
         let (samples, goal) = (frame.inward(values), Goal::new(&options.tolerance, &bounds));
         let most = options.max_control_count.min(mesh.points().len());
         let count = if options.control_count > 0 { options.control_count } else { FIRST_COUNT.min(most) };
@@ -214,7 +215,7 @@ impl<'a> Problem<'a> {
         watch.check()?;
         let energy = Energy::new(&coarse, coarse.parameters().unwrap_or_default(), &sharp_edges);
         let placement = self.source.place(self.mesh, &coarse, &sharp_edges, pool);
-        let (mut uv, mut weights) = (placement.uv.clone(), self.weights.clone());
+        let (mut uv, mut weights) = (memory::copied(&placement.uv), memory::copied(&self.weights));
         let mut best: Option<(D1rcSurface, Vec<DVec2>, DataErrors)> = None;
         for sweep in 0..=self.options.correction_sweeps {
             if sweep > 0 {
@@ -245,7 +246,7 @@ impl<'a> Problem<'a> {
         let solved = solve(surface, &samples, (energy, smoothing), pool, watch)?;
         let mut points = solved.ok_or(FitError::Singular)?;
         self.frame.outward(&mut points);
-        let vertices: Vec<u32> = (0..surface.space().vertex_count() as u32).collect();
+        let vertices: Vec<u32> = (0..surface.space().vertex_count() as u32).collect_vec();
         surface.set_control_points(&vertices, &points)?;
         Ok(())
     }

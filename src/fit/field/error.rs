@@ -1,6 +1,6 @@
 //! Why a field cannot be fitted.
 
-use crate::control::Cancelled;
+use crate::control::{Cancelled, Forked};
 use crate::failure::{Classify, ErrorKind};
 use crate::fit::common::FitError;
 use crate::model::ModelError;
@@ -33,6 +33,9 @@ pub enum FieldError {
     /// The shape of the source makes no model.
     #[error(transparent)]
     Model(#[from] ModelError),
+    /// The process has forked since the fitter was used.
+    #[error("the fitter cannot be used: {0}")]
+    Forked(#[from] Forked),
     /// The progress callback asked to stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
@@ -42,7 +45,7 @@ impl Classify for FieldError {
     fn kind(&self) -> ErrorKind {
         match self {
             Self::Fit(error) => error.kind(),
-            Self::OtherGrid => ErrorKind::InvalidArgument,
+            Self::OtherGrid | Self::Forked(_) => ErrorKind::InvalidArgument,
             Self::NotFitted | Self::NoPatches | Self::NoPatch { .. } => ErrorKind::WrongKind,
             Self::Space(error) => error.kind(),
             Self::Model(error) => error.kind(),

@@ -27,6 +27,7 @@ use crate::control::{Control, Pool, Stage, Watch};
 use crate::geometry::Bounds;
 use crate::knots::KnotVector;
 use crate::linalg::Cholesky;
+use crate::memory::{self, CollectVec};
 use crate::mesh::Mesh;
 use crate::surface::tensor::{Axis, TensorSurface};
 use crate::surface::{Domain, Region, Surface};
@@ -85,13 +86,13 @@ impl<'a> FieldNodes<'a> {
     pub fn mask(&self, options: &FieldOptions) -> Option<Vec<bool>> {
         let mesh = self.mesh.filter(|mesh| !mesh.unused_nodes().is_empty())?;
         let is_known = |node: usize| options.is_known.is_none_or(|is_known| is_known[node]);
-        Some((0..self.map.uv.len()).map(|node| mesh.is_used(node as u32) && is_known(node)).collect())
+        Some((0..self.map.uv.len()).map(|node| mesh.is_used(node as u32) && is_known(node)).collect_vec())
     }
 
     /// Scattered ones.
     pub fn at(uv: &[DVec2], options: &FieldOptions) -> Result<Self, FieldError> {
         options.check(uv.len())?;
-        Ok(Self { mesh: None, map: NodeParameters { uv: uv.to_vec(), remarks: Remarks::default() } })
+        Ok(Self { mesh: None, map: NodeParameters { uv: memory::copied(uv), remarks: Remarks::default() } })
     }
 
     /// The mesh, if its nodes have parameters of its own.
@@ -134,8 +135,8 @@ impl FieldFitter {
         let FieldNodes { mesh, map: NodeParameters { uv, remarks } } = nodes;
         let known = known_nodes(&uv, options)?;
         let known_uv: Vec<DVec2> = match &known {
-            None => uv.clone(),
-            Some(known) => known.iter().map(|&node| uv[node as usize]).collect(),
+            None => memory::copied(&uv),
+            Some(known) => known.iter().map(|&node| uv[node as usize]).collect_vec(),
         };
         check_parameters(&known_uv)?;
         let data_box = Domain::around(uv.iter().copied());
@@ -272,7 +273,12 @@ impl FieldFitter {
         result
     }
 
-    fn check(&self, values: &[f64], dim: usize) -> Result<(), FitError> {
+    fn check(&self, values: &[f64], dim: usize) -> Result<(), FieldError> {
+        self.pool.check_process()?;
+        Ok(self.check_numbers(values, dim)?)
+    }
+
+    fn check_numbers(&self, values: &[f64], dim: usize) -> Result<(), FitError> {
         let Some(known) = &self.known else {
             return check_values(self.uv.len(), values, dim, None);
         };
@@ -294,8 +300,11 @@ impl FieldFitter {
         match &self.known {
             None => Bounds::of_rows(values, dim),
             Some(known) => {
-                let rows: Vec<f64> =
-                    known.iter().flat_map(|&node| &values[node as usize * dim..][..dim]).copied().collect();
+                let rows: Vec<f64> = known
+                    .iter()
+                    .flat_map(|&node| &values[node as usize * dim..][..dim])
+                    .copied()
+                    .collect_vec();
                 Bounds::of_rows(&rows, dim)
             }
         }
@@ -306,11 +315,11 @@ impl FieldFitter {
         let Some(known) = &self.known else {
             return data_errors(surface, &self.uv, values, &self.pool);
         };
-        let uv: Vec<DVec2> = known.iter().map(|&node| self.uv[node as usize]).collect();
+        let uv: Vec<DVec2> = known.iter().map(|&node| self.uv[node as usize]).collect_vec();
         let rows: Vec<f64> =
-            known.iter().flat_map(|&node| &values[node as usize * dim..][..dim]).copied().collect();
+            known.iter().flat_map(|&node| &values[node as usize * dim..][..dim]).copied().collect_vec();
         let mut errors = data_errors(surface, &uv, &rows, &self.pool);
-        let mut each = vec![f64::NAN; self.uv.len()];
+        let mut each = memory::filled(f64::NAN, self.uv.len());
         known.iter().zip(&errors.each).for_each(|(&node, &error)| each[node as usize] = error);
         errors.worst_index = known[errors.worst_index] as usize;
         errors.each = each;
@@ -320,7 +329,7 @@ impl FieldFitter {
 
 fn known_nodes(uv: &[DVec2], options: &FieldOptions) -> Result<Option<Vec<u32>>, FitError> {
     let Some(is_known) = options.is_known else { return Ok(None) };
-    let known: Vec<u32> = (0..uv.len() as u32).filter(|&node| is_known[node as usize]).collect();
+    let known: Vec<u32> = (0..uv.len() as u32).filter(|&node| is_known[node as usize]).collect_vec();
     if known.len() < 3 {
         return Err(FitError::TooFew { count: known.len() });
     }
@@ -336,7 +345,7 @@ fn known_places(
 ) -> Vec<InteriorPlace> {
     let is_known = |node: usize| options.is_known.is_none_or(|is_known| is_known[node]);
     let places = interior_places(mesh, uv, grid, options.weights);
-    places.filter(|place| place.nodes.into_iter().all(is_known)).collect()
+    places.filter(|place| place.nodes.into_iter().all(is_known)).collect_vec()
 }
 
 /// The knots of a grid; a range of a few roundings has no room for them.
@@ -363,7 +372,7 @@ fn factor(
     pool: &Pool,
     watch: &Watch,
 ) -> Result<Cholesky, FitError> {
-    let nothing = vec![0.0; data.uv.len()];
+    let nothing = memory::filled(0.0, data.uv.len());
     let samples = Samples { uv: &data.uv, values: &nothing, dim: 1, weights: Some(&data.weights) };
     let equations = NormalEquations::assemble(*basis, &samples, pool);
     watch.check()?;

@@ -9,6 +9,7 @@ use crate::fit::common::samples::{InteriorPlace, interior_weight};
 use crate::fit::common::uniform::grid::Direction;
 use crate::fit::common::uniform::normal_equations::{TensorBasis, by_cell};
 use crate::linalg::SolveMemory;
+use crate::memory::{self, CollectVec, ParallelCollectVec};
 use glam::DVec2;
 use rayon::prelude::*;
 use std::fmt;
@@ -32,7 +33,7 @@ impl Data {
         places: Vec<InteriorPlace>,
         smoothing: f64,
     ) -> Self {
-        let nodes: Vec<u32> = known.map_or_else(|| (0..uv.len() as u32).collect(), <[u32]>::to_vec);
+        let nodes: Vec<u32> = known.map_or_else(|| (0..uv.len() as u32).collect_vec(), <[u32]>::to_vec);
         let weight = |&node: &u32| weights.map_or(1.0, |weights| weights[node as usize]);
         let inner = interior_weight(smoothing);
         Self {
@@ -40,12 +41,12 @@ impl Data {
                 .iter()
                 .map(|&node| uv[node as usize])
                 .chain(places.iter().map(|place| place.mean(|node| uv[node])))
-                .collect(),
+                .collect_vec(),
             weights: nodes
                 .iter()
                 .map(weight)
                 .chain(places.iter().map(|place| inner * place.weight))
-                .collect(),
+                .collect_vec(),
             nodes,
             places,
         }
@@ -54,9 +55,9 @@ impl Data {
     /// One datum of weight 1 at each place.
     pub fn plain(uv: &[DVec2]) -> Self {
         Self {
-            uv: uv.to_vec(),
-            weights: vec![1.0; uv.len()],
-            nodes: (0..uv.len() as u32).collect(),
+            uv: memory::copied(uv),
+            weights: memory::filled(1.0, uv.len()),
+            nodes: (0..uv.len() as u32).collect_vec(),
             places: Vec::new(),
         }
     }
@@ -121,14 +122,14 @@ impl Scratch {
         let [cells_u, _] = basis.cells();
         Self {
             dim,
-            center: vec![0.0; dim],
+            center: memory::filled(0.0, dim),
             scale: 1.0,
-            strips: vec![0.0; cells_u * right_side.strip_len(basis, dim)],
-            columns: vec![0.0; basis.len() * dim],
+            strips: memory::filled(0.0, cells_u * right_side.strip_len(basis, dim)),
+            columns: memory::filled(0.0, basis.len() * dim),
             memory,
-            rows: vec![0.0; basis.len() * dim],
-            along_u: vec![0.0; count_u * basis.v.len() * dim],
-            control_points: vec![0.0; count_u * count_v * dim],
+            rows: memory::filled(0.0, basis.len() * dim),
+            along_u: memory::filled(0.0, count_u * basis.v.len() * dim),
+            control_points: memory::filled(0.0, count_u * count_v * dim),
             data: Vec::new(),
         }
     }
@@ -177,7 +178,7 @@ impl RightSide {
         };
         let (rows, starts) = pool.run(|| {
             let (starts, order) = by_cell(basis, &data.uv).into_parts();
-            (order.par_iter().map(row).collect(), starts)
+            (order.par_iter().map(row).collect_vec(), starts)
         });
         Self { rows, starts, nodes: data.nodes, places: data.places }
     }

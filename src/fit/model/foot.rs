@@ -3,6 +3,7 @@
 use super::locks::{Lock, along, on_side};
 use crate::control::Pool;
 use crate::layout::{Layout, Place};
+use crate::memory;
 use crate::surface::Surface;
 use crate::surface::pht::PhtSurface;
 use glam::{DVec2, DVec3};
@@ -34,7 +35,7 @@ pub fn foot_points(
     steps: u32,
     pool: &Pool,
 ) -> Vec<f64> {
-    let mut distances = vec![0.0; places.len()];
+    let mut distances = memory::filled(0.0, places.len());
     pool.run(|| {
         let data =
             places.par_chunks_mut(PIECE).zip(locks.par_chunks_mut(PIECE)).zip(points.par_chunks(PIECE));

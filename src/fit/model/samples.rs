@@ -10,6 +10,7 @@ use super::locks::{Lock, feature_at, halfway, lock, same_places};
 use crate::control::Pool;
 use crate::layout::{Layout, Place, cube_place};
 use crate::lists::Lists;
+use crate::memory::ParallelCollectVec;
 use crate::mesh::Mesh;
 use crate::surface::g1::Space;
 use glam::{DVec2, DVec3};
@@ -251,7 +252,7 @@ impl ByCell {
             let leaf = space.topologies()[quad].leaf_of(space.meshes()[quad].locate(place.uv));
             first_cells[quad] + leaf as u32
         };
-        let cells: Vec<u32> = pool.run(|| places.par_iter().with_min_len(4096).map(cell).collect());
+        let cells: Vec<u32> = pool.run(|| places.par_iter().with_min_len(4096).map(cell).collect_vec());
         Self(Lists::by_key(first_cells[first_cells.len() - 1] as usize, &cells))
     }
 

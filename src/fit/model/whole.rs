@@ -19,6 +19,7 @@ use crate::fit::common::report::{FitReport, Remarks, Tolerance, ToleranceScale};
 use crate::fit::pht::{self, PhtOptions};
 use crate::layout::Layout;
 use crate::layout::of_mesh::{LayoutKind, MeshLayout, MeshLayoutError, MeshLayoutOptions, layout_of_mesh};
+use crate::memory;
 use crate::mesh::{FeatureOptions, Mesh};
 use crate::model::{
     FaceId, Form, FormOptions, Model, NodePlace, Origin, PatchModel, PatchPiece, Patchwork, Role, ShellId,
@@ -211,8 +212,8 @@ fn patches(
     }
     let absolute = Tolerance { value, scale: ToleranceScale::Absolute };
     let options = MeshModelOptions { fit: options.fit.with_tolerance(absolute), ..*options };
-    let mut places = vec![None; mesh.points().len()];
-    let mut errors = vec![f64::NAN; mesh.points().len()];
+    let mut places = memory::filled(None, mesh.points().len());
+    let mut errors = memory::filled(f64::NAN, mesh.points().len());
     let (mut pieces, mut components, mut node_places) = (Vec::new(), Vec::new(), Vec::new());
     let all = mesh.triangles().len() as f64;
     let mut done = 0.0;
@@ -490,7 +491,7 @@ fn chart(mesh: &Mesh, options: &MeshModelOptions, control: &mut Control) -> Resu
     let form =
         FormOptions { form: Form::Patches, level_spread: options.level_spread, ..FormOptions::default() };
     let surface = AnySurface::Pht(fit.surface);
-    let model = of_surface(&surface, &form)?;
+    let model = of_surface(&surface, &form, control.pool().watch())?;
     let face_at = |uv: DVec2| {
         let holds = |&face: &FaceId| model.carrier(face).domain().is_some_and(|domain| domain.contains(uv));
         model.face_ids().find(holds)

@@ -11,6 +11,7 @@ use crate::fit::common::report::{Goal, Tolerance};
 use crate::fit::common::samples::bulge;
 use crate::fit::common::{Demands, FitError, Frame, Standards};
 use crate::geometry::{Bounds, Domain};
+use crate::memory::{self, CollectVec};
 use crate::mesh::Mesh;
 use crate::surface::Surface;
 use glam::{DVec2, DVec3};
@@ -55,9 +56,10 @@ impl<'a> Data<'a> {
     pub fn of_points(uv: &[DVec2], values: &[f64], dim: usize, weights: Option<&[f64]>) -> Self {
         let order = z_order(uv);
         let at = |&k: &u32| k as usize;
-        let sorted = order.iter().flat_map(|k| &values[at(k) * dim..][..dim]).copied().collect();
-        let weights: Option<Vec<f64>> = weights.map(|weights| order.iter().map(|k| weights[at(k)]).collect());
-        let uv = order.iter().map(|k| uv[at(k)]).collect();
+        let sorted = order.iter().flat_map(|k| &values[at(k) * dim..][..dim]).copied().collect_vec();
+        let weights: Option<Vec<f64>> =
+            weights.map(|weights| order.iter().map(|k| weights[at(k)]).collect_vec());
+        let uv = order.iter().map(|k| uv[at(k)]).collect_vec();
         Self { order, ..Self::new(uv, Cow::Owned(sorted), dim, weights.as_deref()) }
     }
 
@@ -75,7 +77,7 @@ impl<'a> Data<'a> {
             is_mirrored: false,
             values,
             dim,
-            first_uv: uv.clone(),
+            first_uv: memory::copied(&uv),
             uv,
             data_box,
             frame,
@@ -85,7 +87,7 @@ impl<'a> Data<'a> {
 
     /// Something of each datum in the order in which they were given.
     pub fn as_given<T: Copy>(&self, sorted: Vec<T>) -> Vec<T> {
-        let mut given = sorted.clone();
+        let mut given = memory::copied(&sorted);
         self.order.iter().zip(sorted).for_each(|(&k, x)| given[k as usize] = x);
         given
     }
@@ -101,17 +103,21 @@ impl<'a> Data<'a> {
         let base = Self::new(uv, Cow::Borrowed(values), dim, weights);
         let mut data = Self { mesh: Some(mesh), is_shape, ..base };
         let middles = if is_shape { bulged_middles(mesh, &data) } else { flat_middles(mesh, &data) };
-        data.sample_values.extend(middles);
+        memory::extend(&mut data.sample_values, middles);
         if is_shape {
             let Sagittas { heights, is_sharp } = triangle_sagittas(mesh);
             // a smooth surface cannot follow a sharp edge: what it misses beside one asks for no more cells
             let allowed = |(height, is_sharp)| if is_sharp { f64::INFINITY } else { height };
-            data.sagittas = heights.into_iter().zip(is_sharp).map(allowed).collect();
+            data.sagittas = heights.into_iter().zip(is_sharp).map(allowed).collect_vec();
         }
         let weight = |n: u32| weights.map_or(1.0, |weights| weights[n as usize]);
         let mean = |nodes: &[u32; 3]| nodes.iter().map(|&n| weight(n)).sum::<f64>() / 3.0;
+        memory::reserve(&mut data.sample_weights, mesh.points().len() + mesh.triangles().len());
         data.sample_weights.resize(mesh.points().len(), 1.0);
-        data.sample_weights.extend(mesh.triangles().iter().map(|nodes| MIDDLE_WEIGHT * mean(nodes)));
+        memory::extend(
+            &mut data.sample_weights,
+            mesh.triangles().iter().map(|nodes| MIDDLE_WEIGHT * mean(nodes)),
+        );
         data
     }
 
@@ -165,7 +171,7 @@ impl<'a> Data<'a> {
     pub fn sample_uv(&self) -> Vec<DVec2> {
         let triangles = self.mesh.map_or(&[][..], Mesh::triangles);
         let middle = |nodes: &[u32; 3]| nodes.iter().map(|&n| self.uv[n as usize]).sum::<DVec2>() / 3.0;
-        self.uv.iter().copied().chain(triangles.iter().map(middle)).collect()
+        self.uv.iter().copied().chain(triangles.iter().map(middle)).collect_vec()
     }
 
     /// By how much the middle of each triangle of a shape misses the surface beyond its sagitta; `sample_uv` are
@@ -174,7 +180,7 @@ impl<'a> Data<'a> {
         let Some(mesh) = self.mesh.filter(|_| self.is_shape) else { return Vec::new() };
         let place = |n: u32| DVec3::from_slice(&self.values[3 * n as usize..]);
         let middle = |&[a, b, c]: &[u32; 3]| ((place(a) + place(b) + place(c)) / 3.0).to_array();
-        let middles: Vec<f64> = mesh.triangles().iter().flat_map(middle).collect();
+        let middles: Vec<f64> = mesh.triangles().iter().flat_map(middle).collect_vec();
         let heights = heights_over(surface, &sample_uv[self.uv.len()..], &middles, pool);
         let excesses = heights.into_iter().zip(&self.sagittas).map(|(height, sagitta)| height - sagitta);
         if self.standards.are_alike() {
@@ -200,12 +206,12 @@ fn bulged_middles(mesh: &Mesh, data: &Data) -> Vec<f64> {
         let normals = nodes.map(|n| normals[n].normalize_or_zero());
         bulge(corners, normals, [1.0 / 3.0; 3]).to_array()
     };
-    mesh.triangles().iter().flat_map(middle).collect()
+    mesh.triangles().iter().flat_map(middle).collect_vec()
 }
 
 fn flat_middles(mesh: &Mesh, data: &Data) -> Vec<f64> {
     let row = |n: u32| &data.sample_values[n as usize * data.dim..][..data.dim];
     let middle =
         |&[a, b, c]: &[u32; 3]| (0..data.dim).map(move |k| (row(a)[k] + row(b)[k] + row(c)[k]) / 3.0);
-    mesh.triangles().iter().flat_map(middle).collect()
+    mesh.triangles().iter().flat_map(middle).collect_vec()
 }

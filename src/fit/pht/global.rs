@@ -13,6 +13,7 @@ use crate::fit::common::FitError;
 use crate::fit::common::hermite_cell::{CellMatrix, CellSums, weights};
 use crate::linalg::{Condition, Conditions, SymbolicCholesky, impose_all};
 use crate::lists::Lists;
+use crate::memory::ParallelCollectVec;
 use crate::surface::pht::{Matrix, expansions};
 use crate::tmesh::{Cell, TMesh, Topology};
 use glam::DVec2;
@@ -31,7 +32,7 @@ impl ByLeaf {
     pub fn sort(mesh: &TMesh, topology: &Topology, data: &Data, pool: &Pool) -> Self {
         let uv = data.sample_uv();
         let leaf = |&uv: &DVec2| topology.leaf_of(mesh.locate(uv)) as u32;
-        let leaves: Vec<u32> = pool.run(|| uv.par_iter().with_min_len(4096).map(leaf).collect());
+        let leaves: Vec<u32> = pool.run(|| uv.par_iter().with_min_len(4096).map(leaf).collect_vec());
         Self { uv, by_leaf: Lists::by_key(topology.leaves.len(), &leaves) }
     }
 

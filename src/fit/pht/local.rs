@@ -8,6 +8,7 @@ use super::data::Data;
 use crate::control::Pool;
 use crate::fit::common::FitError;
 use crate::lists::Lists;
+use crate::memory::ParallelCollectVec;
 use crate::tmesh::{TMesh, Topology, VertexKind};
 use glam::DVec2;
 use nalgebra::{Const, Dyn, OMatrix, SMatrix};
@@ -54,7 +55,7 @@ pub fn quadratic(data: &Data, mesh: &TMesh, topology: &Topology, pool: &Pool) ->
         let near = buckets.around(center, 0.0, QUADRATIC_NEIGHBOURS);
         polynomial_jet::<6>(data, &buckets, center, &near, |_| 1.0)
     };
-    let jets: Vec<Vec<f64>> = pool.run(|| buckets.uv.par_iter().with_min_len(64).map(at_datum).collect());
+    let jets: Vec<Vec<f64>> = pool.run(|| buckets.uv.par_iter().with_min_len(64).map(at_datum).collect_vec());
     let sites = buckets.uv.iter().enumerate().map(|(index, &uv)| Site { uv, index }).collect();
     let triangles = DelaunayTriangulation::<Site>::bulk_load_stable(sites).map_err(|_| FitError::Singular)?;
     let barycentric = triangles.barycentric();

@@ -11,6 +11,7 @@ use crate::fit::common::report::{FitReport, Goal, Remarks, StopReason};
 use crate::fit::common::rounds::{self, Next, Outcome, Rounds, Standing};
 use crate::fit::common::trims;
 use crate::fit::common::uniform::energy::FreeFunctions;
+use crate::memory;
 use crate::surface::pht::{PhtError, PhtSurface};
 use crate::surface::{Region, Surface, Trims};
 use crate::tmesh::{Cell, MAX_LEVEL, NodeId, TMesh, Topology};
@@ -176,7 +177,7 @@ impl<'a> Refinement<'a> {
         let errors = self.data.errors(&surface, pool);
         watch.check()?;
         let rough = self.rough_leaves(&surface, &errors, &by_leaf, pool);
-        Ok(Round { surface, errors, uv: self.data.uv.clone(), rough, smoothing })
+        Ok(Round { surface, errors, uv: memory::copied(&self.data.uv), rough, smoothing })
     }
 
     /// The leaves that miss the tolerance at a datum, or inside a triangle by more than its sagitta.

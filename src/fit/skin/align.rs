@@ -4,7 +4,10 @@
 //! turned round, and a closed one may begin at any of its points.
 
 use super::distinct::{Distinct, Order};
+use crate::memory;
 
+/// Less by more than rounding, so that of equal orders the given one stays.
+const CLEARLY_LESS: f64 = 1.0 - 1e-12;
 /// Shares of the length at which rows are compared.
 const SAMPLES: usize = 64;
 
@@ -35,8 +38,7 @@ pub(super) fn align(rows: &[Distinct], is_closed: bool, changes: bool) -> Alignm
         let mut best = (as_given, Order::default());
         for order in orders(row.count(), is_closed, if changes { row.count() } else { COARSE_SHIFTS }) {
             let distance = distance_sq(&before, &samples(row, &order));
-            // by more than rounding, so that of equal orders the given one stays
-            if distance < best.0 * (1.0 - 1e-12) {
+            if distance < best.0 * CLEARLY_LESS {
                 best = (distance, order);
             }
         }
@@ -47,7 +49,7 @@ pub(super) fn align(rows: &[Distinct], is_closed: bool, changes: bool) -> Alignm
             best = (as_given, Order::default());
         }
         before = if best.1 == Order::default() { given } else { samples(row, &best.1) };
-        alignment.orders.push(best.1);
+        memory::push(&mut alignment.orders, best.1);
     }
     alignment
 }
@@ -67,14 +69,17 @@ fn samples(row: &Distinct, order: &Order) -> Vec<f64> {
     let (parameters, _) = row.chord_parameters(order);
     let points = row.ordered(order);
     let dim = points.len() / parameters.len();
-    let (mut rows, mut l) = (Vec::with_capacity(SAMPLES * dim), 0);
+    let (mut rows, mut l) = (memory::with_capacity(SAMPLES * dim), 0);
     for k in 0..SAMPLES {
         let share = k as f64 / (SAMPLES - 1) as f64;
         while l + 2 < parameters.len() && parameters[l + 1] <= share {
             l += 1;
         }
         let x = (share - parameters[l]) / (parameters[l + 1] - parameters[l]);
-        rows.extend((0..dim).map(|c| (1.0 - x) * points[l * dim + c] + x * points[(l + 1) * dim + c]));
+        memory::extend(
+            &mut rows,
+            (0..dim).map(|c| (1.0 - x) * points[l * dim + c] + x * points[(l + 1) * dim + c]),
+        );
     }
     rows
 }

@@ -12,6 +12,7 @@ use crate::basis::basis_functions;
 use crate::control::Watch;
 use crate::knots::KnotVector;
 use crate::linalg::SymbolicCholesky;
+use crate::memory::{self, CollectVec, ParallelCollectVec};
 use rayon::prelude::*;
 use sprs::CsMat;
 
@@ -40,7 +41,7 @@ pub(super) fn loft(
             return Ok(Some((loft, worst)));
         }
         let Some(row) = next_knot(&errors, &inner) else { return Ok(None) };
-        inner.push(row);
+        memory::push(&mut inner, row);
         inner.sort_unstable();
     }
     Ok(None)
@@ -52,7 +53,7 @@ fn next_knot(errors: &[f64], inner: &[usize]) -> Option<usize> {
     let last = errors.len() - 1;
     let is_free =
         |&row: &usize| row >= 2 && row + 2 <= last && inner.iter().all(|&knot| knot.abs_diff(row) >= 2);
-    let mut free: Vec<usize> = (1..last).filter(is_free).collect();
+    let mut free: Vec<usize> = (1..last).filter(is_free).collect_vec();
     // a row beside a knot counts for the free one next to it
     let near = |row: usize| errors[row - 1].max(errors[row]).max(errors[row + 1]);
     free.sort_by(|&a, &b| near(b).total_cmp(&near(a)).then(errors[b].total_cmp(&errors[a])));
@@ -62,7 +63,7 @@ fn next_knot(errors: &[f64], inner: &[usize]) -> Option<usize> {
 /// Least squares over given knots; None where the rows do not determine it.
 fn least_squares(parameters: &[f64], inner: &[usize]) -> Result<Option<Loft>, SkinError> {
     let n = parameters.len() - 1;
-    let breaks: Vec<f64> = [0].iter().chain(inner).chain([&n]).map(|&row| parameters[row]).collect();
+    let breaks: Vec<f64> = [0].iter().chain(inner).chain([&n]).map(|&row| parameters[row]).collect_vec();
     let knots_v = KnotVector::clamped(&breaks, 3)?;
     let count = knots_v.basis_count();
     let rows: Vec<(usize, [f64; 4])> = parameters
@@ -72,10 +73,10 @@ fn least_squares(parameters: &[f64], inner: &[usize]) -> Result<Option<Loft>, Sk
             let basis = basis_functions(&knots_v, span, v);
             (span - 3, [basis[0], basis[1], basis[2], basis[3]])
         })
-        .collect();
+        .collect_vec();
     // the unknowns are the curves between the first and the last
     let free = count - 2;
-    let mut bands = vec![[0.0; 4]; free];
+    let mut bands = memory::filled([0.0; 4], free);
     for &(first, basis) in &rows[1..n] {
         for (a, b) in (0..4).flat_map(|a| (0..=a).map(move |b| (a, b))) {
             let (high, low) = (first + a, first + b);
@@ -85,10 +86,10 @@ fn least_squares(parameters: &[f64], inner: &[usize]) -> Result<Option<Loft>, Sk
         }
     }
     let matrix = lower_triangle(&bands);
-    let order: Vec<usize> = (0..free).collect();
+    let order: Vec<usize> = (0..free).collect_vec();
     let symbolic = SymbolicCholesky::new(&matrix.view(), Some(&order));
     let Ok(factor) = symbolic.factor(&matrix.view()) else { return Ok(None) };
-    let mut columns = vec![0.0; (n + 1) * free];
+    let mut columns = memory::filled(0.0, (n + 1) * free);
     for (row, column) in columns.chunks_mut(free).enumerate() {
         if row == 0 || row == n {
             // what a held row takes off the right sides
@@ -103,21 +104,21 @@ fn least_squares(parameters: &[f64], inner: &[usize]) -> Result<Option<Loft>, Sk
     }
     factor.solve(&mut columns, n + 1);
 
-    let mut weights: Vec<Combination> = vec![Vec::new(); count];
+    let mut weights: Vec<Combination> = memory::filled(Vec::new(), count);
     (weights[0], weights[count - 1]) = (vec![(0, 1.0)], vec![(n, 1.0)]);
     for (row, column) in columns.chunks(free).enumerate() {
         let least = LEAST_WEIGHT * column.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         for (j, &weight) in column.iter().enumerate().filter(|(_, weight)| weight.abs() > least) {
-            weights[j + 1].push((row, weight));
+            memory::push(&mut weights[j + 1], (row, weight));
         }
     }
     let reaches = |j: usize, row: usize| {
         let (first, basis) = &rows[row];
         j.checked_sub(*first).and_then(|r| basis.get(r)).is_some_and(|&n| n != 0.0)
     };
-    let checked_rows = (0..count).map(|j| (0..=n).filter(|&row| reaches(j, row)).collect()).collect();
+    let checked_rows = (0..count).map(|j| (0..=n).filter(|&row| reaches(j, row)).collect_vec()).collect_vec();
     let overshoot = overshoot(&weights);
-    Ok(Some(Loft { knots_v, parameters: parameters.to_vec(), weights, checked_rows, overshoot }))
+    Ok(Some(Loft { knots_v, parameters: memory::copied(parameters), weights, checked_rows, overshoot }))
 }
 
 /// Adds a row of basis functions to a right side that lacks the first and the last curve.
@@ -135,9 +136,9 @@ fn lower_triangle(bands: &[[f64; 4]]) -> CsMat<f64> {
     let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
     for (k, band) in bands.iter().enumerate() {
         let height = 4.min(n - k);
-        rows.extend(k..k + height);
+        memory::extend(&mut rows, k..k + height);
         values.extend_from_slice(&band[..height]);
-        starts.push(rows.len());
+        memory::push(&mut starts, rows.len());
     }
     CsMat::new_csc((n, n), starts, rows, values)
 }
@@ -147,15 +148,15 @@ fn row_errors(loft: &Loft, sources: &Sources) -> Vec<f64> {
     let of_row = |(row, &v): (usize, &f64)| {
         let span = loft.knots_v.span(v);
         let basis = basis_functions(&loft.knots_v, span, v);
-        let mut sum = vec![0.0; sources.row_count];
+        let mut sum = memory::filled(0.0, sources.row_count);
         for (r, n) in basis.iter().enumerate().take(4) {
             loft.weights[span - 3 + r].iter().for_each(|&(source, weight)| sum[source] += n * weight);
         }
         sum[row] -= 1.0;
-        let sum: Combination = sum.into_iter().enumerate().filter(|&(_, weight)| weight != 0.0).collect();
+        let sum: Combination = sum.into_iter().enumerate().filter(|&(_, weight)| weight != 0.0).collect_vec();
         let differences = sources.combine(&[&sum], sources.rows()[row].breaks()).swap_remove(0);
         let length = |row: &[f64]| row.iter().fold(0.0, |length: f64, x| length.hypot(*x));
         differences.chunks(sources.dim).map(length).fold(0.0, f64::max)
     };
-    loft.parameters.par_iter().enumerate().map(of_row).collect()
+    loft.parameters.par_iter().enumerate().map(of_row).collect_vec()
 }

@@ -6,22 +6,23 @@
 use super::loft::Loft;
 use super::sections::{Section, Sources};
 use crate::curve::Interpolant;
+use crate::memory;
 
 /// A bound of the distance between a control curve and what stands for it; NaN if a section is no cubic.
 pub(super) fn distance(curve: usize, loft: &Loft, sources: &Sources, stands_for_it: &Interpolant) -> f64 {
     let sum = &loft.weights[curve];
-    let mut u = stands_for_it.parameters().to_vec();
+    let mut u = memory::copied(stands_for_it.parameters());
     for &(source, _) in sum {
         match &sources.sections[source] {
             Section::Cubic(cubic) => u.extend(cubic.parameters()),
             Section::Other { .. } => return f64::NAN,
         }
     }
-    u.sort_by(f64::total_cmp);
+    u.sort_unstable_by(f64::total_cmp);
     u.dedup();
     let dim = sources.dim;
     let difference = |mut exact: Vec<f64>, eval: fn(&Interpolant, &[f64], &mut [f64])| {
-        let mut values = vec![0.0; exact.len()];
+        let mut values = memory::filled(0.0, exact.len());
         eval(stands_for_it, &u, &mut values);
         exact.iter_mut().zip(values).for_each(|(exact, x)| *exact -= x);
         exact

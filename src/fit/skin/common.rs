@@ -9,6 +9,7 @@ use super::sections::{Section, Sources};
 use super::{ControlCurves, SkinError};
 use crate::control::Watch;
 use crate::curve::{Curve, EndRule, Interpolant};
+use crate::memory;
 use rayon::prelude::*;
 
 /// Parameters nearer than this to a knot do not become knots.
@@ -43,7 +44,7 @@ pub(super) fn skin(
         sources.sections.iter().map(|section| Ok(interpolate(section, &knots, is_periodic)?.to_curve()?));
     let curves = curves.collect::<Result<Vec<Curve>, SkinError>>()?;
     let combined = loft.weights.iter().map(|combination| {
-        let mut points = vec![0.0; curves[0].control_points().len()];
+        let mut points = memory::filled(0.0, curves[0].control_points().len());
         for &(source, weight) in combination {
             points.iter_mut().zip(curves[source].control_points()).for_each(|(sum, x)| *sum += weight * x);
         }
@@ -60,22 +61,22 @@ pub(super) fn skin(
 
 fn interpolate(section: &Section, knots: &[f64], is_periodic: bool) -> Result<Interpolant, SkinError> {
     let dim = section.dim();
-    let mut points = vec![0.0; knots.len() * dim];
+    let mut points = memory::filled(0.0, knots.len() * dim);
     section.eval_rising(knots, &mut points);
-    let mut slopes = vec![0.0; 2 * dim];
+    let mut slopes = memory::filled(0.0, 2 * dim);
     section.slopes_rising(&[0.0, 1.0], &mut slopes);
     let (begin, end) = slopes.split_at(dim);
     let ends = if is_periodic { EndRule::Periodic } else { EndRule::Slopes { begin, end } };
-    Ok(Interpolant::new(dim, knots.to_vec(), points, ends)?)
+    Ok(Interpolant::new(dim, memory::copied(knots), points, ends)?)
 }
 
 /// The largest error of all rows at their data that are no knots, and its parameter.
 fn worst_datum(rows: &[Section], knots: &[f64], is_periodic: bool) -> Result<Option<(f64, f64)>, SkinError> {
     let of_row = |row: &Section| -> Result<Option<(f64, f64)>, SkinError> {
         let interpolant = interpolate(row, knots, is_periodic)?;
-        let mut exact = vec![0.0; row.breaks().len() * row.dim()];
+        let mut exact = memory::filled(0.0, row.breaks().len() * row.dim());
         row.eval_rising(row.breaks(), &mut exact);
-        let mut errors_sq = vec![0.0; row.breaks().len()];
+        let mut errors_sq = memory::filled(0.0, row.breaks().len());
         interpolant.distances_sq(row.breaks(), &exact, &mut errors_sq);
         let data = errors_sq.iter().zip(row.breaks()).map(|(error, &u)| (error.sqrt(), u));
         Ok(data.max_by(|a, b| a.0.total_cmp(&b.0)))

@@ -9,6 +9,7 @@ use super::SkinError;
 use super::loft::{Combination, Loft};
 use super::sections::Sources;
 use crate::curve::{EndRule, Interpolant};
+use crate::memory::{self, CollectVec};
 
 /// Candidates nearer than this to a knot are checked but do not become knots: spans would be lost in rounding.
 const LEAST_GAP: f64 = 1e-9;
@@ -47,10 +48,10 @@ pub(super) struct Rules {
 /// The values of control curves at the data of each row that they check: of row `l` first of the lowest curve.
 pub(super) fn row_values(row: usize, loft: &Loft, sources: &Sources) -> Vec<(usize, Vec<f64>)> {
     let curves: Vec<usize> =
-        (0..loft.curve_count()).filter(|&j| loft.checked_rows[j].contains(&row)).collect();
-    let sums: Vec<&Combination> = curves.iter().map(|&j| &loft.weights[j]).collect();
+        (0..loft.curve_count()).filter(|&j| loft.checked_rows[j].contains(&row)).collect_vec();
+    let sums: Vec<&Combination> = curves.iter().map(|&j| &loft.weights[j]).collect_vec();
     let values = sources.combine(&sums, sources.rows()[row].breaks());
-    curves.into_iter().zip(values).collect()
+    curves.into_iter().zip(values).collect_vec()
 }
 
 impl Target {
@@ -67,20 +68,23 @@ impl Target {
         for &row in &loft.checked_rows[curve] {
             let of_curve = of_rows[row].iter().filter(|(owner, _)| *owner == curve);
             for (_, values) in of_curve {
-                found.extend(sources.rows()[row].breaks().iter().copied().zip(values.chunks_exact(dim)));
+                memory::extend(
+                    &mut found,
+                    sources.rows()[row].breaks().iter().copied().zip(values.chunks_exact(dim)),
+                );
             }
         }
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
         found.dedup_by_key(|candidate| candidate.0);
         let between = between(&found, rules.extra_checks);
         let extra = sources.combine(&[&loft.weights[curve]], &between).swap_remove(0);
-        found.extend(between.iter().copied().zip(extra.chunks_exact(dim)));
+        memory::extend(&mut found, between.iter().copied().zip(extra.chunks_exact(dim)));
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
         let ends = sources.slopes(&loft.weights[curve], &[0.0, 1.0]);
         Self {
             dim,
-            u: found.iter().map(|candidate| candidate.0).collect(),
-            values: found.iter().flat_map(|candidate| candidate.1).copied().collect(),
+            u: found.iter().map(|candidate| candidate.0).collect_vec(),
+            values: found.iter().flat_map(|candidate| candidate.1).copied().collect_vec(),
             end_slopes: [ends[..dim].to_vec(), ends[dim..].to_vec()],
             is_periodic: rules.is_periodic,
         }
@@ -90,7 +94,7 @@ impl Target {
     pub fn approximate(&self, rules: &Rules) -> Result<Approximation, SkinError> {
         let tolerance_sq = rules.tolerance * rules.tolerance;
         let mut chosen = vec![0, self.u.len() - 1];
-        let mut errors_sq = vec![0.0; self.u.len()];
+        let mut errors_sq = memory::filled(0.0, self.u.len());
         let mut passes = 0;
         let (interpolant, is_stalled) = loop {
             passes += 1;
@@ -102,7 +106,7 @@ impl Target {
             if added.is_empty() {
                 break (interpolant, true);
             }
-            chosen.extend(added);
+            memory::extend(&mut chosen, added);
             chosen.sort_unstable();
         };
         if !rules.removal || is_stalled {
@@ -115,9 +119,12 @@ impl Target {
     }
 
     fn interpolate(&self, chosen: &[usize]) -> Result<Interpolant, SkinError> {
-        let parameters = chosen.iter().map(|&k| self.u[k]).collect();
-        let points =
-            chosen.iter().flat_map(|&k| &self.values[k * self.dim..(k + 1) * self.dim]).copied().collect();
+        let parameters = chosen.iter().map(|&k| self.u[k]).collect_vec();
+        let points = chosen
+            .iter()
+            .flat_map(|&k| &self.values[k * self.dim..(k + 1) * self.dim])
+            .copied()
+            .collect_vec();
         let [begin, end] = &self.end_slopes;
         let ends = if self.is_periodic { EndRule::Periodic } else { EndRule::Slopes { begin, end } };
         Ok(Interpolant::new(self.dim, parameters, points, ends)?)
@@ -144,9 +151,9 @@ impl Target {
                 .max_by(|&a, &b| errors_sq[a].total_cmp(&errors_sq[b]))
         });
         if batch {
-            return of_spans.collect();
+            return of_spans.collect_vec();
         }
-        of_spans.max_by(|&a, &b| errors_sq[a].total_cmp(&errors_sq[b])).into_iter().collect()
+        of_spans.max_by(|&a, &b| errors_sq[a].total_cmp(&errors_sq[b])).into_iter().collect_vec()
     }
 
     /// Removes the knots that the tolerance does not need, the least harmful first.
@@ -157,7 +164,7 @@ impl Target {
         tolerance_sq: f64,
     ) -> Result<(), SkinError> {
         let mut harm_without = |chosen: &[usize], knot: usize| -> Result<f64, SkinError> {
-            let rest: Vec<usize> = chosen.iter().copied().filter(|&k| k != knot).collect();
+            let rest: Vec<usize> = chosen.iter().copied().filter(|&k| k != knot).collect_vec();
             Ok(self.measure(&self.interpolate(&rest)?, errors_sq))
         };
         let inner = chosen[1..chosen.len() - 1].to_vec();
@@ -181,5 +188,5 @@ fn between(candidates: &[(f64, &[f64])], count: usize) -> Vec<f64> {
     let parts = move |(from, to): (f64, f64)| {
         (1..=count).map(move |k| from + (to - from) * k as f64 / (count + 1) as f64)
     };
-    wide.flat_map(parts).collect()
+    wide.flat_map(parts).collect_vec()
 }

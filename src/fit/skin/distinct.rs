@@ -1,5 +1,7 @@
 //! The different places of a row, and the order in which they are taken.
 
+use crate::memory::{self, CollectVec};
+
 /// In which order the places of a row are taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Order {
@@ -36,7 +38,8 @@ pub(super) struct Distinct<'a> {
 
 impl<'a> Distinct<'a> {
     pub fn new(points: &'a [f64], dim: usize, merge_distance: f64, is_closed: bool) -> Self {
-        let mut row = Self { points, dim, kept: vec![0], owner: vec![0; points.len() / dim], is_closed };
+        let mut row =
+            Self { points, dim, kept: vec![0], owner: memory::filled(0, points.len() / dim), is_closed };
         for k in 1..row.owner.len() {
             let last = row.kept[row.kept.len() - 1];
             if row.distance(last, k) > merge_distance {
@@ -75,7 +78,9 @@ impl<'a> Distinct<'a> {
     /// The same of other vectors than the points.
     pub fn ordered_of(&self, vectors: &[f64], order: &Order) -> Vec<f64> {
         let places = order.places(self.count(), self.is_closed || self.count() == 1);
-        places.flat_map(|place| vectors[self.kept[place] * self.dim..][..self.dim].iter().copied()).collect()
+        places
+            .flat_map(|place| vectors[self.kept[place] * self.dim..][..self.dim].iter().copied())
+            .collect_vec()
     }
 
     /// Shares of the chord length at the points of [`Distinct::ordered`], and the length.
@@ -83,7 +88,7 @@ impl<'a> Distinct<'a> {
         if self.count() == 1 {
             return (vec![0.0, 1.0], 0.0);
         }
-        let places: Vec<usize> = order.places(self.count(), self.is_closed).collect();
+        let places: Vec<usize> = order.places(self.count(), self.is_closed).collect_vec();
         let mut parameters = vec![0.0];
         for pair in places.windows(2) {
             let step = self.distance(self.kept[pair[0]], self.kept[pair[1]]);

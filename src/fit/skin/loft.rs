@@ -16,6 +16,7 @@ use super::SkinError;
 use crate::basis::basis_functions;
 use crate::knots::KnotVector;
 use crate::linalg::Tridiagonal;
+use crate::memory::{self, CollectVec};
 
 /// A sum of sources: their numbers, rising, and weights.
 pub(super) type Combination = Vec<(usize, f64)>;
@@ -49,7 +50,8 @@ impl Loft {
         let v = &parameters;
         let n = v.len() - 1;
         let knots_v = KnotVector::clamped(v, 3)?;
-        let (mut lower, mut diagonal, mut upper) = (vec![0.0; n + 3], vec![1.0; n + 3], vec![0.0; n + 3]);
+        let (mut lower, mut diagonal, mut upper) =
+            (memory::filled(0.0, n + 3), memory::filled(1.0, n + 3), memory::filled(0.0, n + 3));
         for j in 2..=n {
             let basis = basis_functions(&knots_v, j + 2, v[j - 1]);
             (lower[j], diagonal[j], upper[j]) = (basis[0], basis[1], basis[2]);
@@ -59,32 +61,32 @@ impl Loft {
         let (begin, end) = (-(v[1] - v[0]) / (second - v[0]), -(v[n] - v[n - 1]) / (v[n] - last_but_one));
         let third = length / (v[n] - v[0]) / 3.0;
         // right sides: for each source the equations that it stands in, and its factor there
-        let mut sides: Vec<Vec<(usize, f64)>> = (0..=n).map(|l| vec![(l + 1, 1.0)]).collect();
+        let mut sides: Vec<Vec<(usize, f64)>> = (0..=n).map(|l| vec![(l + 1, 1.0)]).collect_vec();
         sides[0] = vec![(0, 1.0)];
         sides[n] = vec![(n + 2, 1.0)];
         if has_tangents[0] {
             (lower[1], diagonal[1]) = (-1.0, 1.0);
-            sides.push(vec![(1, third * (v[1] - v[0]))]);
+            memory::push(&mut sides, vec![(1, third * (v[1] - v[0]))]);
         } else {
             (diagonal[1], upper[1]) = (1.0 - begin, begin);
-            sides[0].push((1, 1.0));
+            memory::push(&mut sides[0], (1, 1.0));
         }
         if has_tangents[1] {
             (diagonal[n + 1], upper[n + 1]) = (1.0, -1.0);
-            sides.push(vec![(n + 1, third * (v[n - 1] - v[n]))]);
+            memory::push(&mut sides, vec![(n + 1, third * (v[n - 1] - v[n]))]);
         } else {
             (lower[n + 1], diagonal[n + 1]) = (end, 1.0 - end);
-            sides[n].push((n + 1, 1.0));
+            memory::push(&mut sides[n], (n + 1, 1.0));
         }
         let system = Tridiagonal::new(lower, &diagonal, upper);
         let weights = columns(&system, n + 3, &sides, |equation| equation);
         // the rows whose knots a curve may need: those under its basis function, and one more at the ends
         let rows = |j: usize| match j {
-            0 | 1 => (0..=1.min(n)).collect(),
-            _ if j > n => (n - 1..=n).collect(),
-            _ => (j - 2..=j.min(n)).collect(),
+            0 | 1 => (0..=1.min(n)).collect_vec(),
+            _ if j > n => (n - 1..=n).collect_vec(),
+            _ => (j - 2..=j.min(n)).collect_vec(),
         };
-        let checked_rows = (0..n + 3).map(rows).collect();
+        let checked_rows = (0..n + 3).map(rows).collect_vec();
         Ok(Self { overshoot: overshoot(&weights), knots_v, parameters, weights, checked_rows })
     }
 
@@ -97,22 +99,22 @@ impl Loft {
         let (v, n) = (&parameters, parameters.len() - 1);
         let ends = |at: usize| [v[at]; 4];
         let inner = v[1..n].iter().flat_map(|&t| [t, t]);
-        let knots = ends(0).into_iter().chain(inner).chain(ends(n)).collect();
+        let knots = ends(0).into_iter().chain(inner).chain(ends(n)).collect_vec();
         let knots_v = KnotVector::new(knots, 3)?;
         let slope = |l: usize, step: f64| vec![(l, 1.0), (n + 1 + l, step / 3.0)];
         let mut weights = vec![vec![(0, 1.0)]];
         for l in 0..=n {
             if l > 0 {
-                weights.push(slope(l, v[l - 1] - v[l]));
+                memory::push(&mut weights, slope(l, v[l - 1] - v[l]));
             }
             if l < n {
-                weights.push(slope(l, v[l + 1] - v[l]));
+                memory::push(&mut weights, slope(l, v[l + 1] - v[l]));
             }
         }
-        weights.push(vec![(n, 1.0)]);
+        memory::push(&mut weights, vec![(n, 1.0)]);
         // the slopes of a row follow its neighbours too
-        let near = |l: usize| (l.saturating_sub(1)..=(l + 1).min(n)).collect();
-        let checked_rows = (0..2 * n + 2).map(|j| near(j / 2)).collect();
+        let near = |l: usize| (l.saturating_sub(1)..=(l + 1).min(n)).collect_vec();
+        let checked_rows = (0..2 * n + 2).map(|j| near(j / 2)).collect_vec();
         Ok(Self { knots_v, parameters, weights, checked_rows, overshoot: 1.0 })
     }
 
@@ -124,19 +126,20 @@ impl Loft {
             let l = k + 2 * count - 3;
             parameters[l % count] + period * ((l / count) as f64 - 2.0)
         };
-        let knots_v = KnotVector::new((0..count + 7).map(wrapped).collect(), 3)?;
+        let knots_v = KnotVector::new((0..count + 7).map(wrapped).collect_vec(), 3)?;
         // equation l is row l, and its middle unknown is curve l + 1
         let rows: Vec<[f64; 3]> = (0..count)
             .map(|l| {
                 let basis = basis_functions(&knots_v, l + 3, parameters[l]);
                 [basis[0], basis[1], basis[2]]
             })
-            .collect();
-        let part = |k: usize| rows.iter().map(|row| row[k]).collect();
+            .collect_vec();
+        let part = |k: usize| rows.iter().map(|row| row[k]).collect_vec();
         let system = Tridiagonal::cyclic(part(0), part(1), part(2));
-        let sides: Vec<Vec<(usize, f64)>> = (0..count).map(|l| vec![(l, 1.0)]).collect();
+        let sides: Vec<Vec<(usize, f64)>> = (0..count).map(|l| vec![(l, 1.0)]).collect_vec();
         let weights = columns(&system, count, &sides, |equation| (equation + 1) % count);
-        let checked_rows = (0..count).map(|j| [2, 1, 0].map(|k| (j + count - k) % count).to_vec()).collect();
+        let checked_rows =
+            (0..count).map(|j| [2, 1, 0].map(|k| (j + count - k) % count).to_vec()).collect_vec();
         Ok(Self { overshoot: overshoot(&weights), knots_v, parameters, weights, checked_rows })
     }
 
@@ -159,15 +162,15 @@ fn columns(
     sides: &[Vec<(usize, f64)>],
     unknown: impl Fn(usize) -> usize,
 ) -> Vec<Combination> {
-    let mut weights = vec![Vec::new(); count];
-    let mut column = vec![0.0; count];
+    let mut weights = memory::filled(Vec::new(), count);
+    let mut column = memory::filled(0.0, count);
     for (source, side) in sides.iter().enumerate() {
         column.fill(0.0);
         side.iter().for_each(|&(equation, factor)| column[equation] += factor);
         system.solve(&mut column, 1);
         let least = LEAST_WEIGHT * column.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         for (equation, &weight) in column.iter().enumerate().filter(|(_, weight)| weight.abs() > least) {
-            weights[unknown(equation)].push((source, weight));
+            memory::push(&mut weights[unknown(equation)], (source, weight));
         }
     }
     weights

@@ -36,6 +36,7 @@ use crate::control::{Control, Stage, Watch};
 use crate::curve::Curve;
 use crate::fit::common::errors::data_errors;
 use crate::fit::common::report::{FitReport, Goal, Remarks, StopReason};
+use crate::memory::{self, CollectVec};
 use crate::surface::Surface;
 use crate::surface::tspline::TSplineSurface;
 use control_curve::{Approximation, Rules, Target, row_values};
@@ -136,7 +137,7 @@ fn skin_data(
     let mut solved = control.watch(|_, watch| solve(data, &steps, options, goal.tolerance, watch))??;
     let surface = assemble(&mut solved)?;
     let place = |&(row, u): &(usize, f64)| DVec2::new(u, solved.loft.parameters[row]);
-    let parameters: Vec<DVec2> = data.places.iter().map(place).collect();
+    let parameters: Vec<DVec2> = data.places.iter().map(place).collect_vec();
     let errors = data_errors(&surface, &parameters, &data.values, control.pool());
     control.report(1.0, errors.max)?;
 
@@ -237,7 +238,7 @@ impl Steps {
                 return Ok(Self { steps, is_mean: false });
             }
         }
-        let shares: Vec<f64> = (0..MEAN_SAMPLES).map(|k| k as f64 / (MEAN_SAMPLES - 1) as f64).collect();
+        let shares: Vec<f64> = (0..MEAN_SAMPLES).map(|k| k as f64 / (MEAN_SAMPLES - 1) as f64).collect_vec();
         let steps = distances(rows, &shares, options.closed_v);
         let least = IDENTICAL * data.bounds.diagonal();
         match steps.iter().position(|&step| !(step > least)) {
@@ -273,13 +274,13 @@ const MEAN_SAMPLES: usize = 33;
 /// Mean distances of successive rows at some shares of their lengths.
 fn distances(rows: &[Section], shares: &[f64], is_closed: bool) -> Vec<f64> {
     let dim = rows[0].dim();
-    let mut values: Vec<Vec<f64>> = vec![vec![0.0; shares.len() * dim]; rows.len()];
+    let mut values: Vec<Vec<f64>> = memory::filled(memory::filled(0.0, shares.len() * dim), rows.len());
     rows.iter().zip(&mut values).for_each(|(row, values)| row.eval_rising(shares, values));
     let length = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0, |length: f64, (a, b)| length.hypot(a - b));
     let mean = |a: &[f64], b: &[f64]| {
         a.chunks(dim).zip(b.chunks(dim)).map(|(a, b)| length(a, b)).sum::<f64>() / shares.len() as f64
     };
-    let mut steps: Vec<f64> = values.windows(2).map(|pair| mean(&pair[0], &pair[1])).collect();
+    let mut steps: Vec<f64> = values.windows(2).map(|pair| mean(&pair[0], &pair[1])).collect_vec();
     if is_closed {
         steps.push(mean(&values[values.len() - 1], &values[0]));
     }
@@ -336,7 +337,7 @@ fn control_curves(
         })
         .collect::<Result<Vec<(Curve, Approximation, f64)>, SkinError>>()?;
     let mut all = ControlCurves {
-        curves: Vec::with_capacity(found.len()),
+        curves: memory::with_capacity(found.len()),
         passes: 0,
         removed_knots: 0,
         certified_distance: if certify { 0.0 } else { f64::NAN },

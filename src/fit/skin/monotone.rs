@@ -14,32 +14,33 @@
 use super::SkinError;
 use super::sections::{Section, Sources};
 use crate::curve::{EndRule, Interpolant};
+use crate::memory::{self, CollectVec};
 
 /// Adds the slopes of all rows, in their order, to the sources.
 pub(super) fn add_slopes(sources: &mut Sources, v: &[f64], is_periodic: bool) -> Result<(), SkinError> {
     let slopes = (0..v.len()).map(|row| slopes_of(row, sources.rows(), v, is_periodic));
     let slopes = slopes.collect::<Result<Vec<_>, _>>()?;
-    sources.sections.extend(slopes);
+    memory::extend(&mut sources.sections, slopes);
     Ok(())
 }
 
 fn slopes_of(row: usize, rows: &[Section], v: &[f64], is_periodic: bool) -> Result<Section, SkinError> {
     let near = &rows[row.saturating_sub(1)..(row + 2).min(rows.len())];
-    let mut u: Vec<f64> = near.iter().flat_map(|section| section.breaks()).copied().collect();
-    u.sort_by(f64::total_cmp);
+    let mut u: Vec<f64> = near.iter().flat_map(|section| section.breaks()).copied().collect_vec();
+    u.sort_unstable_by(f64::total_cmp);
     u.dedup_by(|b, a| *b - *a < LEAST_GAP);
     if let Some(last) = u.last_mut() {
         *last = 1.0;
     }
     let dim = rows[row].dim();
     let values = |section: &Section| {
-        let mut values = vec![0.0; u.len() * dim];
+        let mut values = memory::filled(0.0, u.len() * dim);
         section.eval_rising(&u, &mut values);
         values
     };
     let chord = |l: usize| -> Vec<f64> {
         let (from, to) = (values(&rows[l]), values(&rows[l + 1]));
-        from.iter().zip(to).map(|(a, b)| (b - a) / (v[l + 1] - v[l])).collect()
+        from.iter().zip(to).map(|(a, b)| (b - a) / (v[l + 1] - v[l])).collect_vec()
     };
     let last = rows.len() - 1;
     let step = |l: usize| v[l + 1] - v[l];
@@ -50,7 +51,7 @@ fn slopes_of(row: usize, rows: &[Section], v: &[f64], is_periodic: bool) -> Resu
         _ => {
             let (before, after) = (chord(row - 1), chord(row));
             let steps = [step(row - 1), step(row)];
-            before.iter().zip(&after).map(|(&d, &e)| inner_slope(d, e, steps)).collect()
+            before.iter().zip(&after).map(|(&d, &e)| inner_slope(d, e, steps)).collect_vec()
         }
     };
     let ends = if is_periodic { EndRule::Periodic } else { EndRule::Parabolic };
@@ -72,5 +73,5 @@ fn end_slopes(outer: &[f64], inner: &[f64], [h, k]: [f64; 2]) -> Vec<f64> {
         // between none and three chords, on the chord's side
         if d > 0.0 { parabola.clamp(0.0, 3.0 * d) } else { parabola.clamp(3.0 * d, 0.0) }
     };
-    outer.iter().zip(inner).map(slope).collect()
+    outer.iter().zip(inner).map(slope).collect_vec()
 }

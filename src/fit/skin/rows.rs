@@ -9,6 +9,7 @@ use super::sections::{Section, Sources};
 use super::{SectionEnds, SkinError, SkinOptions};
 use crate::curve::{Curve, CurveError, EndRule, Interpolant};
 use crate::geometry::Bounds;
+use crate::memory::{self, CollectVec};
 
 /// Rows of points: `counts` says how many each has.
 #[derive(Debug, Clone, Copy)]
@@ -50,7 +51,7 @@ impl Data {
         let merge_distance = MERGE_DISTANCE * bounds.diagonal();
         let distinct: Vec<Distinct> = (0..counts.len())
             .map(|j| Distinct::new(row_points(j), dim, merge_distance, options.closed))
-            .collect();
+            .collect_vec();
         let alignment = align::align(&distinct, options.closed, options.align);
         let is_periodic = match options.ends {
             SectionEnds::Auto => options.closed,
@@ -58,7 +59,7 @@ impl Data {
             _ => false,
         };
         let ends = Ends::new(options, counts.len(), dim, is_periodic)?;
-        let (mut sections, mut places) = (Vec::new(), vec![(0, 0.0); starts[counts.len()]]);
+        let (mut sections, mut places) = (Vec::new(), memory::filled((0, 0.0), starts[counts.len()]));
         for (j, (row, order)) in distinct.iter().zip(&alignment.orders).enumerate() {
             let (parameters, length) = row.chord_parameters(order);
             for (k, &owner) in row.owner.iter().enumerate() {
@@ -66,7 +67,7 @@ impl Data {
             }
             let fail = |error| SkinError::Row { row: j, error };
             let section = section(row.ordered(order), parameters, ends.rule(j, order, length).as_rule());
-            sections.push(section.map_err(fail)?);
+            memory::push(&mut sections, section.map_err(fail)?);
         }
         let row_count = counts.len();
         let mut has_tangents = [false; 2];
@@ -79,12 +80,12 @@ impl Data {
             let rule = if is_periodic { EndRule::Periodic } else { EndRule::Parabolic };
             let fail = |error| SkinError::Row { row: j, error };
             let along = row.chord_parameters(order).0;
-            sections.push(section(row.ordered_of(tangents, order), along, rule).map_err(fail)?);
+            memory::push(&mut sections, section(row.ordered_of(tangents, order), along, rule).map_err(fail)?);
             has_tangents[end] = true;
         }
         Ok(Self {
             sources: Sources { sections, row_count, dim },
-            values: points.to_vec(),
+            values: memory::copied(points),
             places,
             bounds,
             has_tangents,
@@ -109,7 +110,7 @@ impl Data {
             let start = values.len();
             values.resize(start + section.breaks().len() * dim, 0.0);
             section.eval_rising(section.breaks(), &mut values[start..]);
-            places.extend(section.breaks().iter().map(|&u| (j, u)));
+            memory::extend(&mut places, section.breaks().iter().map(|&u| (j, u)));
         }
         let row_count = curves.len();
         let is_periodic = options.closed;
@@ -121,8 +122,11 @@ impl Data {
             let breaks = sections[j].breaks().to_vec();
             check_vectors(tangents, breaks.len(), dim, ["begin_tangents", "end_tangents"][end])?;
             let rule = if is_periodic { EndRule::Periodic } else { EndRule::Parabolic };
-            let across = Interpolant::new(dim, breaks, tangents.to_vec(), rule);
-            sections.push(Section::Cubic(across.map_err(|error| SkinError::Row { row: j, error })?));
+            let across = Interpolant::new(dim, breaks, memory::copied(tangents), rule);
+            memory::push(
+                &mut sections,
+                Section::Cubic(across.map_err(|error| SkinError::Row { row: j, error })?),
+            );
             has_tangents[end] = true;
         }
         Ok(Self {
@@ -237,7 +241,7 @@ impl<'a> Ends<'a> {
                     let k = if order.is_reversed { 1 - k } else { k };
                     let factor = if order.is_reversed { -length } else { length };
                     let start = (2 * row + k) * self.dim;
-                    slopes[start..start + self.dim].iter().map(|x| factor * x).collect()
+                    slopes[start..start + self.dim].iter().map(|x| factor * x).collect_vec()
                 };
                 RowEnds::Slopes([slope(0), slope(1)])
             }

@@ -3,6 +3,7 @@
 use super::loft::Combination;
 use crate::curve::{Curve, CurveError, Interpolant};
 use crate::knots::KnotVector;
+use crate::memory::{self, CollectVec};
 
 /// A curve over [0, 1] that a row is replaced by.
 #[derive(Debug, Clone)]
@@ -18,18 +19,19 @@ impl Section {
     pub fn of_curve(curve: &Curve) -> Result<Self, CurveError> {
         let (from, to) = curve.knots().domain();
         let (degree, dim) = (curve.knots().degree(), curve.dim());
-        let moved = curve.knots().knots().iter().map(|t| (t - from) / (to - from)).collect();
+        let moved = curve.knots().knots().iter().map(|t| (t - from) / (to - from)).collect_vec();
         let knots = KnotVector::new(moved, degree)?;
         let breaks = knots.breaks();
         let is_smooth = breaks[1..breaks.len() - 1].iter().all(|&t| knots.multiplicity(t) < degree);
-        let curve = Curve::new(dim, knots, curve.control_points().to_vec())?;
+        let curve = Curve::new(dim, knots, memory::copied(curve.control_points()))?;
         if degree > 3 || !is_smooth {
             return Ok(Self::Other { curve, breaks });
         }
-        let mut rows = vec![0.0; 2 * dim * breaks.len()];
+        let mut rows = memory::filled(0.0, 2 * dim * breaks.len());
         curve.eval_rows(&breaks, 1, &mut rows);
-        let part =
-            |k: usize| rows.chunks(2 * dim).flat_map(|row| &row[k * dim..(k + 1) * dim]).copied().collect();
+        let part = |k: usize| {
+            rows.chunks(2 * dim).flat_map(|row| &row[k * dim..(k + 1) * dim]).copied().collect_vec()
+        };
         Ok(Self::Cubic(Interpolant::with_slopes(dim, breaks, part(0), part(1))?))
     }
 
@@ -63,7 +65,7 @@ impl Section {
             Self::Cubic(cubic) => cubic.slopes_rising(u, out),
             Self::Other { curve, .. } => {
                 let dim = curve.dim();
-                let mut rows = vec![0.0; 2 * dim * u.len()];
+                let mut rows = memory::filled(0.0, 2 * dim * u.len());
                 curve.eval_rows(u, 1, &mut rows);
                 rows.chunks(2 * dim)
                     .zip(out.chunks_mut(dim))
@@ -103,9 +105,9 @@ impl Sources {
         eval: impl Fn(&Section, &[f64], &mut [f64]),
     ) -> Vec<Vec<f64>> {
         let len = u.len() * self.dim;
-        let mut results = vec![vec![0.0; len]; sums.len()];
-        let mut next = vec![0; sums.len()];
-        let mut values = vec![0.0; len];
+        let mut results = memory::filled(memory::filled(0.0, len), sums.len());
+        let mut next = memory::filled(0, sums.len());
+        let mut values = memory::filled(0.0, len);
         for (source, section) in self.sections.iter().enumerate() {
             let mut is_evaluated = false;
             for ((sum, next), result) in sums.iter().zip(&mut next).zip(&mut results) {

@@ -37,6 +37,7 @@ use super::common::{
 use crate::control::{Control, Pool};
 use crate::geometry::Bounds;
 use crate::linalg::Conditions;
+use crate::memory::CollectVec;
 use crate::mesh::Mesh;
 use crate::surface::tensor::TensorSurface;
 use crate::surface::{Domain, Region, Surface};
@@ -79,7 +80,7 @@ impl outliers::Fitted for TensorFit {
 
 /// Fits the shape of a mesh. Without parameters the mesh is parameterized first.
 pub fn fit_mesh(mesh: &Mesh, options: &TensorOptions, control: &mut Control) -> Result<TensorFit, FitError> {
-    let values: Vec<f64> = mesh.points().iter().flat_map(|p| p.to_array()).collect();
+    let values: Vec<f64> = mesh.points().iter().flat_map(|p| p.to_array()).collect_vec();
     fit_on_mesh(mesh, &values, 3, true, options, control)
 }
 

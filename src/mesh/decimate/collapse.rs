@@ -17,6 +17,7 @@
 use super::features::{Features, Role, normal};
 use super::quadric::Quadric;
 use crate::geometry::{Orientation, orientation};
+use crate::memory::{self, CollectVec};
 use glam::{DVec2, DVec3};
 
 /// Cosine of the largest angle by which one collapse may turn a triangle: 60 degrees. Half turns would fold
@@ -62,15 +63,15 @@ impl<'a> Collapsing<'a> {
         map: Option<(&'a [DVec2], Orientation)>,
         features: Features,
     ) -> Self {
-        let mut around = vec![Vec::new(); points.len()];
-        let mut quadrics = vec![Quadric::ZERO; points.len()];
-        let mut areas = vec![0.0; points.len()];
+        let mut around = memory::filled(Vec::new(), points.len());
+        let mut quadrics = memory::filled(Quadric::ZERO, points.len());
+        let mut areas = memory::filled(0.0, points.len());
         for (t, triangle) in triangles.iter().enumerate() {
             let double_area = normal(&points, triangle);
             let (unit, area) = (double_area.normalize_or_zero(), 0.5 * double_area.length());
             let plane = Quadric::plane(points[triangle[0] as usize], unit, area);
             for node in triangle.map(|node| node as usize) {
-                around[node].push(t as u32);
+                memory::push(&mut around[node], t as u32);
                 quadrics[node] = quadrics[node] + plane;
                 areas[node] += area;
             }
@@ -85,8 +86,8 @@ impl<'a> Collapsing<'a> {
                 }
             }
         }
-        let triangles = triangles.iter().copied().map(Some).collect();
-        let live = around.iter().map(|triangles| triangles.len() as u32).collect();
+        let triangles = triangles.iter().copied().map(Some).collect_vec();
+        let live = around.iter().map(|triangles| triangles.len() as u32).collect_vec();
         Self { points, map, triangles, around, live, quadrics, areas, features }
     }
 
@@ -113,7 +114,7 @@ impl<'a> Collapsing<'a> {
     /// Nodes joined to a node by edges, in increasing order.
     pub fn neighbours(&self, node: u32) -> Vec<u32> {
         let mut nodes: Vec<u32> =
-            self.fan(node).flat_map(|(_, triangle)| triangle).filter(|&n| n != node).collect();
+            self.fan(node).flat_map(|(_, triangle)| triangle).filter(|&n| n != node).collect_vec();
         nodes.sort_unstable();
         nodes.dedup();
         nodes
@@ -146,7 +147,7 @@ impl<'a> Collapsing<'a> {
         let are_joined =
             |a: u32, b: u32| self.smaller_fan(&[a, b]).any(|other| other.contains(&a) && other.contains(&b));
         let beside = self.neighbours(from).into_iter();
-        let common: Vec<u32> = beside.filter(|&node| node != to && are_joined(node, to)).collect();
+        let common: Vec<u32> = beside.filter(|&node| node != to && are_joined(node, to)).collect_vec();
         let at_edge = self.fan(from).filter(|(_, triangle)| triangle.contains(&to)).count();
         // one triangle less on both sides of the edge, or chains would lie upon one another
         let is_feature = |a: u32, b: u32| self.features.neighbours[a as usize].contains(&b);
@@ -202,7 +203,7 @@ impl<'a> Collapsing<'a> {
                 nodes.into_iter().for_each(|node| self.forget_one(node));
             } else {
                 triangle.iter_mut().filter(|node| **node == from).for_each(|node| *node = to);
-                self.around[v].push(t);
+                memory::push(&mut self.around[v], t);
                 self.live[v] += 1;
             }
         }
@@ -215,7 +216,7 @@ impl<'a> Collapsing<'a> {
                 ends.retain(|&node| node != from);
             } else {
                 ends.iter_mut().filter(|node| **node == from).for_each(|node| *node = to);
-                self.features.neighbours[v].push(end);
+                memory::push(&mut self.features.neighbours[v], end);
             }
         }
     }

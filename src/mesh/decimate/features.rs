@@ -8,6 +8,7 @@
 //! ```
 
 use super::{DecimateError, DecimateOptions};
+use crate::memory::{self, CollectVec};
 use crate::mesh::{HalfEdge, Mesh};
 use glam::{DVec2, DVec3};
 
@@ -33,13 +34,13 @@ pub struct Features {
 impl Features {
     pub fn of(mesh: &Mesh, options: &DecimateOptions) -> Result<Self, DecimateError> {
         let is_sharp = sharp_edges(mesh, options)?;
-        let mut neighbours = vec![Vec::new(); mesh.points().len()];
+        let mut neighbours = memory::filled(Vec::new(), mesh.points().len());
         for (edge, &is_sharp) in half_edges(mesh).zip(&is_sharp) {
             let is_boundary = mesh.topology().twin(edge).is_none();
             let [from, to] = [edge.origin(mesh.triangles()), edge.target(mesh.triangles())];
             if is_boundary || (is_sharp && from < to) {
-                neighbours[from as usize].push(to);
-                neighbours[to as usize].push(from);
+                memory::push(&mut neighbours[from as usize], to);
+                memory::push(&mut neighbours[to as usize], from);
             }
         }
         let mut roles: Vec<Role> = neighbours
@@ -50,7 +51,7 @@ impl Features {
                 [before, after] if !turns(mesh, [before, node as u32, after], options) => Role::Chain,
                 _ => Role::Corner,
             })
-            .collect();
+            .collect_vec();
         mesh.pinched_nodes().iter().for_each(|&node| roles[node as usize] = Role::Corner);
         Ok(Self { neighbours, roles })
     }
@@ -62,7 +63,7 @@ pub fn half_edges(mesh: &Mesh) -> impl Iterator<Item = HalfEdge> {
 
 /// Edges inside the mesh that are given as sharp, or whose triangles turn by more than the angle.
 fn sharp_edges(mesh: &Mesh, options: &DecimateOptions) -> Result<Vec<bool>, DecimateError> {
-    let mut is_sharp = vec![false; 3 * mesh.triangles().len()];
+    let mut is_sharp = memory::filled(false, 3 * mesh.triangles().len());
     let count = mesh.points().len();
     let found = options.sharp_angle.map(|angle| mesh.sharp_edges(angle)).unwrap_or_default();
     for (index, &nodes) in options.sharp_edges.iter().chain(&found).enumerate() {
@@ -83,7 +84,7 @@ impl Mesh {
     /// Edges inside the mesh whose triangles turn by more than an angle in radians, as nodes, the smaller first, in
     /// increasing order. Edges of triangles without area are not among them.
     pub fn sharp_edges(&self, angle: f64) -> Vec<[u32; 2]> {
-        let normals: Vec<DVec3> = self.triangles().iter().map(|t| normal(self.points(), t)).collect();
+        let normals: Vec<DVec3> = self.triangles().iter().map(|t| normal(self.points(), t)).collect_vec();
         let is_sharp = |edge: &HalfEdge| {
             self.topology().twin(*edge).filter(|twin| twin > edge).is_some_and(|twin| {
                 let [m, n] = [edge.triangle(), twin.triangle()].map(|t| normals[t]);
@@ -94,7 +95,7 @@ impl Mesh {
             let [a, b] = [edge.origin(self.triangles()), edge.target(self.triangles())];
             [a.min(b), a.max(b)]
         };
-        let mut edges: Vec<[u32; 2]> = half_edges(self).filter(is_sharp).map(nodes).collect();
+        let mut edges: Vec<[u32; 2]> = half_edges(self).filter(is_sharp).map(nodes).collect_vec();
         edges.sort_unstable();
         edges
     }

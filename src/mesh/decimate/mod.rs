@@ -22,6 +22,7 @@ use super::{Mesh, Piece};
 use crate::control::{Cancelled, Control, Stage};
 use crate::failure::{Classify, ErrorKind};
 use crate::geometry::{Orientation, orientation};
+use crate::memory::{self, CollectVec};
 use collapse::Collapsing;
 use features::Features;
 use glam::{DVec2, DVec3};
@@ -228,7 +229,7 @@ fn side(triangles: &[[u32; 3]], uv: Option<&[DVec2]>) -> Result<Option<Orientati
 fn centred(mesh: &Mesh) -> Vec<DVec3> {
     let bounds = mesh.bounds();
     let middle = (DVec3::from_slice(&bounds.min) + DVec3::from_slice(&bounds.max)) / 2.0;
-    mesh.points().iter().map(|&point| point - middle).collect()
+    mesh.points().iter().map(|&point| point - middle).collect_vec()
 }
 
 /// The feature edges that are not on the boundary, in the numbers of the coarser mesh.
@@ -275,7 +276,7 @@ struct Queue {
 
 impl Queue {
     fn of(collapsing: &Collapsing, node_count: u32) -> Self {
-        let mut queue = Self { heap: BinaryHeap::new(), versions: vec![0; node_count as usize] };
+        let mut queue = Self { heap: BinaryHeap::new(), versions: memory::filled(0, node_count as usize) };
         (0..node_count).filter(|&node| collapsing.is_present(node)).for_each(|n| queue.renew(n, collapsing));
         queue
     }
@@ -286,9 +287,10 @@ impl Queue {
         let version = self.versions[from as usize];
         let targets = collapsing.targets(from).into_iter();
         let mut candidates: Vec<Candidate> =
-            targets.map(|to| Candidate { cost: collapsing.cost(from, to), from, to, version }).collect();
+            targets.map(|to| Candidate { cost: collapsing.cost(from, to), from, to, version }).collect_vec();
         candidates.sort_unstable();
         let best = candidates.into_iter().find(|candidate| collapsing.may_collapse(from, candidate.to));
+        memory::reserve_item(&mut self.heap);
         self.heap.extend(best.map(Reverse));
     }
 

@@ -3,6 +3,7 @@
 use super::super::decimate::half_edges;
 use super::super::{HalfEdge, Mesh};
 use super::Chain;
+use crate::memory::{self, CollectVec};
 use std::collections::BTreeSet;
 
 /// Cosine of the largest turn of a chain that is made longer: 45 degrees.
@@ -19,7 +20,7 @@ pub(super) struct Net<'a> {
 
 impl<'a> Net<'a> {
     pub fn new(mesh: &'a Mesh, is_sharp: impl Fn(HalfEdge) -> bool, kept: Vec<bool>) -> Self {
-        let mut net = Self { mesh, ends: vec![BTreeSet::new(); mesh.points().len()], kept };
+        let mut net = Self { mesh, ends: memory::filled(BTreeSet::new(), mesh.points().len()), kept };
         for edge in half_edges(mesh) {
             if net.kept[edge.index()] || is_sharp(edge) {
                 net.insert(edge.origin(mesh.triangles()), edge.target(mesh.triangles()));
@@ -45,7 +46,7 @@ impl<'a> Net<'a> {
     }
 
     fn loose_ends(&self) -> Vec<u32> {
-        (0..self.ends.len() as u32).filter(|&node| self.only(node).is_some()).collect()
+        (0..self.ends.len() as u32).filter(|&node| self.only(node).is_some()).collect_vec()
     }
 
     fn is_kept(&self, a: u32, b: u32) -> bool {
@@ -113,7 +114,7 @@ impl<'a> Net<'a> {
         while let [.., before, node] = nodes[..]
             && let Some(next) = self.after(before, node)
         {
-            nodes.push(next);
+            memory::push(&mut nodes, next);
         }
         Some(nodes)
     }
@@ -128,7 +129,7 @@ impl<'a> Net<'a> {
     pub fn drop_slivers(&mut self) -> usize {
         let mut dropped = 0;
         for a in 0..self.ends.len() as u32 {
-            let ends: Vec<u32> = self.ends[a as usize].iter().copied().collect();
+            let ends: Vec<u32> = self.ends[a as usize].iter().copied().collect_vec();
             let [b, c] = ends[..] else { continue };
             let is_alone = self.after(a, b) == Some(c) && self.after(a, c) == Some(b);
             let sides = [(a, b), (b, c), (c, a)];
@@ -144,7 +145,7 @@ impl<'a> Net<'a> {
     /// pinched ones.
     pub fn corners(&self, most_turn: f64, reach: usize) -> Vec<u32> {
         let turns: Vec<Option<f64>> =
-            (0..self.ends.len() as u32).map(|node| self.turn(node, reach)).collect();
+            (0..self.ends.len() as u32).map(|node| self.turn(node, reach)).collect_vec();
         // a chain through a pinched node would leave its fan of triangles, and its regions
         let pinched = self.mesh.pinched_nodes();
         let is_corner = |node: u32| match turns[node as usize] {
@@ -158,12 +159,12 @@ impl<'a> Net<'a> {
                     })
             }
         };
-        (0..self.ends.len() as u32).filter(|&node| is_corner(node)).collect()
+        (0..self.ends.len() as u32).filter(|&node| is_corner(node)).collect_vec()
     }
 
     /// The angle by which a chain turns at a node, over so many edges on both sides; None where it is no chain.
     fn turn(&self, node: u32, reach: usize) -> Option<f64> {
-        let ends: Vec<u32> = self.ends[node as usize].iter().copied().collect();
+        let ends: Vec<u32> = self.ends[node as usize].iter().copied().collect_vec();
         let [before, after] = ends[..] else { return None };
         let [before, after] = [before, after].map(|end| self.along(node, end).take(reach).last());
         Some(self.straightness([before?, node, after?]).clamp(-1.0, 1.0).acos())
@@ -185,9 +186,9 @@ impl<'a> Net<'a> {
     /// All edges, the smaller node first.
     pub fn edges(&self) -> Vec<[u32; 2]> {
         let of_node = |(node, ends): (u32, &'_ BTreeSet<u32>)| -> Vec<[u32; 2]> {
-            ends.range(node..).map(|&end| [node, end]).collect()
+            ends.range(node..).map(|&end| [node, end]).collect_vec()
         };
-        (0..).zip(&self.ends).flat_map(of_node).collect()
+        (0..).zip(&self.ends).flat_map(of_node).collect_vec()
     }
 
     /// The edges between corners, and closed chains without one.
@@ -207,14 +208,14 @@ impl<'a> Net<'a> {
                     && !is_corner(node)
                     && let Some(next) = self.after(before, node)
                 {
-                    nodes.push(next);
+                    memory::push(&mut nodes, next);
                 }
                 seen.extend(nodes.windows(2).map(|pair| [pair[0].min(pair[1]), pair[0].max(pair[1])]));
                 let is_closed = nodes.len() > 2 && nodes.last() == Some(&start) && !is_corner(start);
                 if is_closed {
                     nodes.pop();
                 }
-                chains.push(Chain { nodes, is_closed });
+                memory::push(&mut chains, Chain { nodes, is_closed });
             }
         }
         chains

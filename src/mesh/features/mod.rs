@@ -18,6 +18,7 @@ mod tests;
 use super::decimate::{half_edges, normal};
 use super::{HalfEdge, Mesh};
 use crate::failure::{Classify, ErrorKind};
+use crate::memory::CollectVec;
 use chains::Net;
 use glam::DVec3;
 pub use regions::{Region, Regions, Side};
@@ -229,7 +230,7 @@ impl Mesh {
 /// By half-edge: the angle by which the facets at it turn; 0 at the border and where one has no area.
 fn turns(mesh: &Mesh, is_noisy: bool) -> Vec<f64> {
     let mut normals: Vec<DVec3> =
-        mesh.triangles().iter().map(|t| normal(mesh.points(), t).normalize_or_zero()).collect();
+        mesh.triangles().iter().map(|t| normal(mesh.points(), t).normalize_or_zero()).collect_vec();
     if is_noisy {
         normals = noise::filtered(mesh, normals);
     }
@@ -237,7 +238,7 @@ fn turns(mesh: &Mesh, is_noisy: bool) -> Vec<f64> {
         let [m, n] = [edge, mesh.topology().twin(edge)?].map(|edge| normals[edge.triangle()]);
         Some(m.cross(n).length().atan2(m.dot(n)))
     };
-    half_edges(mesh).map(|edge| turn(edge).unwrap_or(0.0)).collect()
+    half_edges(mesh).map(|edge| turn(edge).unwrap_or(0.0)).collect_vec()
 }
 
 /// The half-edges that are features whatever their angle: border, between labels, given by the caller and checked.

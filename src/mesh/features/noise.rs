@@ -10,6 +10,7 @@
 
 use super::super::Mesh;
 use super::super::decimate::normal;
+use crate::memory::CollectVec;
 use glam::DVec3;
 
 /// Noise above which normals are filtered, by mean edge length: below it angles are right within a few degrees.
@@ -42,8 +43,10 @@ pub(super) fn estimate_of(mesh: &Mesh, is_asked: impl Fn(u32) -> bool) -> f64 {
         values[node as usize] - sum / f64::from(count.max(1))
     };
     let nodes = 0..points.len() as u32;
-    let first: Vec<DVec3> =
-        nodes.clone().map(|node| if inner(node) { difference(points, node) } else { DVec3::ZERO }).collect();
+    let first: Vec<DVec3> = nodes
+        .clone()
+        .map(|node| if inner(node) { difference(points, node) } else { DVec3::ZERO })
+        .collect_vec();
     let is_deep = |node: u32| inner(node) && mesh.neighbours(node).all(inner);
     let mut sizes: Vec<f64> = nodes
         .filter(|&node| is_deep(node))
@@ -51,7 +54,7 @@ pub(super) fn estimate_of(mesh: &Mesh, is_asked: impl Fn(u32) -> bool) -> f64 {
             let along = mesh.outgoing(node).map(|edge| normal(points, &mesh.triangles()[edge.triangle()]));
             difference(&first, node).dot(along.sum::<DVec3>().normalize_or_zero()).abs()
         })
-        .collect();
+        .collect_vec();
     if sizes.is_empty() {
         return 0.0;
     }
@@ -72,18 +75,21 @@ fn mean_edge_length(mesh: &Mesh) -> f64 {
 pub(super) fn filtered(mesh: &Mesh, mut normals: Vec<DVec3>) -> Vec<DVec3> {
     let triangles = mesh.triangles();
     let centroid = |t: &[u32; 3]| t.iter().map(|&node| mesh.points()[node as usize]).sum::<DVec3>() / 3.0;
-    let centroids: Vec<DVec3> = triangles.iter().map(centroid).collect();
-    let areas: Vec<f64> = triangles.iter().map(|t| normal(mesh.points(), t).length()).collect();
+    let centroids: Vec<DVec3> = triangles.iter().map(centroid).collect_vec();
+    let areas: Vec<f64> = triangles.iter().map(|t| normal(mesh.points(), t).length()).collect_vec();
     let around: Vec<Vec<u32>> = triangles
         .iter()
         .map(|t| {
-            let mut facets: Vec<u32> =
-                t.iter().flat_map(|&node| mesh.outgoing(node)).map(|edge| edge.triangle() as u32).collect();
+            let mut facets: Vec<u32> = t
+                .iter()
+                .flat_map(|&node| mesh.outgoing(node))
+                .map(|edge| edge.triangle() as u32)
+                .collect_vec();
             facets.sort_unstable();
             facets.dedup();
             facets
         })
-        .collect();
+        .collect_vec();
     let distance = |i: usize, j: u32| centroids[i].distance(centroids[j as usize]);
     let (count, sum) = around.iter().enumerate().fold((0, 0.0), |(count, sum), (i, facets)| {
         (count + facets.len(), sum + facets.iter().map(|&j| distance(i, j)).sum::<f64>())
@@ -98,7 +104,7 @@ pub(super) fn filtered(mesh: &Mesh, mut normals: Vec<DVec3>) -> Vec<DVec3> {
             });
             weighted.sum::<DVec3>().normalize_or_zero()
         };
-        normals = around.iter().enumerate().map(mean).collect();
+        normals = around.iter().enumerate().map(mean).collect_vec();
     }
     normals
 }

@@ -16,7 +16,7 @@ mod unpack;
 use super::{Faces, Field, Mesh, MeshError, MeshOptions, MeshRepairs};
 use crate::failure::{Classify, ErrorKind};
 use crate::file::{self, FileError};
-use crate::memory;
+use crate::memory::{self, CollectVec};
 use glam::{DVec2, DVec3};
 use scanner::BYTE_ORDER_MARK;
 use std::path::Path;
@@ -238,11 +238,11 @@ impl Soup {
             return Err(MeshError::PointCloud { count }.into());
         }
         let (mut mesh, mut repairs) = Mesh::from_faces_welded(self.points, self.faces, weld, options)?;
-        let origins: Vec<usize> = mesh.node_origins().map(|node| node as usize).collect();
+        let origins: Vec<usize> = mesh.node_origins().map(|node| node as usize).collect_vec();
         repairs.dropped_parameters = self.dropped_parameters;
         repairs.missing_end = self.missing_end;
         if let Some(given) = self.parameters {
-            let own: Vec<DVec2> = origins.iter().map(|&node| given[node]).collect();
+            let own: Vec<DVec2> = origins.iter().map(|&node| given[node]).collect_vec();
             // nodes that were welded must agree
             let agrees = |map: &Vec<u32>| given.iter().zip(map).all(|(&uv, &node)| own[node as usize] == uv);
             if repairs.node_map.as_ref().is_none_or(agrees) && has_area(&mesh, &own) {

@@ -5,6 +5,7 @@
 
 use super::scanner::{Scanner, parse, shown};
 use super::{ReadError, Soup};
+use crate::memory::{self, CollectVec};
 use glam::{DVec2, DVec3};
 
 /// Stands for a corner without `vt`.
@@ -23,11 +24,14 @@ pub(super) fn read(bytes: &[u8]) -> Result<Soup, ReadError> {
                 let x = scanner.number_in_line("x")?;
                 let y = scanner.number_in_line("y")?;
                 let z = scanner.number_in_line("z")?;
-                soup.points.push(DVec3::new(x, y, z)); // a weight or a colour may follow
+                memory::push(&mut soup.points, DVec3::new(x, y, z)); // a weight or a colour may follow
             }
             Some(b"vt") => {
                 let mut number = || scanner.word_in_line().map(|word| parse(word).unwrap_or(f64::NAN));
-                textures.push(DVec2::new(number().unwrap_or(f64::NAN), number().unwrap_or(0.0)));
+                memory::push(
+                    &mut textures,
+                    DVec2::new(number().unwrap_or(f64::NAN), number().unwrap_or(0.0)),
+                );
             }
             Some(b"f" | b"fo") => {
                 while let Some(word) = scanner.word_in_line() {
@@ -39,7 +43,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Soup, ReadError> {
                     }
                     let texture = parts.next().and_then(parse).and_then(|index| place(index, textures.len()));
                     soup.faces.push(node);
-                    corner_textures.push(texture.unwrap_or(NONE));
+                    memory::push(&mut corner_textures, texture.unwrap_or(NONE));
                 }
                 soup.faces.end_face();
                 corner_textures.truncate(soup.faces.corners().len());
@@ -75,7 +79,7 @@ fn place(index: i64, count: usize) -> Option<u32> {
 
 /// The one `vt` of each node; none if a node of a face has several, or has none.
 fn parameters(soup: &Soup, textures: &[DVec2], corner_textures: &[u32]) -> Option<Vec<DVec2>> {
-    let mut of_node = vec![NONE; soup.points.len()];
+    let mut of_node = memory::filled(NONE, soup.points.len());
     for (&node, &texture) in soup.faces.corners().iter().zip(corner_textures) {
         let known = &mut of_node[node as usize];
         let value = textures.get(texture as usize)?;
@@ -87,5 +91,5 @@ fn parameters(soup: &Soup, textures: &[DVec2], corner_textures: &[u32]) -> Optio
     }
     // nodes without a face get some parameter that leaves the range as it is
     let any = *textures.get(*corner_textures.first()? as usize)?;
-    Some(of_node.iter().map(|&texture| textures.get(texture as usize).copied().unwrap_or(any)).collect())
+    Some(of_node.iter().map(|&texture| textures.get(texture as usize).copied().unwrap_or(any)).collect_vec())
 }

@@ -7,6 +7,7 @@
 
 use super::scanner::{Scanner, parse, shown};
 use super::{ReadError, Soup};
+use crate::memory;
 use glam::{DVec2, DVec3};
 
 /// What nodes have beside their coordinates.
@@ -78,15 +79,15 @@ fn read_text(mut scanner: Scanner, kind: Kind) -> Result<Soup, ReadError> {
     scanner.check_room(point_count, "0 0 0\n".len(), "nodes")?;
     scanner.check_room(face_count, "0\n".len(), "faces")?;
 
-    let mut soup = Soup { points: Vec::with_capacity(point_count), ..Soup::default() };
+    let mut soup = Soup { points: memory::with_capacity(point_count), ..Soup::default() };
     let mut parameters = Vec::new();
     for _ in 0..point_count {
         let x = scanner.number("a coordinate")?;
         let y = scanner.number_in_line("a coordinate")?;
         let z = scanner.number_in_line("a coordinate")?;
-        soup.points.push(DVec3::new(x, y, z));
+        memory::push(&mut soup.points, DVec3::new(x, y, z));
         if kind.has_texture {
-            parameters.push(read_texture(&mut scanner)?);
+            memory::push(&mut parameters, read_texture(&mut scanner)?);
         }
         scanner.next_line();
     }
@@ -136,13 +137,13 @@ fn read_binary(bytes: &[u8], position: usize, kind: Kind) -> Result<Soup, ReadEr
     let point_size = 3 + extra + 2 * usize::from(kind.has_texture);
     words.check_room(point_count, point_size, "nodes")?;
     words.check_room(face_count, 2, "faces")?; // the number of corners and that of colours
-    let mut soup = Soup { points: Vec::with_capacity(point_count), ..Soup::default() };
+    let mut soup = Soup { points: memory::with_capacity(point_count), ..Soup::default() };
     let mut parameters = Vec::new();
     for _ in 0..point_count {
-        soup.points.push(DVec3::new(words.number()?, words.number()?, words.number()?));
+        memory::push(&mut soup.points, DVec3::new(words.number()?, words.number()?, words.number()?));
         words.skip(extra)?;
         if kind.has_texture {
-            parameters.push(DVec2::new(words.number()?, words.number()?));
+            memory::push(&mut parameters, DVec2::new(words.number()?, words.number()?));
         }
     }
     for _ in 0..face_count {

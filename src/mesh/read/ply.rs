@@ -7,6 +7,7 @@
 
 use super::scanner::{Scanner, shown};
 use super::{Faces, Field, ReadError, Soup};
+use crate::memory;
 use glam::{DVec2, DVec3};
 
 /// Names of parameter pairs, the best first.
@@ -132,14 +133,14 @@ fn read_header(scanner: &mut Scanner) -> Result<(Encoding, Vec<Element>), ReadEr
             b"element" => {
                 let name = read_name(scanner)?;
                 let count = scanner.count("the number of rows")?;
-                elements.push(Element { name, count, properties: Vec::new() });
+                memory::push(&mut elements, Element { name, count, properties: Vec::new() });
             }
             b"property" => {
                 let property = read_property(scanner)?;
                 let Some(element) = elements.last_mut() else {
                     return Err(scanner.error("a property stands before the first element"));
                 };
-                element.properties.push(property);
+                memory::push(&mut element.properties, property);
             }
             b"end_header" => {
                 scanner.skip_line_as(ends_in_cr);
@@ -352,12 +353,12 @@ fn read_points(source: &mut impl Source, element: &Element, soup: &mut Soup) -> 
         } else if let Some(axis) = pair.and_then(|pair| place(&pair)) {
             Role::Parameter(axis)
         } else {
-            let values = Vec::with_capacity(element.count);
-            soup.fields.push(Field { name: property.name.clone(), values });
+            let values = memory::with_capacity(element.count);
+            memory::push(&mut soup.fields, Field { name: property.name.clone(), values });
             Role::Field(soup.fields.len() - 1)
         });
     }
-    let mut parameters = Vec::with_capacity(if pair.is_some() { element.count } else { 0 });
+    let mut parameters = memory::with_capacity(if pair.is_some() { element.count } else { 0 });
     soup.points.reserve(element.count);
     for _ in 0..element.count {
         let (mut point, mut uv) = ([0.0; 3], [0.0; 2]);
@@ -369,9 +370,9 @@ fn read_points(source: &mut impl Source, element: &Element, soup: &mut Soup) -> 
                 Role::List => skip(source, property)?,
             }
         }
-        soup.points.push(DVec3::from_array(point));
+        memory::push(&mut soup.points, DVec3::from_array(point));
         if pair.is_some() {
-            parameters.push(DVec2::from_array(uv));
+            memory::push(&mut parameters, DVec2::from_array(uv));
         }
     }
     soup.parameters = pair.map(|_| parameters);

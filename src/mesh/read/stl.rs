@@ -7,6 +7,7 @@
 
 use super::scanner::{Scanner, shown};
 use super::{ReadError, Soup};
+use crate::memory;
 use glam::DVec3;
 
 /// A name of 80 bytes and the number of triangles.
@@ -40,7 +41,7 @@ fn read_binary(bytes: &[u8]) -> Result<Soup, ReadError> {
     if body.len() / TRIANGLE_SIZE < count as usize {
         return Err(short(format!("the file ends before the last of its {count} triangles")));
     }
-    let mut soup = Soup { points: Vec::with_capacity(3 * count as usize), ..Soup::default() };
+    let mut soup = Soup { points: memory::with_capacity(3 * count as usize), ..Soup::default() };
     soup.faces.reserve(count as usize);
     for record in body.chunks_exact(TRIANGLE_SIZE).take(count as usize) {
         let corners = record[12..48].as_chunks::<12>().0;
@@ -135,5 +136,5 @@ enum Place {
 
 fn add_corner(soup: &mut Soup, point: DVec3) {
     soup.faces.push(soup.points.len() as u32); // more corners than that are refused with the mesh
-    soup.points.push(point);
+    memory::push(&mut soup.points, point);
 }

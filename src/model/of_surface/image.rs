@@ -107,7 +107,7 @@ fn cuts(surface: &TensorSurface, a: DVec2, b: DVec2) -> Vec<f64> {
         }
     }
     cuts.retain(|&s| s == 0.0 || (LEAST_CUT..1.0 - LEAST_CUT).contains(&s));
-    cuts.sort_by(f64::total_cmp);
+    cuts.sort_unstable_by(f64::total_cmp);
     cuts.dedup_by(|next, kept| *next - *kept < LEAST_CUT);
     cuts.push(1.0);
     cuts

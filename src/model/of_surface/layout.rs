@@ -118,7 +118,7 @@ fn side_edges(tiling: &Tiling, trims: &[Trim], nodes: &mut Nodes) -> Vec<PlaneEd
             }
         }
         for (line, mut marks) in tiling.lines(axis).iter().zip(marks) {
-            marks.sort_by(f64::total_cmp);
+            marks.sort_unstable_by(f64::total_cmp);
             marks.dedup();
             for piece in marks.windows(2) {
                 let middle = 0.5 * (piece[0] + piece[1]);

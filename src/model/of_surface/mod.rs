@@ -12,6 +12,7 @@ mod loops;
 mod tiling;
 
 use super::{Builder, Coedge, Model, ModelError, Role};
+use crate::control::Watch;
 use crate::curve::Curve;
 use crate::geometry::{Bounds, Domain};
 use crate::surface::tensor::{Axis, TensorSurface};
@@ -67,14 +68,16 @@ const CORNER_DEGREES: f64 = 40.0;
 
 /// The part of a surface inside its trims, as an open shell. A spline over triangles is refused: a model of it is one
 /// of a surface fitted to it.
-pub fn of_surface(surface: &AnySurface, options: &FormOptions) -> Result<Model, ModelError> {
+pub fn of_surface(surface: &AnySurface, options: &FormOptions, watch: &Watch) -> Result<Model, ModelError> {
     let parts = match (surface, options.form) {
         (AnySurface::Tensor(tensor), _) => vec![around_trims(tensor)],
         (AnySurface::TSpline(tspline), Form::Strips) => tspline.to_strips().map_err(ConvertError::from)?,
-        (AnySurface::Pht(pht), Form::Patches) => pht.to_tensor_patches(options.level_spread)?,
-        _ => vec![around_trims(&surface.to_tensor(options.max_coefficients)?)],
+        (AnySurface::Pht(pht), Form::Patches) => {
+            pht.to_tensor_patches_watched(options.level_spread, watch)?
+        }
+        _ => vec![around_trims(&surface.to_tensor(options.max_coefficients, watch)?)],
     };
-    of_parts(surface.as_surface(), parts)
+    of_parts_watched(surface.as_surface(), parts, watch)
 }
 
 /// The part of a surface around its trims and a little more, cut at knot lines where some are near: what lies farther
@@ -103,6 +106,14 @@ fn around_trims(surface: &TensorSurface) -> TensorSurface {
 
 /// The faces that `parts`, which meet with equal parameters, have inside the trims of the `whole`.
 pub fn of_parts(whole: &dyn Surface, parts: Vec<TensorSurface>) -> Result<Model, ModelError> {
+    of_parts_watched(whole, parts, &Watch::default())
+}
+
+fn of_parts_watched(
+    whole: &dyn Surface,
+    parts: Vec<TensorSurface>,
+    watch: &Watch,
+) -> Result<Model, ModelError> {
     if whole.dim() != 3 {
         return Err(ModelError::Dimension { dim: whole.dim() });
     }
@@ -112,15 +123,18 @@ pub fn of_parts(whole: &dyn Surface, parts: Vec<TensorSurface>) -> Result<Model,
     if !(diagonal.is_finite() && tolerance.is_normal()) {
         return Err(ModelError::Size { diagonal });
     }
+    watch.check().map_err(ConvertError::from)?;
     let tiling = Tiling::new(parts.iter().map(|part| part.domain()).collect());
     let trims = cut(&loops, &tiling);
     if let Some(index) = trims.iter().position(|trim| trim.points.len() < 3) {
         return Err(ModelError::Collapsed { index });
     }
     let starts: Vec<Vec<usize>> = trims.iter().map(|trim| starts(&parts, trim)).collect();
+    watch.check().map_err(ConvertError::from)?;
     let layout = Layout::new(&tiling, &trims, &starts);
     let mut images = Vec::with_capacity(layout.edges.len());
     for edge in &layout.edges {
+        watch.check().map_err(ConvertError::from)?;
         let image = image(&parts[edge.left], &edge.polyline, tolerance)?;
         images.push((extent(&image) > tolerance).then_some(image));
     }

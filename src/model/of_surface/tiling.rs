@@ -148,7 +148,7 @@ fn lines(rectangles: &[Domain], domain: &Domain, axis: usize) -> Vec<Line> {
     sides.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1[0].total_cmp(&b.1[0])));
     let line = |sides: &[(f64, [f64; 2], bool)]| {
         let mut corners: Vec<f64> = sides.iter().flat_map(|&(_, span, _)| span).collect();
-        corners.sort_by(f64::total_cmp);
+        corners.sort_unstable_by(f64::total_cmp);
         corners.dedup();
         let before = sides.iter().filter(|&&(_, _, is_before)| is_before);
         Line { at: sides[0].0, corners, spans: before.map(|&(_, span, _)| span).collect() }

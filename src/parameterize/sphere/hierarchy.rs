@@ -11,6 +11,7 @@
 
 use super::SphereError;
 use crate::Control;
+use crate::memory;
 use crate::mesh::Mesh;
 use crate::mesh::rings::{RingMarks, Rings};
 use glam::DVec3;
@@ -36,18 +37,18 @@ pub(super) fn collapse(
         points: mesh.points(),
         rings,
         marks: RingMarks::new(count),
-        is_gone: vec![false; count],
-        stamps: vec![0; count],
+        is_gone: memory::filled(false, count),
+        stamps: memory::filled(0, count),
         queue: BinaryHeap::with_capacity(used),
         most_valence: MOST_VALENCE,
     };
-    let mut order = Vec::with_capacity(used);
+    let mut order = memory::with_capacity(used);
     while used - order.len() > LAST {
         let before = order.len();
         collapser.fill();
         while let Some((node, to)) = collapser.next() {
             collapser.collapse(node, to);
-            order.push(node);
+            memory::push(&mut order, node);
             if used - order.len() == LAST {
                 break;
             }
@@ -93,6 +94,7 @@ impl Collapser<'_> {
     fn enqueue(&mut self, node: u32) {
         self.stamps[node as usize] += 1;
         if let Some((cost, _)) = self.cheapest(node) {
+            memory::reserve_item(&mut self.queue);
             self.queue.push(Reverse((cost.to_bits(), node, self.stamps[node as usize])));
         }
     }

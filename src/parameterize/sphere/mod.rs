@@ -23,6 +23,7 @@ use super::dirichlet::{Shape, Star, Target};
 use crate::Control;
 use crate::control::Stage;
 use crate::geometry::{Orientation, orientation_of_cone};
+use crate::memory::{self, CollectVec};
 use crate::mesh::Mesh;
 use crate::mesh::rings::Rings;
 use glam::DVec3;
@@ -168,12 +169,12 @@ struct Growing<'a> {
 impl<'a> Growing<'a> {
     /// The four nodes that are left at the corners of the regular tetrahedron.
     fn from_tetrahedron(mesh: &'a Mesh, rings: Rings, order: &[u32]) -> Self {
-        let mut is_gone = vec![false; mesh.points().len()];
+        let mut is_gone = memory::filled(false, mesh.points().len());
         order.iter().for_each(|&node| is_gone[node as usize] = true);
         let nodes = 0..mesh.points().len() as u32;
         let live: Vec<u32> =
-            nodes.filter(|&node| !is_gone[node as usize] && rings.valence(node) > 0).collect();
-        let mut places = vec![DVec3::ZERO; mesh.points().len()];
+            nodes.filter(|&node| !is_gone[node as usize] && rings.valence(node) > 0).collect_vec();
+        let mut places = memory::filled(DVec3::ZERO, mesh.points().len());
         // the other three are counter-clockwise around the first, seen from outside
         let top = live[0];
         places[top as usize] = DVec3::Z;
@@ -229,7 +230,7 @@ impl<'a> Growing<'a> {
         self.rings.expand(node);
         let ring = self.rings.of(node).to_vec();
         let room = |map: &Self| {
-            let around: Vec<DVec3> = ring.iter().map(|&other| map.places[other as usize]).collect();
+            let around: Vec<DVec3> = ring.iter().map(|&other| map.places[other as usize]).collect_vec();
             place::inside(&around)
         };
         let mut place = room(self);
@@ -241,7 +242,7 @@ impl<'a> Growing<'a> {
             place = room(self);
         }
         self.places[node as usize] = place.ok_or(SphereError::NoRoom { node: node as usize })?;
-        self.live.push(node);
+        memory::push(&mut self.live, node);
         for _ in 0..ENTRY_STEPS {
             self.settle(node, star);
         }
@@ -306,7 +307,7 @@ impl<'a> Growing<'a> {
     fn all_settled(&self, nodes: &[u32], control: &Control) -> Vec<DVec3> {
         let settled = |nodes: &[u32]| -> Vec<DVec3> {
             let mut star = Star::default();
-            nodes.iter().map(|&node| self.settled(node, &mut star)).collect()
+            nodes.iter().map(|&node| self.settled(node, &mut star)).collect_vec()
         };
         if nodes.len() < SERIAL || control.thread_count() == 1 {
             return settled(nodes);
@@ -318,7 +319,7 @@ impl<'a> Growing<'a> {
 fn measure(mesh: &Mesh, places: &[DVec3]) -> SphereReport {
     let area_scale = 4.0 * PI / total_area(mesh);
     let (mut energy, mut folded, mut clamped) = (0.0, 0, 0);
-    let mut ratios = Vec::with_capacity(mesh.triangles().len());
+    let mut ratios = memory::with_capacity(mesh.triangles().len());
     for triangle in mesh.triangles() {
         let corners = triangle.map(|node| mesh.points()[node as usize]);
         let images = triangle.map(|node| places[node as usize]);
@@ -328,7 +329,7 @@ fn measure(mesh: &Mesh, places: &[DVec3]) -> SphereReport {
         energy += shape.energy(images);
         let own = area_scale * area(corners);
         if own > 0.0 {
-            ratios.push((solid_angle(images) / own, own));
+            memory::push(&mut ratios, (solid_angle(images) / own, own));
         }
     }
     ratios.sort_unstable_by(|x, y| x.0.total_cmp(&y.0));

@@ -11,6 +11,7 @@
 //! A few steps of ascent then lead away from the nearest circles. More than a few do not improve the final map and take
 //! most of the time on shapes with long limbs.
 
+use crate::memory::CollectVec;
 use glam::DVec3;
 
 /// Each length tried is this part of the one before.
@@ -63,7 +64,7 @@ fn walk(start: DVec3, circles: &[DVec3]) -> Option<(DVec3, f64)> {
 /// Away from the nearest circle, or from the nearest two or three together.
 fn ascend(mut place: DVec3, mut distance: f64, circles: &[DVec3]) -> DVec3 {
     let mut length = FIRST_ASCENT;
-    let mut nearest: Vec<usize> = (0..circles.len()).collect();
+    let mut nearest: Vec<usize> = (0..circles.len()).collect_vec();
     for _ in 0..ASCENTS {
         nearest.sort_unstable_by(|&i, &j| {
             circles[i].dot(place).total_cmp(&circles[j].dot(place)).then(i.cmp(&j))

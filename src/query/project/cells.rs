@@ -5,6 +5,7 @@ use super::index::Place;
 use crate::bezier::{BezierPatch, apply, extraction};
 use crate::curve::Curve;
 use crate::geometry::Domain;
+use crate::memory::{self, CollectVec};
 use crate::surface::{Patches, Trims};
 use glam::DVec2;
 
@@ -37,12 +38,12 @@ pub fn curve_cells(curve: &Curve) -> Vec<(BezierPatch, Place)> {
             ordinates: apply(points, [degree, 0], dim, &extraction(knots, span), &[1.0]),
         }
     };
-    halved(knots.spans().map(patch).collect())
+    halved(knots.spans().map(patch).collect_vec())
 }
 
 fn halved(patches: Vec<BezierPatch>) -> Vec<(BezierPatch, Place)> {
     let halvings = (CELL_BUDGET / patches.len().max(1)).checked_ilog2().unwrap_or(0).min(MAX_HALVINGS);
-    let mut cells = Vec::with_capacity(patches.len());
+    let mut cells = memory::with_capacity(patches.len());
     patches.into_iter().for_each(|patch| add_halves(patch, halvings, &mut cells));
     cells
 }
@@ -60,7 +61,7 @@ fn add_halves(patch: BezierPatch, halvings: u32, cells: &mut Vec<(BezierPatch, P
 
 /// All patches, with the same degrees, and with weights if one has them.
 fn uniform(surface: &dyn Patches) -> Vec<BezierPatch> {
-    let patches: Vec<BezierPatch> = (0..surface.patch_count()).map(|k| surface.patch(k)).collect();
+    let patches: Vec<BezierPatch> = (0..surface.patch_count()).map(|k| surface.patch(k)).collect_vec();
     let Some(first) = patches.first() else { return patches };
     let alike = |patch: &BezierPatch| patch.degree == first.degree && patch.is_rational == first.is_rational;
     if patches.iter().all(alike) {
@@ -72,7 +73,7 @@ fn uniform(surface: &dyn Patches) -> Vec<BezierPatch> {
         let patch = patch.elevate(degree);
         if is_rational { patch.to_rational() } else { patch }
     };
-    patches.iter().map(adapt).collect()
+    patches.iter().map(adapt).collect_vec()
 }
 
 /// Along u and v: the largest second derivative against the largest first one, of the ordinates.
@@ -122,7 +123,7 @@ pub fn trim_pieces(surface: &dyn Patches, trims: &Trims) -> Vec<(BezierPatch, Pl
         let piece = if piece.degree == degree { piece } else { piece.elevate(degree) };
         (if is_rational { piece.to_rational() } else { piece }, place)
     };
-    lines.into_iter().map(adapt).collect()
+    lines.into_iter().map(adapt).collect_vec()
 }
 
 /// Pieces of one line: from the border of one patch to the next.

@@ -23,6 +23,8 @@ const MAX_STEPS: usize = 40;
 const SHORTEST_STEP: f64 = 1e-14;
 /// Damping is given up beyond this many times the metric.
 const MOST_DAMPING: f64 = 1e12;
+/// The first damping, against the curvature of the distance.
+const FIRST_DAMPING: f64 = 1e-3;
 
 /// A surface over triangles with a tessellation of it.
 #[derive(Debug, Clone)]
@@ -96,7 +98,7 @@ impl FacetProjector {
                 (at, here) = (next, there);
                 damping /= 16.0;
             } else {
-                damping = if damping == 0.0 { 1e-3 } else { 8.0 * damping };
+                damping = if damping == 0.0 { FIRST_DAMPING } else { 8.0 * damping };
                 if damping > MOST_DAMPING {
                     break;
                 }

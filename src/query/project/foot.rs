@@ -13,6 +13,12 @@ const MAX_STEPS: usize = 60;
 const LAST_STEP: f64 = 1e-7;
 /// Steps this short change nothing.
 const SHORTEST_STEP: f64 = 1e-14;
+/// The first damping, against the curvature of the distance: a step in a valley loses a thousandth of its length.
+const FIRST_DAMPING: f64 = 1e-3;
+/// Damping this weak no longer shortens a step by as much as the next one gains: it is left out.
+const LEAST_DAMPING: f64 = 1e-6;
+/// Damping this strong makes steps of nothing: there is no lower place.
+const MOST_DAMPING: f64 = 1e12;
 
 /// A place on a cell.
 #[derive(Debug, Clone, Copy)]
@@ -61,11 +67,11 @@ pub fn find(form: &Form, cell: &[f64], start: [f64; 2]) -> Foot {
             if damping == 0.0 && length < LAST_STEP {
                 break;
             }
-            damping = if damping < 1e-6 { 0.0 } else { damping / 16.0 };
-        } else if damping > 1e12 {
+            damping = if damping < LEAST_DAMPING { 0.0 } else { damping / 16.0 };
+        } else if damping > MOST_DAMPING {
             break;
         } else {
-            damping = if damping == 0.0 { 1e-3 } else { damping * 8.0 };
+            damping = if damping == 0.0 { FIRST_DAMPING } else { damping * 8.0 };
         }
     }
     Foot { at, distance_sq: here.distance_sq }

@@ -6,6 +6,7 @@
 use super::kernel::{Form, Kernel, Square};
 use crate::bezier::BezierPatch;
 use crate::geometry::{Bounds, Domain};
+use crate::memory::{self, CollectVec};
 use glam::DVec2;
 
 /// Children of a node: their boxes are tested together.
@@ -73,32 +74,35 @@ impl Index {
             });
         let mut index = Self {
             kernel: Kernel::new(form),
-            places: Vec::with_capacity(patches.len()),
-            ordinates: Vec::with_capacity(patches.len() * form.len()),
+            places: memory::with_capacity(patches.len()),
+            ordinates: memory::with_capacity(patches.len() * form.len()),
             nodes: Vec::new(),
             boxes: Vec::new(),
             rectangles: Vec::new(),
             balls: Vec::new(),
         };
-        let mut bounds = Vec::with_capacity(patches.len());
+        let mut bounds = memory::with_capacity(patches.len());
         for (patch, place) in patches {
             for k in 0..form.width() {
-                index.ordinates.extend(patch.ordinates.iter().skip(k).step_by(form.width()));
+                memory::extend(
+                    &mut index.ordinates,
+                    patch.ordinates.iter().copied().skip(k).step_by(form.width()),
+                );
             }
-            bounds.push(patch.bounds());
-            index.places.push(place);
+            memory::push(&mut bounds, patch.bounds());
+            memory::push(&mut index.places, place);
         }
-        let mut leaves: Vec<u32> = (0..bounds.len() as u32).collect();
+        let mut leaves: Vec<u32> = (0..bounds.len() as u32).collect_vec();
         if !leaves.is_empty() {
             index.add_node(&mut leaves, &bounds);
         }
         let mut square = Square::default();
         for (leaf, bounds) in bounds.iter().enumerate() {
             let centre: Vec<f64> =
-                bounds.min.iter().zip(&bounds.max).map(|(a, b)| a + (b - a) / 2.0).collect();
+                bounds.min.iter().zip(&bounds.max).map(|(a, b)| a + (b - a) / 2.0).collect_vec();
             let radius = index.kernel.convex_radius(index.ordinates(leaf), &centre, &mut square);
-            index.balls.extend(centre);
-            index.balls.push(radius);
+            memory::extend(&mut index.balls, centre);
+            memory::push(&mut index.balls, radius);
         }
         index
     }
@@ -192,10 +196,10 @@ impl Index {
 
     fn add_node(&mut self, leaves: &mut [u32], bounds: &[Bounds]) -> u32 {
         let (node, dim) = (self.nodes.len(), self.kernel.form.dim);
-        self.nodes.push([NONE; BRANCHES]);
-        self.rectangles.push([Domain::around([]); BRANCHES]);
-        self.boxes.resize(self.boxes.len() + dim, [f64::INFINITY; BRANCHES]);
-        self.boxes.resize(self.boxes.len() + dim, [f64::NEG_INFINITY; BRANCHES]);
+        memory::push(&mut self.nodes, [NONE; BRANCHES]);
+        memory::push(&mut self.rectangles, [Domain::around([]); BRANCHES]);
+        memory::extend(&mut self.boxes, std::iter::repeat_n([f64::INFINITY; BRANCHES], dim));
+        memory::extend(&mut self.boxes, std::iter::repeat_n([f64::NEG_INFINITY; BRANCHES], dim));
         for (b, part) in quarters(leaves, bounds).into_iter().filter(|part| !part.is_empty()).enumerate() {
             let corners = part.iter().flat_map(|&leaf| self.places[leaf as usize].corners());
             self.rectangles[node][b] = Domain::around(corners);

@@ -12,6 +12,7 @@
 
 use super::index::{Index, LEAF, Place};
 use crate::geometry::Domain;
+use crate::memory::{self, CollectVec};
 use crate::surface::Trims;
 use glam::DVec2;
 
@@ -46,18 +47,18 @@ impl Inside {
         let largest = domain.min.abs().max(domain.max.abs());
         let mut inside = Self {
             trims: trims.clone(),
-            lines: trims.segments().map(|(from, to)| [from, to]).collect(),
+            lines: trims.segments().map(|(from, to)| [from, to]).collect_vec(),
             margin: MARGIN * domain.size() + 4.0 * f64::EPSILON * largest,
-            sides: Vec::with_capacity(index.leaf_count()),
-            starts: Vec::with_capacity(index.leaf_count() + 1),
+            sides: memory::with_capacity(index.leaf_count()),
+            starts: memory::with_capacity(index.leaf_count() + 1),
             touching: Vec::new(),
-            closed: vec![0; index.node_count()],
+            closed: memory::filled(0, index.node_count()),
         };
         inside.sort_lines(index);
         for leaf in 0..index.leaf_count() {
             let is_cut = inside.starts[leaf] < inside.starts[leaf + 1];
             let side = if is_cut { Side::Cut } else { inside.side_of(&rectangle(index.place(leaf))) };
-            inside.sides.push(side);
+            memory::push(&mut inside.sides, side);
         }
         inside.close_nodes(index);
         inside
@@ -70,14 +71,14 @@ impl Inside {
             let box_around = Domain { min: from.min(to) - self.margin, max: from.max(to) + self.margin };
             index.visit_leaves_near(&box_around, |leaf| {
                 if self.touches(number as u32, &rectangle(index.place(leaf))) {
-                    pairs.push((leaf as u32, number as u32));
+                    memory::push(&mut pairs, (leaf as u32, number as u32));
                 }
             });
         }
         pairs.sort_unstable();
         let start = |leaf: usize| pairs.partition_point(|&(of, _)| (of as usize) < leaf) as u32;
-        self.starts.extend((0..=index.leaf_count()).map(start));
-        self.touching.extend(pairs.iter().map(|&(_, number)| number));
+        memory::extend(&mut self.starts, (0..=index.leaf_count()).map(start));
+        memory::extend(&mut self.touching, pairs.iter().map(|&(_, number)| number));
     }
 
     /// Children come after their nodes.

@@ -14,6 +14,7 @@
 
 use crate::bezier::binomial;
 use crate::knots::MAX_DEGREE;
+use crate::memory::CollectVec;
 
 /// What the cells of one index have in common.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -83,9 +84,9 @@ pub const MAX_FUNCTIONS: usize = 2 * MAX_DEGREE + 1;
 impl Kernel {
     pub fn new(form: Form) -> Self {
         let weights = |[p, q]: [usize; 2]| -> Vec<f64> {
-            (0..=p).flat_map(|i| (0..=q).map(move |j| binomial(p, i) * binomial(q, j))).collect()
+            (0..=p).flat_map(|i| (0..=q).map(move |j| binomial(p, i) * binomial(q, j))).collect_vec()
         };
-        let unscale = weights(form.degree.map(|degree| 2 * degree)).iter().map(|w| 1.0 / w).collect();
+        let unscale = weights(form.degree.map(|degree| 2 * degree)).iter().map(|w| 1.0 / w).collect_vec();
         Self { form, scale: weights(form.degree), unscale }
     }
 
@@ -185,13 +186,14 @@ impl Kernel {
             .chunks_exact(count)
             .zip(centre)
             .flat_map(|(row, c)| row.iter().map(move |a| a - c))
-            .collect();
+            .collect_vec();
         self.expand(&relative, square);
         let hessian = Hessian::of(&square.distance, 2 * p, 2 * q);
         let largest = square.distance.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         let rounding = 64.0 * f64::EPSILON * largest;
         let mut bends_sq = [0.0_f64; 3];
-        let parts: Vec<Hessian> = relative.chunks_exact(count).map(|row| Hessian::of(row, p, q)).collect();
+        let parts: Vec<Hessian> =
+            relative.chunks_exact(count).map(|row| Hessian::of(row, p, q)).collect_vec();
         for part in &parts {
             // the size of a vector is at most that of the largest of each component
             for (sum, x) in bends_sq.iter_mut().zip([part.size[0], part.size[1], part.mixed]) {

@@ -30,6 +30,7 @@ use crate::control::{Cancelled, Pool};
 use crate::curve::Curve;
 use crate::failure::{Classify, ErrorKind};
 use crate::geometry::{Bounds, Domain, safe_scale};
+use crate::memory;
 use crate::surface::{Kind, Surface};
 use cells::{curve_cells, surface_cells, trim_pieces};
 use facets::FacetProjector;
@@ -267,9 +268,9 @@ impl Projector {
         };
         let options = &ProjectOptions { max_distance: options.max_distance * self.scale, ..*options };
         let mut all = Projection {
-            uv: vec![DVec2::NAN; count],
-            distances: vec![f64::NAN; count],
-            flags: vec![0; count],
+            uv: memory::filled(DVec2::NAN, count),
+            distances: memory::filled(f64::NAN, count),
+            flags: memory::filled(0, count),
         };
         let guess = |index: usize| options.guesses.map(|guesses| guesses[index]);
         let piece = |chunk: usize, ((uv, distances), flags): Piece| {

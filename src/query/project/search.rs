@@ -5,6 +5,7 @@ use super::index::{BRANCHES, Index, LEAF};
 use super::inside::Inside;
 use super::kernel::{Square, Verdict};
 use crate::geometry::Domain;
+use crate::memory;
 use glam::DVec2;
 
 /// Most cells that one point may look at in one index. A search that ends here has found a local minimum, but has
@@ -122,7 +123,7 @@ impl Search<'_> {
         }
         let mut budget = MAX_CELLS;
         self.workspace.nodes.clear();
-        self.workspace.nodes.push((0.0, 0));
+        memory::push(&mut self.workspace.nodes, (0.0, 0));
         while let Some((bound, entry)) = self.workspace.nodes.pop() {
             if bound >= self.best.limit_sq {
                 continue;
@@ -212,7 +213,10 @@ impl Search<'_> {
         self.workspace.lines.extend_from_slice(lines);
         self.workspace.cells.clear();
         let line_count = lines.len();
-        self.workspace.cells.push(Cell { min: [0.0; 2], max: [1.0; 2], is_whole: true, line_count });
+        memory::push(
+            &mut self.workspace.cells,
+            Cell { min: [0.0; 2], max: [1.0; 2], is_whole: true, line_count },
+        );
         while let Some(cell) = self.workspace.cells.pop() {
             if *budget == 0 {
                 self.is_proven = false;
@@ -255,7 +259,7 @@ impl Search<'_> {
         }
         if axis.is_none() && cell.is_whole && can_wait && !(is_inside(0) && is_inside(1)) {
             let sample = foot::distance_sq(&form, ordinates, start);
-            workspace.waiting.push((sample, workspace.square.lowest, leaf as u32));
+            memory::push(&mut workspace.waiting, (sample, workspace.square.lowest, leaf as u32));
             self.drop_cell(&cell, first);
             return self.offer(sample, uv(start), is_cut);
         }
@@ -322,10 +326,10 @@ impl Search<'_> {
         let ends = [[0.0, 0.0], [1.0, 1.0]].map(|at| corner_distance_sq(index, first_half, at));
         if ends[0] < ends[1] {
             halve_ordinates(&form.degree, axis, last_half, first_half);
-            self.workspace.cells.extend([high, low]);
+            memory::extend(&mut self.workspace.cells, [high, low]);
         } else {
             halve_ordinates(&form.degree, axis, first_half, last_half);
-            self.workspace.cells.extend([low, high]);
+            memory::extend(&mut self.workspace.cells, [low, high]);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Level curves, and points along them.
 
 use super::half_edges;
+use crate::memory::{self, CollectVec};
 use crate::mesh::{HalfEdge, Mesh};
 use glam::DVec3;
 
@@ -11,7 +12,7 @@ pub(super) fn level_curve(mesh: &Mesh, field: &[f64], level: f64) -> Result<Vec<
     let mut rising: Vec<HalfEdge> = half_edges(mesh)
         .filter(|&(_, [from, to])| is_low(from) && !is_low(to))
         .map(|(edge, _)| edge)
-        .collect();
+        .collect_vec();
     // a triangle that the level crosses has one side that rises to it and one that falls
     let falling = |mut edge: HalfEdge| {
         while is_low(edge.origin(triangles)) || !is_low(edge.target(triangles)) {
@@ -19,7 +20,7 @@ pub(super) fn level_curve(mesh: &Mesh, field: &[f64], level: f64) -> Result<Vec<
         }
         edge
     };
-    let mut is_seen = vec![false; triangles.len()];
+    let mut is_seen = memory::filled(false, triangles.len());
     // curves that end at the boundary begin there: they are walked first
     rising.sort_by_key(|&edge| mesh.topology().twin(edge).is_some());
     let (mut curve, mut closed, mut open) = (Vec::new(), 0, 0);
@@ -31,7 +32,7 @@ pub(super) fn level_curve(mesh: &Mesh, field: &[f64], level: f64) -> Result<Vec<
         let mut points = Vec::new();
         let is_closed = loop {
             is_seen[edge.triangle()] = true;
-            points.push(crossing(mesh, field, level, edge));
+            memory::push(&mut points, crossing(mesh, field, level, edge));
             match mesh.topology().twin(falling(edge)) {
                 None => break false,
                 Some(next) if next == start => break true,
@@ -75,5 +76,5 @@ pub(super) fn resample(curve: &[DVec3], start: DVec3, spacing: f64) -> Vec<DVec3
         let x = if length > 0.0 { (at - ends[side]) / length } else { 0.0 };
         curve[side].lerp(curve[(side + 1) % curve.len()], x)
     };
-    (0..count).map(point).collect()
+    (0..count).map(point).collect_vec()
 }

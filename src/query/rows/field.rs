@@ -6,6 +6,7 @@
 
 use super::{SampleRowsError, half_edges};
 use crate::linalg::SymbolicCholesky;
+use crate::memory::{self, CollectVec};
 use crate::mesh::{HalfEdge, Mesh};
 use sprs::TriMat;
 
@@ -15,7 +16,7 @@ const COTANGENTS: (f64, f64) = (1e-2, 1e3);
 
 /// The field that is 0 on the first source and 1 on the second.
 pub(super) fn harmonic(mesh: &Mesh, sources: &[Vec<u32>; 2]) -> Result<Vec<f64>, SampleRowsError> {
-    let mut field = vec![f64::NAN; mesh.points().len()];
+    let mut field = memory::filled(f64::NAN, mesh.points().len());
     for (value, source) in [0.0, 1.0].into_iter().zip(sources) {
         for &node in source {
             if !field[node as usize].is_nan() && field[node as usize] != value {
@@ -24,7 +25,7 @@ pub(super) fn harmonic(mesh: &Mesh, sources: &[Vec<u32>; 2]) -> Result<Vec<f64>,
             field[node as usize] = value;
         }
     }
-    let mut unknown = vec![usize::MAX; field.len()];
+    let mut unknown = memory::filled(usize::MAX, field.len());
     let mut count = 0;
     for node in 0..field.len() {
         if field[node].is_nan() && mesh.is_used(node as u32) {
@@ -33,7 +34,7 @@ pub(super) fn harmonic(mesh: &Mesh, sources: &[Vec<u32>; 2]) -> Result<Vec<f64>,
         }
     }
     let mut lower = TriMat::new((count, count));
-    let mut right = vec![0.0; count];
+    let mut right = memory::filled(0.0, count);
     for (edge, nodes) in half_edges(mesh) {
         let weight = cotangent(mesh, edge);
         for [node, other] in [nodes, [nodes[1], nodes[0]]] {
@@ -71,7 +72,7 @@ fn cotangent(mesh: &Mesh, edge: HalfEdge) -> f64 {
 /// triangle counts as spread evenly over the values that it has.
 pub(super) fn levels_of_equal_area(mesh: &Mesh, field: &[f64], count: usize) -> Vec<f64> {
     // where the area per value changes, and by how much
-    let mut changes = Vec::with_capacity(2 * mesh.triangles().len());
+    let mut changes = memory::with_capacity(2 * mesh.triangles().len());
     for nodes in mesh.triangles() {
         let [a, b, c] = nodes.map(|node| mesh.points()[node as usize]);
         let values = nodes.map(|node| field[node as usize]);
@@ -79,7 +80,7 @@ pub(super) fn levels_of_equal_area(mesh: &Mesh, field: &[f64], count: usize) -> 
             (values.iter().copied().fold(1.0, f64::min), values.iter().copied().fold(0.0, f64::max));
         if most > least {
             let density = (b - a).cross(c - a).length() / (most - least);
-            changes.extend([(least, density), (most, -density)]);
+            memory::extend(&mut changes, [(least, density), (most, -density)]);
         }
     }
     changes.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -87,7 +88,7 @@ pub(super) fn levels_of_equal_area(mesh: &Mesh, field: &[f64], count: usize) -> 
     let (mut density, mut below) = (0.0, vec![(0.0, 0.0)]);
     for (value, change) in changes {
         let (from, area) = below[below.len() - 1];
-        below.push((value, area + density * (value - from)));
+        memory::push(&mut below, (value, area + density * (value - from)));
         density += change;
     }
     let whole = below[below.len() - 1].1;
@@ -97,5 +98,5 @@ pub(super) fn levels_of_equal_area(mesh: &Mesh, field: &[f64], count: usize) -> 
         let ((from, less), (to, more)) = (below[k - 1], below[k]);
         from + (to - from) * if more > less { (wanted - less) / (more - less) } else { 0.0 }
     };
-    (0..count).map(level).collect()
+    (0..count).map(level).collect_vec()
 }

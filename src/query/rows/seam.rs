@@ -3,6 +3,7 @@
 //! In a triangle the gradient of the field is constant: the line runs straight from side to side. Where it would turn
 //! back over the side it has come through, on a ridge or in a valley, it follows that side to its higher node.
 
+use crate::memory;
 use crate::mesh::{HalfEdge, Mesh};
 use glam::DVec3;
 
@@ -28,11 +29,11 @@ pub(super) fn seam(mesh: &Mesh, field: &[f64], start: u32) -> Vec<(f64, DVec3)> 
             if field[higher as usize] <= line[line.len() - 1].0 {
                 break;
             }
-            line.push((field[higher as usize], mesh.points()[higher as usize]));
+            memory::push(&mut line, (field[higher as usize], mesh.points()[higher as usize]));
             place = Place::Node(higher);
             continue;
         }
-        line.push((value, point));
+        memory::push(&mut line, (value, point));
         place = next;
     }
     line

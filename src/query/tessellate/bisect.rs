@@ -17,6 +17,7 @@
 use super::error::TessellateError;
 use super::tessellation::{Tessellation, distance_to_segment, least_angle};
 use crate::control::Watch;
+use crate::memory::{self, CollectVec};
 use crate::mesh::Mesh;
 use crate::surface::Facets;
 use glam::{DVec2, DVec3};
@@ -104,7 +105,7 @@ impl<'a> Division<'a> {
             return Err(TessellateError::Empty);
         }
         // only corners that facets use
-        let mut numbers = vec![NONE; surface.places().len()];
+        let mut numbers = memory::filled(NONE, surface.places().len());
         let (mut uv, mut points, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
         for (facet, corners) in facets.iter().enumerate() {
             let mut row = [0.0; 9];
@@ -114,12 +115,12 @@ impl<'a> Division<'a> {
                 let number = &mut numbers[corners[k] as usize];
                 if *number == NONE {
                     *number = uv.len() as u32;
-                    uv.push(places[k]);
-                    points.push(DVec3::from_slice(&row[3 * k..]));
+                    memory::push(&mut uv, places[k]);
+                    memory::push(&mut points, DVec3::from_slice(&row[3 * k..]));
                 }
                 *number
             });
-            triangles.push(Triangle { nodes, facet: facet as u32, error: f64::NAN });
+            memory::push(&mut triangles, Triangle { nodes, facet: facet as u32, error: f64::NAN });
         }
         let around = points
             .iter()
@@ -147,11 +148,11 @@ impl<'a> Division<'a> {
                 continue;
             }
             let fresh = edges(nodes).into_iter().filter(|edge| !self.middles.contains_key(edge));
-            let fresh: Vec<[u32; 2]> = fresh.collect();
+            let fresh: Vec<[u32; 2]> = fresh.collect_vec();
             let place = |node: u32| self.uv[node as usize];
-            let mut uv: Vec<DVec2> = fresh.iter().map(|&[a, b]| (place(a) + place(b)) / 2.0).collect();
-            uv.push(nodes.map(place).iter().sum::<DVec2>() / 3.0);
-            let mut rows = vec![0.0; 3 * uv.len()];
+            let mut uv: Vec<DVec2> = fresh.iter().map(|&[a, b]| (place(a) + place(b)) / 2.0).collect_vec();
+            memory::push(&mut uv, nodes.map(place).iter().sum::<DVec2>() / 3.0);
+            let mut rows = memory::filled(0.0, 3 * uv.len());
             self.surface.eval_on_facet(facet as usize, &uv, &mut rows);
             let corners = nodes.map(|node| self.points[node as usize]);
             let middle = DVec3::from_slice(&rows[3 * fresh.len()..]);
@@ -209,13 +210,13 @@ impl<'a> Division<'a> {
 
     /// Divides all triangles with marked edges.
     fn divide(&mut self) -> Result<(), TessellateError> {
-        let mut divided = Vec::with_capacity(2 * self.triangles.len());
+        let mut divided = memory::with_capacity(2 * self.triangles.len());
         for index in 0..self.triangles.len() {
             let triangle = self.triangles[index];
             let first = self.longest(triangle.nodes);
             let [a, b, c] = [0, 1, 2].map(|k| triangle.nodes[(first + k) % 3]);
             let [Some(m), q, p] = [edge(a, b), edge(b, c), edge(c, a)].map(|edge| self.node_at(edge)) else {
-                divided.push(triangle);
+                memory::push(&mut divided, triangle);
                 continue;
             };
             let mut add = |nodes| divided.push(Triangle { nodes, facet: triangle.facet, error: f64::NAN });
@@ -238,8 +239,8 @@ impl<'a> Division<'a> {
         let middle = self.middles.get_mut(&edge).filter(|middle| middle.is_marked)?;
         if middle.node == NONE {
             middle.node = self.points.len() as u32;
-            self.uv.push(middle.uv);
-            self.points.push(middle.point);
+            memory::push(&mut self.uv, middle.uv);
+            memory::push(&mut self.points, middle.point);
         }
         Some(middle.node)
     }
@@ -250,7 +251,7 @@ impl<'a> Division<'a> {
             self.triangles.iter().map(|t| least_angle(corners(t))).fold(f64::INFINITY, f64::min);
         let of_edges = self.middles.values().map(|middle| middle.error).fold(0.0, f64::max);
         let chord_error = self.triangles.iter().map(|t| t.error).fold(of_edges, f64::max);
-        let mut mesh = Mesh::new(self.points, self.triangles.iter().map(|t| t.nodes).collect())?;
+        let mut mesh = Mesh::new(self.points, self.triangles.iter().map(|t| t.nodes).collect_vec())?;
         mesh.set_parameters(self.uv)?;
         Ok(Tessellation { mesh, smallest_angle, chord_error })
     }

@@ -14,6 +14,7 @@ pub use error::TessellateError;
 pub use tessellation::Tessellation;
 
 use crate::control::Watch;
+use crate::memory::{self, CollectVec};
 use crate::mesh::Mesh;
 use crate::surface::Surface;
 use bisect::{Fineness, tessellate_facets};
@@ -94,6 +95,8 @@ pub fn tessellate_watched(
     plane.finish()
 }
 
+/// A direction in which nothing moves, against the other: it still needs room in the plane.
+const LEAST_STRETCH: f64 = 1e-3;
 /// Grid lines along one direction at the start; patches are found by refinement.
 const START_LINES: usize = 9;
 /// An edge is not halved once it is this short against the domain: a fold or pole of the surface would go on
@@ -167,7 +170,7 @@ impl<'a> Plane<'a> {
             let domain = self.surface.domain();
             for (u, v) in [(-1.0, -1.0), (2.0, -1.0), (2.0, 2.0), (-1.0, 2.0)] {
                 let corner = self.insert(domain.min + DVec2::new(u, v) * domain.size())?;
-                self.frame.push(corner);
+                memory::push(&mut self.frame, corner);
             }
         }
         Ok(())
@@ -217,6 +220,7 @@ impl<'a> Plane<'a> {
     fn point(&mut self, vertex: FixedVertexHandle) -> DVec3 {
         let uv = self.uv(self.triangulation.vertex(vertex).position());
         let surface = self.surface;
+        memory::reserve_entry(&mut self.points);
         *self.points.entry(vertex).or_insert_with(|| eval(surface, uv))
     }
 
@@ -238,7 +242,7 @@ impl<'a> Plane<'a> {
                 })
             })
             .map(|edge| edge.vertices().map(|vertex| vertex.fix()))
-            .collect();
+            .collect_vec();
         let mut middles = Vec::new();
         self.chord_error = 0.0;
         for [a, b] in edges {
@@ -249,7 +253,7 @@ impl<'a> Plane<'a> {
             let sag = distance_to_segment(eval(self.surface, uv), from, to);
             let longest = self.options.max_edge_length;
             if sag > self.chord_tolerance || (longest > 0.0 && from.distance(to) > longest) {
-                middles.push(([a, b], uv));
+                memory::push(&mut middles, ([a, b], uv));
             }
             self.chord_error = self.chord_error.max(sag);
         }
@@ -287,8 +291,11 @@ impl<'a> Plane<'a> {
         let mut numbers: HashMap<FixedVertexHandle, u32> = HashMap::new();
         let (mut points, mut uvs, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
         let mut smallest_angle = f64::INFINITY;
-        let faces: Vec<_> =
-            self.triangulation.inner_faces().map(|face| face.vertices().map(|vertex| vertex.fix())).collect();
+        let faces: Vec<_> = self
+            .triangulation
+            .inner_faces()
+            .map(|face| face.vertices().map(|vertex| vertex.fix()))
+            .collect_vec();
         for face in faces {
             self.watch.check()?;
             if face.iter().any(|vertex| self.frame.contains(vertex)) {
@@ -302,13 +309,14 @@ impl<'a> Plane<'a> {
             smallest_angle = smallest_angle.min(least_angle(corners));
             let mut triangle = [0; 3];
             for k in 0..3 {
+                memory::reserve_entry(&mut numbers);
                 triangle[k] = *numbers.entry(face[k]).or_insert_with(|| {
-                    points.push(corners[k]);
-                    uvs.push(place[k]);
+                    memory::push(&mut points, corners[k]);
+                    memory::push(&mut uvs, place[k]);
                     points.len() as u32 - 1
                 });
             }
-            triangles.push(triangle);
+            memory::push(&mut triangles, triangle);
         }
         if triangles.is_empty() {
             return Err(TessellateError::Empty);
@@ -341,8 +349,7 @@ impl Probe {
             }
         }
         let lengths = speed * domain.size();
-        // a direction in which nothing moves still needs room in the plane
-        let least = 1e-3 * lengths.max_element().max(f64::MIN_POSITIVE);
+        let least = LEAST_STRETCH * lengths.max_element().max(f64::MIN_POSITIVE);
         Self { diagonal: min.distance(max), stretch: lengths.max(DVec2::splat(least)) / domain.size() }
     }
 }

@@ -10,6 +10,7 @@
 
 use super::error::TessellateError;
 use crate::control::Watch;
+use crate::memory::{self, CollectVec};
 use crate::mesh::Mesh;
 use crate::surface::Facets;
 use glam::{DVec2, DVec3};
@@ -56,10 +57,10 @@ impl Division {
         }
         let mut division = Self {
             parts,
-            nodes: Vec::with_capacity(faces.len() * (parts + 1) * (parts + 2) / 2),
+            nodes: memory::with_capacity(faces.len() * (parts + 1) * (parts + 2) / 2),
             face_count: faces.len(),
-            uv: vec![DVec2::NAN; count],
-            points: vec![DVec3::NAN; count],
+            uv: memory::filled(DVec2::NAN, count),
+            points: memory::filled(DVec3::NAN, count),
         };
         for (number, face) in faces.iter().enumerate() {
             watch.check()?;
@@ -81,7 +82,7 @@ impl Division {
                             inner - 1
                         }
                     };
-                    division.nodes.push(node as u32);
+                    memory::push(&mut division.nodes, node as u32);
                 }
             }
             division.evaluate(surface, number, face, first);
@@ -99,7 +100,7 @@ impl Division {
                 let node = self.nodes[first + place_in_face(self.parts, i, j)] as usize;
                 if self.uv[node].is_nan() {
                     let (s, t) = (i as f64 / parts, j as f64 / parts);
-                    fresh.push(node);
+                    memory::push(&mut fresh, node);
                     uv.push(match (i, j) {
                         (0, 0) => a,
                         (i, 0) if i == self.parts => b,
@@ -109,7 +110,7 @@ impl Division {
                 }
             }
         }
-        let mut rows = vec![0.0; 3 * uv.len()];
+        let mut rows = memory::filled(0.0, 3 * uv.len());
         surface.eval_on_facet(number, &uv, &mut rows);
         for ((&node, uv), row) in fresh.iter().zip(uv).zip(rows.chunks_exact(3)) {
             self.uv[node] = uv;
@@ -123,7 +124,7 @@ impl Division {
     }
 
     fn finish(self) -> Result<Mesh, TessellateError> {
-        let mut numbers = vec![u32::MAX; self.points.len()];
+        let mut numbers = memory::filled(u32::MAX, self.points.len());
         let (mut points, mut uv, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
         for face in 0..self.face_count {
             for j in 0..self.parts {
@@ -133,14 +134,15 @@ impl Division {
                     let has_upper = i + j + 1 < self.parts;
                     for corners in std::iter::once(lower).chain(has_upper.then_some(upper)) {
                         let nodes = corners.map(|(i, j)| self.node(face, i, j));
-                        triangles.push(nodes.map(|node| {
+                        let triangle = nodes.map(|node| {
                             if numbers[node] == u32::MAX {
                                 numbers[node] = points.len() as u32;
-                                points.push(self.points[node]);
-                                uv.push(self.uv[node]);
+                                memory::push(&mut points, self.points[node]);
+                                memory::push(&mut uv, self.uv[node]);
                             }
                             numbers[node]
-                        }));
+                        });
+                        memory::push(&mut triangles, triangle);
                     }
                 }
             }
@@ -163,14 +165,14 @@ struct Sides {
 impl Sides {
     fn new(faces: &[[u32; 3]]) -> Self {
         let ends = |&[a, b, c]: &[u32; 3]| [[a, b], [b, c], [c, a]];
-        let all: Vec<[u32; 2]> = faces.iter().flat_map(ends).collect();
-        let mut sorted: Vec<[u32; 2]> = all.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect();
+        let all: Vec<[u32; 2]> = faces.iter().flat_map(ends).collect_vec();
+        let mut sorted: Vec<[u32; 2]> = all.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect_vec();
         sorted.sort_unstable();
         sorted.dedup();
         let number = |&[a, b]: &[u32; 2]| sorted.partition_point(|side| *side < [a.min(b), a.max(b)]) as u32;
         Self {
-            numbers: all.iter().map(number).collect(),
-            is_forward: all.iter().map(|[a, b]| a < b).collect(),
+            numbers: all.iter().map(number).collect_vec(),
+            is_forward: all.iter().map(|[a, b]| a < b).collect_vec(),
             count: sorted.len(),
         }
     }

@@ -11,6 +11,7 @@
 
 use super::simplex::{MAX_KNOTS, Site, simplex_gradient, simplex_spline};
 use crate::geometry::signed_area;
+use crate::memory::CollectVec;
 use glam::DVec2;
 
 /// Value, u, v, uu, uv, vv.
@@ -66,7 +67,8 @@ impl Configuration {
 /// The mean of rows, by vertex.
 pub fn mean_row<'a>(rows: impl ExactSizeIterator<Item = &'a [(u32, f64)]>) -> Vec<(u32, f64)> {
     let share = 1.0 / rows.len() as f64;
-    let mut all: Vec<(u32, f64)> = rows.flatten().map(|&(vertex, weight)| (vertex, share * weight)).collect();
+    let mut all: Vec<(u32, f64)> =
+        rows.flatten().map(|&(vertex, weight)| (vertex, share * weight)).collect_vec();
     all.sort_by_key(|&(vertex, _)| vertex);
     all.dedup_by(|next, kept| {
         let is_same = next.0 == kept.0;

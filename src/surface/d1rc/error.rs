@@ -1,10 +1,14 @@
 //! What can be wrong with a D1RC-spline.
 
+use crate::control::Cancelled;
 use crate::failure::{Classify, ErrorKind};
 
 /// A D1RC-spline is not one, or cannot be changed as asked.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum D1rcError {
+    /// The progress callback asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
     /// The degree is out of range.
     #[error("the degree is {degree}, it must be 1, 2 or 3")]
     Degree {
@@ -132,6 +136,7 @@ pub enum D1rcError {
 impl Classify for D1rcError {
     fn kind(&self) -> ErrorKind {
         match self {
+            Self::Cancelled(_) => ErrorKind::Cancelled,
             Self::Degree { .. } | Self::Dimension | Self::NoParameters | Self::SharpRule { .. } => {
                 ErrorKind::InvalidArgument
             }

@@ -6,6 +6,7 @@
 use super::D1rcSurface;
 use super::kernel::{LANES, Workspace};
 use super::simplex::Site;
+use crate::memory::{self, CollectVec};
 use crate::surface::derivative_rows;
 use crate::surface::homogeneous::divide;
 use glam::DVec2;
@@ -79,8 +80,8 @@ impl<'a> Batch<'a> {
         Self {
             surface,
             order,
-            single: (Workspace::default(), vec![[[0.0; 1]; 6]; width]),
-            several: (Workspace::default(), vec![[[0.0; LANES]; 6]; width]),
+            single: (Workspace::default(), memory::filled([[0.0; 1]; 6], width)),
+            several: (Workspace::default(), memory::filled([[0.0; LANES]; 6], width)),
         }
     }
 
@@ -108,7 +109,7 @@ impl<'a> Batch<'a> {
         let Some((face, near)) = near else { return };
         let dim = self.surface.dim;
         let site = self.surface.space.locator.site_in(face, near);
-        let mut tangents = vec![0.0; 3 * dim];
+        let mut tangents = memory::filled(0.0, 3 * dim);
         let mut batch = Batch::new(self.surface, 1);
         batch.eval(face, &[site], &mut tangents);
         let (value, slopes) = tangents.split_at(dim);
@@ -159,7 +160,7 @@ fn write_rows<const L: usize>(surface: &D1rcSurface, order: usize, sums: &Sums<L
     for (l, out) in out.chunks_exact_mut(dim * rows).enumerate() {
         if surface.space.is_rational {
             let homogeneous: Vec<f64> =
-                (0..rows).flat_map(|r| sums.iter().map(move |sum| sum[r][l])).collect();
+                (0..rows).flat_map(|r| sums.iter().map(move |sum| sum[r][l])).collect_vec();
             divide(&homogeneous, dim, order, out);
             continue;
         }

@@ -18,6 +18,7 @@ use super::configuration::mean_row;
 use super::error::D1rcError;
 use super::locate::Locator;
 use crate::geometry::{Orientation, orientation};
+use crate::memory::{self, CollectVec};
 use crate::mesh::{HalfEdge, Mesh};
 use glam::DVec2;
 use std::f64::consts::TAU;
@@ -108,14 +109,14 @@ impl<'a> Builder<'a> {
     fn new(plane: &'a Plane<'a>, boundary: Boundary, degree: usize) -> Self {
         let count = plane.places.len();
         let frame = Frame {
-            link_places: plane.places.to_vec(),
-            places: plane.places.to_vec(),
-            origins: (0..count as u32).collect(),
-            rows: plane.rows.to_vec(),
+            link_places: memory::copied(plane.places),
+            places: memory::copied(plane.places),
+            origins: (0..count as u32).collect_vec(),
+            rows: memory::copied(plane.rows),
             triangles: Vec::new(),
-            is_clamped: vec![false; count],
+            is_clamped: memory::filled(false, count),
         };
-        let corners = plane.mesh.triangles().iter().flatten().copied().collect();
+        let corners = plane.mesh.triangles().iter().flatten().copied().collect_vec();
         Self { plane, boundary, degree, frame, corners, sectors: Vec::new() }
     }
 
@@ -146,11 +147,12 @@ impl<'a> Builder<'a> {
     /// A further knot with the control point of another.
     fn copy(&mut self, knot: u32, place: DVec2) -> u32 {
         let frame = &mut self.frame;
-        frame.link_places.push(place);
-        frame.places.push(place);
-        frame.origins.push(frame.origins[knot as usize]);
-        frame.rows.push(frame.rows[knot as usize].clone());
-        self.sectors.push(None);
+        memory::push(&mut frame.link_places, place);
+        memory::push(&mut frame.places, place);
+        let (origin, row) = (frame.origins[knot as usize], frame.rows[knot as usize].clone());
+        memory::push(&mut frame.origins, origin);
+        memory::push(&mut frame.rows, row);
+        memory::push(&mut self.sectors, None);
         frame.places.len() as u32 - 1
     }
 
@@ -186,7 +188,7 @@ impl<'a> Builder<'a> {
             .flatten()
             .filter(|sector| sector.is_clamped)
             .map(|sector| (sector.knot, (self.degree + 1) as f64 * step * self.inward(sector)))
-            .collect();
+            .collect_vec();
         for (knot, step) in steps {
             self.frame.link_places[knot as usize] += step;
         }
@@ -210,13 +212,13 @@ impl<'a> Builder<'a> {
     /// Clones of inner vertices to be interpolated, each in a face of its own beside the vertex.
     fn add_clusters(&mut self) -> Result<(), D1rcError> {
         let plane = self.plane;
-        let mut is_taken = vec![false; plane.mesh.triangles().len()];
+        let mut is_taken = memory::filled(false, plane.mesh.triangles().len());
         let is_inner = |this: &Self, v: usize| this.sectors[v].is_none() && plane.mesh.is_used(v as u32);
         let fixed = (0..plane.places.len()).filter(|&v| plane.is_fixed[v] && is_inner(self, v));
         for vertex in fixed.collect::<Vec<usize>>() {
             self.frame.is_clamped[vertex] = true;
             let around: Vec<HalfEdge> =
-                plane.mesh.outgoing(vertex as u32).filter(|h| !is_taken[h.triangle()]).collect();
+                plane.mesh.outgoing(vertex as u32).filter(|h| !is_taken[h.triangle()]).collect_vec();
             if around.len() < self.degree {
                 return Err(D1rcError::NoRoom { vertex });
             }
@@ -238,18 +240,19 @@ impl<'a> Builder<'a> {
         let inward = (p - at).normalize() + (q - at).normalize();
         self.frame.link_places[clone as usize] = at + CLUSTER * self.height(face) * inward;
         self.frame.triangles[face] = [v, a, clone];
-        self.frame.triangles.extend([[a, b, clone], [b, v, clone]]);
+        memory::extend(&mut self.frame.triangles, [[a, b, clone], [b, v, clone]]);
     }
 
     fn add_rings(&mut self) -> Result<(), D1rcError> {
-        let locator = Locator::new(self.plane.places.to_vec(), self.plane.mesh.triangles().to_vec());
+        let locator =
+            Locator::new(memory::copied(self.plane.places), memory::copied(self.plane.mesh.triangles()));
         let cluster_step = self.cluster_step();
         for line in self.boundary_lines() {
             let outer: Vec<f64> = line
                 .iter()
                 .filter_map(|&knot| self.out_edge(knot).filter(|&edge| !self.is_crease(edge)))
                 .map(|edge| self.length(edge))
-                .collect();
+                .collect_vec();
             // half an edge, the natural distance of knots that continue the mesh
             let mut step = 0.5 * outer.iter().sum::<f64>() / outer.len().max(1) as f64;
             let mut halvings = 0;
@@ -290,24 +293,24 @@ impl<'a> Builder<'a> {
 
     /// The closed lines of knots that bound the cut mesh, by their smallest knot.
     fn boundary_lines(&self) -> Vec<Vec<u32>> {
-        let mut seen = vec![false; self.sectors.len()];
+        let mut seen = memory::filled(false, self.sectors.len());
         let mut lines = Vec::new();
         for start in 0..self.sectors.len() as u32 {
             let mut line = Vec::new();
             let mut knot = start;
             while let Some(edge) = self.out_edge(knot).filter(|_| !seen[knot as usize]) {
                 seen[knot as usize] = true;
-                line.push(knot);
+                memory::push(&mut line, knot);
                 knot = self.corners[edge.next().index()];
             }
-            lines.extend((!line.is_empty()).then_some(line));
+            memory::extend(&mut lines, (!line.is_empty()).then_some(line));
         }
         lines
     }
 
     /// Clones of all knots of a line, and the triangles between; or a vertex where there is no room for them.
     fn add_ring(&mut self, line: &[u32], steps: [f64; 2], locator: &Locator) -> Result<(), usize> {
-        let clones: Vec<Vec<u32>> = line.iter().map(|&knot| self.add_clones(knot, steps)).collect();
+        let clones: Vec<Vec<u32>> = line.iter().map(|&knot| self.add_clones(knot, steps)).collect_vec();
         let vertex = |this: &Self, knot: u32| this.frame.origins[knot as usize] as usize;
         for (k, &knot) in line.iter().enumerate() {
             let next = (k + 1) % line.len();
@@ -322,7 +325,7 @@ impl<'a> Builder<'a> {
                     if orientation(p, q, r) != Orientation::Positive {
                         return Err(vertex(self, knot));
                     }
-                    self.frame.triangles.push(triangle);
+                    memory::push(&mut self.frame.triangles, triangle);
                 }
                 let is_phantom = self.frame.places[a[j] as usize] != self.plane.places[vertex(self, knot)];
                 if is_phantom && locator.find(self.frame.places[a[j] as usize]).is_some() {
@@ -347,7 +350,7 @@ impl<'a> Builder<'a> {
                 let clone = self.copy(knot, place);
                 let left = (self.degree + 1 - ring) as f64;
                 self.frame.link_places[clone as usize] = place + left * cluster_step * inward;
-                clones.push(clone);
+                memory::push(&mut clones, clone);
             } else if self.boundary == Boundary::Phantom {
                 let outside = |place: DVec2, inward: DVec2| place - ring as f64 * step * inward;
                 let here = outside(place, inward);
@@ -355,7 +358,7 @@ impl<'a> Builder<'a> {
                 let offset = here.lerp(next, ASIDE[ring - 1]) - place;
                 let clone = self.copy(knot, place + offset);
                 self.frame.rows[clone as usize] = self.extrapolated(knot, offset);
-                clones.push(clone);
+                memory::push(&mut clones, clone);
             }
         }
         clones

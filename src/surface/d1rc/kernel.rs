@@ -15,7 +15,9 @@
 
 use super::configuration::{Configuration, Jet};
 use super::simplex::{Site, barycentric_gradients, widest_triangle};
+use crate::control::{Cancelled, Watch};
 use crate::geometry::{CANCELLATION, signed_area};
+use crate::memory::{self, CollectVec};
 use glam::DVec2;
 use std::ops::Range;
 
@@ -95,13 +97,19 @@ pub type Jets<const L: usize> = [[f64; L]; 6];
 
 impl Kernel {
     /// Prepares functions of one degree.
-    pub fn new(degree: usize, configurations: &[Configuration], places: &[DVec2]) -> Self {
+    pub fn new(
+        degree: usize,
+        configurations: &[Configuration],
+        places: &[DVec2],
+        watch: &Watch,
+    ) -> Result<Self, Cancelled> {
         let mut kernel = Self { degree, pieces: Vec::new(), knots: Vec::new(), terms: Vec::new() };
-        for configuration in configurations {
+        for (number, configuration) in configurations.iter().enumerate() {
+            watch.check_at(number)?;
             let piece = kernel.prepare(configuration, places);
-            kernel.pieces.push(piece);
+            memory::push(&mut kernel.pieces, piece);
         }
-        kernel
+        Ok(kernel)
     }
 
     fn prepare(&mut self, configuration: &Configuration, places: &[DVec2]) -> Piece {
@@ -113,17 +121,17 @@ impl Kernel {
         if self.degree == 1 || ring_count > MAX_RING {
             return piece;
         }
-        let ring: Vec<u32> = configuration.edges.iter().map(|edge| edge[0]).collect();
-        let local = Local { degree: self.degree, ring_count, knots: all().collect() };
+        let ring: Vec<u32> = configuration.edges.iter().map(|edge| edge[0]).collect_vec();
+        let local = Local { degree: self.degree, ring_count, knots: all().collect_vec() };
         for (number, edge) in configuration.edges.iter().enumerate() {
             let Some(to) = ring.iter().position(|&knot| knot == edge[1]) else { return piece };
             let Some(term) = local.term(number, to) else {
                 self.terms.truncate(first_term);
                 return piece;
             };
-            self.terms.push(term);
+            memory::push(&mut self.terms, term);
         }
-        self.knots.extend(local.knots);
+        memory::extend(&mut self.knots, local.knots);
         piece.knots = first_knot as u32..self.knots.len() as u32;
         piece.terms = first_term as u32..self.terms.len() as u32;
         piece

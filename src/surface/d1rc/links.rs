@@ -12,6 +12,8 @@
 //! triangles of the mesh: `sum b_J = 1` wherever all links close, and polynomials up to degree k are reproduced.
 
 use super::polygon::triangulate;
+use crate::control::{Cancelled, Watch};
+use crate::memory::{self, CollectVec};
 use glam::DVec2;
 
 /// Up to three knots in increasing order, filled up with [`NONE`].
@@ -39,15 +41,21 @@ pub struct NotSimple {
 }
 
 /// The links of all sets of `degree` knots that close. Around knots on the border of the triangles none does.
-pub fn links(places: &[DVec2], triangles: &[[u32; 3]], degree: usize) -> Result<Links, NotSimple> {
-    let mut is_open = vec![false; places.len()];
+pub fn links(
+    places: &[DVec2],
+    triangles: &[[u32; 3]],
+    degree: usize,
+    watch: &Watch,
+) -> Result<Result<Links, NotSimple>, Cancelled> {
+    let mut is_open = memory::filled(false, places.len());
     let mut elements: Vec<(KnotSet, [u32; 3])> =
-        triangles.iter().map(|&triangle| ([NONE; 3], triangle)).collect();
+        triangles.iter().map(|&triangle| ([NONE; 3], triangle)).collect_vec();
     let (mut closed, mut lost) = (Vec::new(), Vec::new());
     for level in 1..=degree {
         let entries = opposite_edges(&elements);
         let before = std::mem::take(&mut elements);
-        for group in entries.chunk_by(|a, b| a.0 == b.0) {
+        for (number, group) in entries.chunk_by(|a, b| a.0 == b.0).enumerate() {
+            watch.check_at(number)?;
             let set = group[0].0;
             let knots = &set[..level];
             if knots.iter().any(|&knot| is_open[knot as usize]) {
@@ -56,57 +64,67 @@ pub fn links(places: &[DVec2], triangles: &[[u32; 3]], degree: usize) -> Result<
             let edges = without_opposites(group);
             let Some(cycles) = cycles(&edges) else {
                 if level > 1 {
-                    return Err(NotSimple { knot: set[0] });
+                    return Ok(Err(NotSimple { knot: set[0] }));
                 }
                 is_open[set[0] as usize] = true;
                 continue;
             };
             if level == degree {
-                closed.extend((!edges.is_empty()).then(|| Link { knots: knots.to_vec(), edges }));
+                if !edges.is_empty() {
+                    memory::push(&mut closed, Link { knots: memory::copied(knots), edges });
+                }
                 continue;
             }
             for cycle in cycles {
-                let corners: Vec<DVec2> = cycle.iter().map(|&knot| places[knot as usize]).collect();
-                let inner = triangulate(&corners).ok_or(NotSimple { knot: set[0] })?;
-                elements.extend(inner.iter().map(|triangle| (set, triangle.map(|corner| cycle[corner]))));
+                let corners: Vec<DVec2> = cycle.iter().map(|&knot| places[knot as usize]).collect_vec();
+                let Some(inner) = triangulate(&corners) else {
+                    return Ok(Err(NotSimple { knot: set[0] }));
+                };
+                let inner = inner.iter().map(|triangle| (set, triangle.map(|corner| cycle[corner])));
+                memory::extend(&mut elements, inner);
             }
         }
         let is_lost = |triangle: &[u32; 3]| triangle.iter().any(|&corner| is_open[corner as usize]);
         let knots = |set: KnotSet| set.into_iter().take(level - 1);
-        lost.extend(
+        memory::extend(
+            &mut lost,
             before
                 .into_iter()
                 .filter(|(_, triangle)| is_lost(triangle))
-                .map(|(set, triangle)| knots(set).chain(triangle).collect()),
+                .map(|(set, triangle)| knots(set).chain(triangle).collect_vec()),
         );
     }
-    Ok(Links { closed, lost })
+    Ok(Ok(Links { closed, lost }))
 }
 
 /// For each set X and corner x of its triangles: the set X + x and the edge opposite to x, in order.
 fn opposite_edges(elements: &[(KnotSet, [u32; 3])]) -> Vec<(KnotSet, [u32; 2])> {
-    let mut entries = Vec::with_capacity(3 * elements.len());
+    let mut entries = memory::with_capacity(3 * elements.len());
     for &(set, triangle) in elements {
         for corner in 0..3 {
             let mut joined = set;
             joined[2] = triangle[corner]; // the set has at most two
             joined.sort_unstable();
-            entries.push((joined, [triangle[(corner + 1) % 3], triangle[(corner + 2) % 3]]));
+            memory::push(&mut entries, (joined, [triangle[(corner + 1) % 3], triangle[(corner + 2) % 3]]));
         }
     }
     entries.sort_unstable();
     entries
 }
 
+/// The edges of one set, in order, of which none is there the other way round too.
 fn without_opposites(group: &[(KnotSet, [u32; 2])]) -> Vec<[u32; 2]> {
-    let has = |edge: [u32; 2]| group.iter().any(|&(_, other)| other == edge);
-    group.iter().map(|&(_, edge)| edge).filter(|&[a, b]| !has([b, a])).collect()
+    let has = |edge: [u32; 2]| group.binary_search_by_key(&edge, |&(_, other)| other).is_ok();
+    group.iter().map(|&(_, edge)| edge).filter(|&[a, b]| !has([b, a])).collect_vec()
 }
 
-/// Edges as closed lines of knots; None where one ends or meets another.
+/// Edges, in order, as closed lines of knots; None where one ends or meets another.
 fn cycles(edges: &[[u32; 2]]) -> Option<Vec<Vec<u32>>> {
-    let from = |knot: u32| edges.iter().position(|edge| edge[0] == knot);
-    let mut seen = vec![false; edges.len()];
+    let from = |knot: u32| {
+        let place = edges.partition_point(|edge| edge[0] < knot);
+        edges.get(place).is_some_and(|edge| edge[0] == knot).then_some(place)
+    };
+    let mut seen = memory::filled(false, edges.len());
     let mut cycles = Vec::new();
     for start in 0..edges.len() {
         if seen[start] {
@@ -115,13 +133,13 @@ fn cycles(edges: &[[u32; 2]]) -> Option<Vec<Vec<u32>>> {
         let mut cycle = Vec::new();
         let mut at = start;
         while !std::mem::replace(&mut seen[at], true) {
-            cycle.push(edges[at][0]);
+            memory::push(&mut cycle, edges[at][0]);
             at = from(edges[at][1])?;
         }
         if at != start {
             return None;
         }
-        cycles.push(cycle);
+        memory::push(&mut cycles, cycle);
     }
     Some(cycles)
 }

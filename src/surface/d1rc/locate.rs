@@ -3,6 +3,7 @@
 use super::simplex::Site;
 use crate::geometry::{Domain, Orientation, orientation, signed_area};
 use crate::lists::Lists;
+use crate::memory::{self, CollectVec};
 use glam::DVec2;
 
 /// Cells of the grid for each face: a cell then meets some four faces.
@@ -42,7 +43,7 @@ impl Locator {
         let mut pairs = Vec::new();
         for face in 0..locator.faces.len() {
             let around = Domain::around(locator.corners(face as u32));
-            pairs.extend(locator.cells(&around).map(|cell| (cell as u32, face as u32)));
+            memory::extend(&mut pairs, locator.cells(&around).map(|cell| (cell as u32, face as u32)));
         }
         locator.by_cell = Lists::new(counts[0] * counts[1], pairs.into_iter());
         locator
@@ -170,13 +171,13 @@ impl Locator {
 /// The sides of faces that no other face has, with their faces.
 fn border(faces: &[[u32; 3]]) -> Vec<(u32, [u32; 2])> {
     let sides = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [c, a]];
-    let mut all: Vec<[u32; 2]> = faces.iter().flat_map(|&face| sides(face)).collect();
+    let mut all: Vec<[u32; 2]> = faces.iter().flat_map(|&face| sides(face)).collect_vec();
     all.sort_unstable();
     let is_free = |[a, b]: &[u32; 2]| all.binary_search(&[*b, *a]).is_err();
     let numbered = faces.iter().enumerate();
     numbered
         .flat_map(|(f, &face)| sides(face).into_iter().filter(is_free).map(move |side| (f as u32, side)))
-        .collect()
+        .collect_vec()
 }
 
 fn nearest_on_segment(t: DVec2, from: DVec2, to: DVec2) -> DVec2 {

@@ -40,7 +40,9 @@ pub use sharp::sharp_edges;
 pub use space::{Recipe, Space};
 
 use super::{ControlNet, Domain, Facets, Kind, Region, Surface};
+use crate::control::Watch;
 use crate::lists::Lists;
+use crate::memory::{self, CollectVec};
 use crate::mesh::Mesh;
 use crate::surface::Trims;
 use glam::{DVec2, DVec3};
@@ -77,15 +79,26 @@ impl D1rcSurface {
         sharp_edges: &[[u32; 2]],
         corners: &[u32],
     ) -> Result<Self, D1rcError> {
+        Self::from_mesh_watched(mesh, options, sharp_edges, corners, &Watch::default())
+    }
+
+    /// The same, for a call that may be cancelled.
+    pub fn from_mesh_watched(
+        mesh: &Mesh,
+        options: &D1rcOptions,
+        sharp_edges: &[[u32; 2]],
+        corners: &[u32],
+        watch: &Watch,
+    ) -> Result<Self, D1rcError> {
         let recipe = Recipe {
             uv: mesh.parameters().ok_or(D1rcError::NoParameters)?.to_vec(),
-            triangles: mesh.triangles().to_vec(),
+            triangles: memory::copied(mesh.triangles()),
             options: *options,
-            sharp_edges: sharp_edges.to_vec(),
-            corners: corners.to_vec(),
+            sharp_edges: memory::copied(sharp_edges),
+            corners: memory::copied(corners),
         };
         let points = mesh.points().iter().flat_map(|point| point.to_array()).collect();
-        Self::new(Space::new(recipe)?, 3, points)
+        Self::new(Space::new_watched(recipe, watch)?, 3, points)
     }
 
     /// The surface in a space with `dim` numbers for each vertex of the control mesh.
@@ -98,12 +111,12 @@ impl D1rcSurface {
         let rows = space.configurations.iter().enumerate();
         let mut pairs: Vec<(u32, u32)> = rows
             .flat_map(|(function, c)| c.row.iter().map(move |&(vertex, _)| (vertex, function as u32)))
-            .collect();
+            .collect_vec();
         pairs.sort_unstable();
         let mut surface = Self {
             dim,
             control_points,
-            coefficients: vec![0.0; dim * space.configurations.len()],
+            coefficients: memory::filled(0.0, dim * space.configurations.len()),
             dependents: Arc::new(Lists::new(space.vertex_count(), pairs.iter().copied())),
             region: Region { data_box: None, trims: trims(&space), ..Region::default() },
             space: Arc::new(space),
@@ -136,7 +149,7 @@ impl D1rcSurface {
         }
         let dependents = self.dependents.clone();
         let mut functions: Vec<u32> =
-            vertices.iter().flat_map(|&vertex| dependents.of(vertex as usize)).copied().collect();
+            vertices.iter().flat_map(|&vertex| dependents.of(vertex as usize)).copied().collect_vec();
         functions.sort_unstable();
         functions.dedup();
         functions.into_iter().for_each(|function| self.update(function as usize));
@@ -156,8 +169,8 @@ impl D1rcSurface {
     /// The same control points with other sharp edges. The trims stay. Nothing is changed on an error.
     pub fn set_sharp_edges(&mut self, sharp_edges: &[[u32; 2]], corners: &[u32]) -> Result<(), D1rcError> {
         let mut recipe = self.space.recipe.clone();
-        recipe.sharp_edges = sharp_edges.to_vec();
-        recipe.corners = corners.to_vec();
+        recipe.sharp_edges = memory::copied(sharp_edges);
+        recipe.corners = memory::copied(corners);
         let region = self.region.clone();
         *self = Self::new(Space::new(recipe)?, self.dim, self.control_points.clone())?;
         self.region = region;
@@ -168,7 +181,7 @@ impl D1rcSurface {
     pub fn influence(&self, vertex: u32) -> Result<Vec<u32>, D1rcError> {
         let functions = self.functions_of(vertex)?;
         let faces = functions.iter().flat_map(|&function| self.space.regions.faces(function));
-        let mut faces: Vec<u32> = faces.map(|&face| self.space.parents[face as usize]).collect();
+        let mut faces: Vec<u32> = faces.map(|&face| self.space.parents[face as usize]).collect_vec();
         faces.sort_unstable();
         faces.dedup();
         Ok(faces)
@@ -216,7 +229,7 @@ impl D1rcSurface {
     pub fn edge_continuity(&self, edges: &[[u32; 2]]) -> Result<Vec<usize>, D1rcError> {
         let recipe = &self.space.recipe;
         let sorted = |edges: &mut dyn Iterator<Item = [u32; 2]>| {
-            let mut all: Vec<[u32; 2]> = edges.map(|[a, b]| [a.min(b), a.max(b)]).collect();
+            let mut all: Vec<[u32; 2]> = edges.map(|[a, b]| [a.min(b), a.max(b)]).collect_vec();
             all.sort_unstable();
             all
         };
@@ -312,13 +325,13 @@ impl Surface for D1rcSurface {
             return None;
         }
         let sides = |&[a, b, c]: &[u32; 3]| [[a, b], [b, c], [c, a]].map(|[p, q]| [p.min(q), p.max(q)]);
-        let mut edges: Vec<[u32; 2]> = self.space.recipe.triangles.iter().flat_map(sides).collect();
+        let mut edges: Vec<[u32; 2]> = self.space.recipe.triangles.iter().flat_map(sides).collect_vec();
         edges.sort_unstable();
         edges.dedup();
         Some(ControlNet {
             points: self.control_points.chunks_exact(3).map(DVec3::from_slice).collect(),
             weights: None,
-            lines: edges.iter().map(|edge| edge.to_vec()).collect(),
+            lines: edges.iter().map(|edge| memory::copied(edge)).collect(),
         })
     }
 }

@@ -11,6 +11,7 @@
 //! vertex of a crease count only as far as the crease, on the side of X; edges of the crease are no X.
 
 use super::configuration::{Configuration, mean_row};
+use crate::memory::{self, CollectVec};
 use crate::mesh::{HalfEdge, Mesh};
 use glam::DVec2;
 
@@ -38,26 +39,29 @@ impl Plane<'_> {
             1 => {
                 let first = |v: u32| self.mesh.topology().first(v).map(HalfEdge::triangle);
                 let vertices = 0..self.mesh.points().len() as u32;
-                sets.extend(vertices.filter_map(|v| Some((vec![v], first(v)?))));
+                memory::extend(&mut sets, vertices.filter_map(|v| Some((vec![v], first(v)?))));
             }
             2 => {
                 let half_edges = (0..3 * triangles.len()).map(|h| HalfEdge::new(h / 3, h % 3));
                 let one_side = half_edges.filter(|h| h.origin(triangles) < h.target(triangles));
                 let smooth = one_side.filter(|h| !(self.keeps_sectors && self.is_sharp[h.index()]));
-                sets.extend(smooth.map(|h| (vec![h.origin(triangles), h.target(triangles)], h.triangle())));
+                memory::extend(
+                    &mut sets,
+                    smooth.map(|h| (vec![h.origin(triangles), h.target(triangles)], h.triangle())),
+                );
             }
-            _ => sets.extend(triangles.iter().enumerate().map(|(face, t)| (t.to_vec(), face))),
+            _ => sets.extend(triangles.iter().enumerate().map(|(face, t)| (memory::copied(t), face))),
         }
         sets.retain(|(knots, _)| is_inner(knots));
         let configuration = |(knots, face): (Vec<u32>, usize)| {
             let stars = knots.iter().flat_map(|&vertex| self.star(vertex, face));
-            let edges = self.border(stars.collect());
+            let edges = self.border(stars.collect_vec());
             let weight = 1.0 / knots.len() as f64;
-            let mut row: Vec<(u32, f64)> = knots.iter().map(|&vertex| (vertex, weight)).collect();
+            let mut row: Vec<(u32, f64)> = knots.iter().map(|&vertex| (vertex, weight)).collect_vec();
             row.sort_by_key(|&(vertex, _)| vertex);
             Configuration { knots, edges, weight: 1.0, row }
         };
-        sets.into_iter().map(configuration).collect()
+        sets.into_iter().map(configuration).collect_vec()
     }
 
     /// The functions of sharp edges and fixed vertices; their own knots are added to `places`.
@@ -69,28 +73,31 @@ impl Plane<'_> {
             let ends = [half_edge.origin(triangles), half_edge.target(triangles)];
             let [from, to] = ends.map(|vertex| places[vertex as usize]);
             let shares = (1..self.degree).map(|s| s as f64 / self.degree as f64);
-            let own: Vec<DVec2> = shares.clone().map(|share| from + share * (to - from)).collect();
+            let own: Vec<DVec2> = shares.clone().map(|share| from + share * (to - from)).collect_vec();
             let rows: Vec<[(u32, f64); 2]> = std::iter::once(0.0)
                 .chain(shares)
                 .map(|share| [(ends[0], 1.0 - share), (ends[1], share)])
-                .collect();
+                .collect_vec();
             let first = places.len() as u32;
             places.extend(own);
-            let knots = std::iter::once(ends[0]).chain(first..places.len() as u32).collect();
+            let knots = std::iter::once(ends[0]).chain(first..places.len() as u32).collect_vec();
             let row = mean_row(rows.iter().map(|row| row.as_slice()));
             let edges = self.border(self.faces_around(ends[0]));
-            all.push(Configuration { knots, edges, weight: self.sharp_weight, row });
+            memory::push(&mut all, Configuration { knots, edges, weight: self.sharp_weight, row });
         }
         for &vertex in self.fixed {
             let edges = self.border(self.faces_around(vertex));
-            let knots = vec![vertex; self.degree];
-            all.push(Configuration { knots, edges, weight: self.sharp_weight, row: vec![(vertex, 1.0)] });
+            let knots = memory::filled(vertex, self.degree);
+            memory::push(
+                &mut all,
+                Configuration { knots, edges, weight: self.sharp_weight, row: vec![(vertex, 1.0)] },
+            );
         }
         all
     }
 
     fn faces_around(&self, vertex: u32) -> Vec<usize> {
-        self.mesh.outgoing(vertex).map(HalfEdge::triangle).collect()
+        self.mesh.outgoing(vertex).map(HalfEdge::triangle).collect_vec()
     }
 
     /// The faces around a vertex, with the sector rule only those on the side of `face`.
@@ -113,9 +120,9 @@ impl Plane<'_> {
             let [a, b, c] = self.mesh.triangles()[face];
             [[a, b], [b, c], [c, a]]
         };
-        let mut edges: Vec<[u32; 2]> = faces.iter().flat_map(|&face| sides(face)).collect();
+        let mut edges: Vec<[u32; 2]> = faces.iter().flat_map(|&face| sides(face)).collect_vec();
         edges.sort_unstable();
         let has = |edge: [u32; 2]| edges.binary_search(&edge).is_ok();
-        edges.iter().copied().filter(|&[a, b]| !has([b, a])).collect()
+        edges.iter().copied().filter(|&[a, b]| !has([b, a])).collect_vec()
     }
 }

@@ -6,55 +6,89 @@
 //! knots must be triangulated by nearness (see `links`).
 
 use crate::geometry::{Orientation, is_in_circle, orientation};
+use crate::memory::{self, CollectVec};
 use glam::DVec2;
 
-/// The triangles of a simple counter-clockwise polygon, as numbers of its corners; None if it is none.
+/// The triangles of a simple counter-clockwise polygon, as numbers of its corners; None if it is none. Quadratic time in
+/// the number of corners.
 pub fn triangulate(corners: &[DVec2]) -> Option<Vec<[usize; 3]>> {
-    let mut rest: Vec<usize> = (0..corners.len()).collect();
-    let mut triangles = Vec::with_capacity(corners.len().saturating_sub(2));
+    let mut rest: Vec<usize> = (0..corners.len()).collect_vec();
+    let mut ears: Vec<Ear> = rest.iter().map(|&at| Ear::new(corners, &rest, at)).collect_vec();
+    let mut triangles = memory::with_capacity(corners.len().saturating_sub(2));
     while rest.len() > 3 {
-        let ear = best_ear(corners, &rest)?;
-        triangles.push(triangle_at(&rest, ear));
-        rest.remove(ear);
+        let cut = best_ear(&ears)?;
+        memory::push(&mut triangles, ears[cut].corners);
+        let gone = rest.remove(cut);
+        ears.remove(cut);
+        ears.iter_mut().for_each(|ear| ear.forget(gone, corners[gone]));
+        // the neighbours have other triangles now
+        for beside in [(cut + rest.len() - 1) % rest.len(), cut % rest.len()] {
+            ears[beside] = Ear::new(corners, &rest, beside);
+        }
     }
     let &[a, b, c] = rest.as_slice() else { return None };
     let is_left = orientation(corners[a], corners[b], corners[c]) == Orientation::Positive;
     is_left.then(|| {
-        triangles.push([a, b, c]);
+        memory::push(&mut triangles, [a, b, c]);
         triangles
     })
 }
 
-fn triangle_at(rest: &[usize], ear: usize) -> [usize; 3] {
-    let count = rest.len();
-    [rest[(ear + count - 1) % count], rest[ear], rest[(ear + 1) % count]]
+/// A corner with the ones before and after it.
+struct Ear {
+    corners: [usize; 3],
+    triangle: [DVec2; 3],
+    turns_left: bool,
+    /// Other corners in the triangle.
+    held: usize,
+    /// Other corners in its circle.
+    in_circle: usize,
+    shape: f64,
 }
 
-fn best_ear(corners: &[DVec2], rest: &[usize]) -> Option<usize> {
-    let mut best: Option<(usize, f64, usize)> = None;
-    for ear in 0..rest.len() {
-        let numbers = triangle_at(rest, ear);
-        let triangle = numbers.map(|corner| corners[corner]);
+impl Ear {
+    /// At a place of the polygon that is left.
+    fn new(all: &[DVec2], rest: &[usize], at: usize) -> Self {
+        let count = rest.len();
+        let corners = [rest[(at + count - 1) % count], rest[at], rest[(at + 1) % count]];
+        let triangle = corners.map(|corner| all[corner]);
         let [a, b, c] = triangle;
-        if orientation(a, b, c) != Orientation::Positive {
-            continue;
+        let turns_left = orientation(a, b, c) == Orientation::Positive;
+        let mut ear = Self { corners, triangle, turns_left, held: 0, in_circle: 0, shape: shape(triangle) };
+        if turns_left {
+            for &corner in rest.iter().filter(|corner| !corners.contains(corner)) {
+                ear.held += usize::from(ear.holds(all[corner]));
+                ear.in_circle += usize::from(is_in_circle(triangle, all[corner]));
+            }
         }
-        let others = || rest.iter().filter(|corner| !numbers.contains(corner)).map(|&corner| corners[corner]);
-        let holds = |p: DVec2| {
-            [(a, b), (b, c), (c, a)]
-                .iter()
-                .all(|&(from, to)| orientation(from, to, p) != Orientation::Negative)
-        };
-        if others().any(holds) {
-            continue;
-        }
-        let in_circle = others().filter(|&p| is_in_circle(triangle, p)).count();
-        let shape = shape(triangle);
-        if best.is_none_or(|(count, least, _)| in_circle < count || (in_circle == count && shape > least)) {
-            best = Some((in_circle, shape, ear));
+        ear
+    }
+
+    fn holds(&self, p: DVec2) -> bool {
+        let [a, b, c] = self.triangle;
+        [(a, b), (b, c), (c, a)].iter().all(|&(from, to)| orientation(from, to, p) != Orientation::Negative)
+    }
+
+    /// Another corner has been cut off.
+    fn forget(&mut self, corner: usize, place: DVec2) {
+        if self.turns_left && !self.corners.contains(&corner) {
+            self.held -= usize::from(self.holds(place));
+            self.in_circle -= usize::from(is_in_circle(self.triangle, place));
         }
     }
-    best.map(|(_, _, ear)| ear)
+}
+
+fn best_ear(ears: &[Ear]) -> Option<usize> {
+    let mut best: Option<(usize, &Ear)> = None;
+    for (at, ear) in ears.iter().enumerate().filter(|(_, ear)| ear.turns_left && ear.held == 0) {
+        let is_better = |other: &Ear| {
+            ear.in_circle < other.in_circle || (ear.in_circle == other.in_circle && ear.shape > other.shape)
+        };
+        if best.is_none_or(|(_, other)| is_better(other)) {
+            best = Some((at, ear));
+        }
+    }
+    best.map(|(at, _)| at)
 }
 
 /// Area against squared sides: largest for the equilateral triangle.

@@ -2,8 +2,10 @@
 
 use super::configuration::Configuration;
 use super::locate::Locator;
+use crate::control::{Cancelled, Watch};
 use crate::geometry::{Domain, Orientation, orientation};
 use crate::lists::Lists;
+use crate::memory::{self, CollectVec};
 use glam::DVec2;
 
 /// Where functions are not zero.
@@ -15,13 +17,19 @@ pub struct Regions {
 
 impl Regions {
     /// By the hulls of the knots.
-    pub fn new(configurations: &[Configuration], places: &[DVec2], locator: &Locator) -> Self {
+    pub fn new(
+        configurations: &[Configuration],
+        places: &[DVec2],
+        locator: &Locator,
+        watch: &Watch,
+    ) -> Result<Self, Cancelled> {
         let mut pairs = Vec::new();
         for (function, configuration) in configurations.iter().enumerate() {
-            let knots = configuration.all_knots().map(|knot| places[knot as usize]).collect();
-            faces_under(knots, locator, &mut |face| pairs.push((function as u32, face)));
+            watch.check_at(function)?;
+            let knots = configuration.all_knots().map(|knot| places[knot as usize]).collect_vec();
+            faces_under(knots, locator, &mut |face| memory::push(&mut pairs, (function as u32, face)));
         }
-        Self::from_pairs(&pairs, configurations.len(), locator.faces().len())
+        Ok(Self::from_pairs(&pairs, configurations.len(), locator.faces().len()))
     }
 
     fn from_pairs(pairs: &[(u32, u32)], function_count: usize, face_count: usize) -> Self {
@@ -33,13 +41,13 @@ impl Regions {
     /// Leaves out the functions that no face sees.
     pub fn without_unseen(self, configurations: Vec<Configuration>) -> (Vec<Configuration>, Self) {
         let face_count = self.by_face.count();
-        let mut pairs = Vec::with_capacity(self.by_face.items().len());
-        let mut kept = Vec::with_capacity(configurations.len());
+        let mut pairs = memory::with_capacity(self.by_face.items().len());
+        let mut kept = memory::with_capacity(configurations.len());
         for (function, configuration) in configurations.into_iter().enumerate() {
             let faces = self.faces(function as u32);
             if !faces.is_empty() {
-                pairs.extend(faces.iter().map(|&face| (kept.len() as u32, face)));
-                kept.push(configuration);
+                memory::extend(&mut pairs, faces.iter().map(|&face| (kept.len() as u32, face)));
+                memory::push(&mut kept, configuration);
             }
         }
         let regions = Self::from_pairs(&pairs, kept.len(), face_count);
@@ -100,12 +108,12 @@ fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
             {
                 chain.pop();
             }
-            chain.push(point);
+            memory::push(&mut chain, point);
         }
         chain.pop();
         chain
     };
     let mut lower = chain(&mut points.iter().copied());
-    lower.extend(chain(&mut points.iter().rev().copied()));
+    memory::extend(&mut lower, chain(&mut points.iter().rev().copied()));
     lower
 }

@@ -1,6 +1,7 @@
 //! Sharp edges of a control mesh.
 
 use super::error::D1rcError;
+use crate::memory::{self, CollectVec};
 use crate::mesh::{HalfEdge, Mesh};
 use std::f64::consts::PI;
 
@@ -16,7 +17,7 @@ pub fn sharp_edges(mesh: &Mesh, angle: f64) -> Result<Vec<[u32; 2]>, D1rcError> 
 /// By half-edge: whether it is sharp. Sharp edges on the boundary are none.
 pub fn flags(mesh: &Mesh, sharp: &[[u32; 2]]) -> Result<Vec<bool>, D1rcError> {
     let count = mesh.points().len();
-    let mut flags = vec![false; 3 * mesh.triangles().len()];
+    let mut flags = memory::filled(false, 3 * mesh.triangles().len());
     for (index, &vertices) in sharp.iter().enumerate() {
         if let Some(&vertex) = vertices.iter().find(|&&vertex| vertex as usize >= count) {
             return Err(D1rcError::NoSuchVertex { what: "an end of sharp edge", index, vertex, count });
@@ -40,5 +41,5 @@ pub fn lonely_edges(mesh: &Mesh, flags: &[bool]) -> Vec<HalfEdge> {
     half_edges
         .filter(|h| h.origin(mesh.triangles()) < h.target(mesh.triangles()))
         .filter(|h| is_tip(h.origin(mesh.triangles())) && is_tip(h.target(mesh.triangles())))
-        .collect()
+        .collect_vec()
 }

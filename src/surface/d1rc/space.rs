@@ -11,7 +11,9 @@ use super::regions::Regions;
 use super::sharp;
 use super::simplex::Site;
 use super::{D1rcMode, D1rcOptions, SharpRule};
+use crate::control::Watch;
 use crate::geometry::{Orientation, orientation};
+use crate::memory::{self, CollectVec};
 use crate::mesh::{HalfEdge, Mesh};
 use glam::DVec2;
 
@@ -63,25 +65,31 @@ pub struct Space {
 impl Space {
     /// Checks the parts and computes the functions.
     pub fn new(recipe: Recipe) -> Result<Self, D1rcError> {
+        Self::new_watched(recipe, &Watch::default())
+    }
+
+    /// The same, for a call that may be cancelled.
+    pub fn new_watched(recipe: Recipe, watch: &Watch) -> Result<Self, D1rcError> {
         recipe.options.check()?;
         let vertex_count = recipe.uv.len();
         let plane = plane_mesh(&recipe)?;
         check_fixed(&recipe.corners, vertex_count)?;
         let is_sharp = sharp::flags(&plane, &recipe.sharp_edges)?;
         let parts = match recipe.options.mode {
-            D1rcMode::Reproducing => reproducing(&recipe, plane, &is_sharp)?,
+            D1rcMode::Reproducing => reproducing(&recipe, plane, &is_sharp, watch)?,
             D1rcMode::Paper => printed(&recipe, &plane, &is_sharp),
         };
         let Parts { places, configurations, mesh_places, faces, parents, is_clamped } = parts;
+        watch.check()?;
         let locator = Locator::new(mesh_places, faces);
-        let all = Regions::new(&configurations, &places, &locator);
+        let all = Regions::new(&configurations, &places, &locator, watch)?;
         // knots beyond the border have functions that are nowhere seen
         let (configurations, regions) = all.without_unseen(configurations);
         let degree = recipe.options.degree;
         if configurations.is_empty() {
             return Err(D1rcError::NoConfiguration { degree });
         }
-        let kernel = Kernel::new(degree, &configurations, &places);
+        let kernel = Kernel::new(degree, &configurations, &places, watch)?;
         let is_rational = recipe.options.mode == D1rcMode::Paper
             || (recipe.options.sharp_rule() == SharpRule::Additive
                 && !(recipe.sharp_edges.is_empty() && recipe.corners.is_empty()));
@@ -98,6 +106,7 @@ impl Space {
             is_clamped,
             kernel,
         };
+        watch.check()?;
         if is_rational {
             space.least_sum = LEAST_SUM * space.usual_sum();
         }
@@ -148,9 +157,9 @@ impl Space {
     fn usual_sum(&self) -> f64 {
         let middle = |face: u32| self.locator.corners(face).iter().sum::<DVec2>() / 3.0;
         let faces = 0..self.locator.faces().len() as u32;
-        let mut sums: Vec<f64> = faces.map(|face| self.sum_at((face, Site::new(middle(face))))).collect();
+        let mut sums: Vec<f64> = faces.map(|face| self.sum_at((face, Site::new(middle(face))))).collect_vec();
         sums.retain(|&sum| sum > 0.0);
-        sums.sort_by(f64::total_cmp);
+        sums.sort_unstable_by(f64::total_cmp);
         sums.get(sums.len() / 2).copied().unwrap_or(0.0)
     }
 
@@ -188,9 +197,9 @@ impl Space {
     fn shown_faces(&self) -> Vec<u32> {
         let faces = 0..self.locator.faces().len() as u32;
         if self.recipe.options.mode == D1rcMode::Reproducing {
-            return faces.collect();
+            return faces.collect_vec();
         }
-        let mut is_border = vec![false; self.vertex_count()];
+        let mut is_border = memory::filled(false, self.vertex_count());
         self.locator.border_knots().for_each(|knot| is_border[knot as usize] = true);
         let is_inner =
             |face: &u32| self.locator.faces()[*face as usize].iter().all(|&v| !is_border[v as usize]);
@@ -198,7 +207,7 @@ impl Space {
             let corners = self.locator.corners(*face).map(|corner| self.locator.site_in(*face, corner));
             corners.iter().all(|&site| self.sum_at((*face, site)) > self.least_sum)
         };
-        faces.filter(is_inner).filter(is_safe).collect()
+        faces.filter(is_inner).filter(is_safe).collect_vec()
     }
 
     /// By function that is not zero at a point: its share, weights and the division included.
@@ -210,7 +219,7 @@ impl Space {
             let share = self.configurations[function as usize].weight * jets[0][0];
             sum += share;
             if share != 0.0 {
-                shares.push((function, share));
+                memory::push(&mut shares, (function, share));
             }
         });
         if self.is_rational {
@@ -244,7 +253,7 @@ fn plane_mesh(recipe: &Recipe) -> Result<Mesh, D1rcError> {
     if let Some(index) = recipe.uv.iter().position(|uv| !uv.is_finite()) {
         return Err(D1rcError::NotFinite { index });
     }
-    let mesh = Mesh::new(recipe.uv.iter().map(flat).collect(), recipe.triangles.clone())
+    let mesh = Mesh::new(recipe.uv.iter().map(flat).collect_vec(), recipe.triangles.clone())
         .map_err(|_| disk("its faces are no mesh"))?;
     match () {
         _ if mesh.component_count() != 1 => return Err(disk("it has several pieces")),
@@ -282,23 +291,23 @@ fn printed(recipe: &Recipe, mesh: &Mesh, is_sharp: &[bool]) -> Parts {
     };
     let mut places = recipe.uv.clone();
     let mut configurations = plane.smooth();
-    configurations.extend(plane.special(&mut places));
+    memory::extend(&mut configurations, plane.special(&mut places));
     Parts {
         places,
         configurations,
         mesh_places: recipe.uv.clone(),
         faces: recipe.triangles.clone(),
-        parents: (0..recipe.triangles.len() as u32).collect(),
-        is_clamped: vec![false; recipe.uv.len()],
+        parents: (0..recipe.triangles.len() as u32).collect_vec(),
+        is_clamped: memory::filled(false, recipe.uv.len()),
     }
 }
 
-fn reproducing(recipe: &Recipe, mesh: Mesh, is_sharp: &[bool]) -> Result<Parts, D1rcError> {
+fn reproducing(recipe: &Recipe, mesh: Mesh, is_sharp: &[bool], watch: &Watch) -> Result<Parts, D1rcError> {
     let options = &recipe.options;
     let is_additive = options.sharp_rule() == SharpRule::Additive;
-    let none = vec![false; is_sharp.len()];
+    let none = memory::filled(false, is_sharp.len());
     let split = Halved::new(recipe, mesh, if is_additive { &none } else { is_sharp })?;
-    let mut is_fixed = vec![false; split.places.len()];
+    let mut is_fixed = memory::filled(false, split.places.len());
     if !is_additive {
         recipe.corners.iter().for_each(|&corner| is_fixed[corner as usize] = true);
     }
@@ -310,10 +319,11 @@ fn reproducing(recipe: &Recipe, mesh: Mesh, is_sharp: &[bool]) -> Result<Parts, 
         is_fixed: &is_fixed,
     };
     let frame = Frame::new(&plane, options.boundary, options.degree)?;
-    let links = links(&frame.link_places, &frame.triangles, options.degree)
+    watch.check()?;
+    let links = links(&frame.link_places, &frame.triangles, options.degree, watch)?
         .map_err(|NotSimple { knot }| not_simple(recipe, &frame, knot))?;
     let mut places = frame.places;
-    let mut configurations = Vec::with_capacity(links.closed.len());
+    let mut configurations = memory::with_capacity(links.closed.len());
     for link in links.closed {
         // clones have fallen back on their vertices
         let mut edges = link.edges;
@@ -321,7 +331,7 @@ fn reproducing(recipe: &Recipe, mesh: Mesh, is_sharp: &[bool]) -> Result<Parts, 
         let row = mean_row(link.knots.iter().map(|&knot| frame.rows[knot as usize].as_slice()));
         let configuration = Configuration { knots: link.knots, edges, weight: 1.0, row };
         if !is_flat(&configuration, &places) {
-            configurations.push(configuration);
+            memory::push(&mut configurations, configuration);
         }
     }
     if is_additive {
@@ -334,13 +344,13 @@ fn reproducing(recipe: &Recipe, mesh: Mesh, is_sharp: &[bool]) -> Result<Parts, 
             keeps_sectors,
             sharp_weight: options.sharp_weight,
         };
-        configurations.extend(plane.special(&mut places));
+        memory::extend(&mut configurations, plane.special(&mut places));
     }
     let mut is_clamped = frame.is_clamped;
     is_clamped.truncate(recipe.uv.len());
     let mut parts = Parts {
         configurations,
-        faces: split.mesh.triangles().to_vec(),
+        faces: memory::copied(split.mesh.triangles()),
         parents: split.parents,
         mesh_places: split.places,
         is_clamped,
@@ -358,14 +368,14 @@ fn reproducing(recipe: &Recipe, mesh: Mesh, is_sharp: &[bool]) -> Result<Parts, 
 /// Keeps the faces that no element without functions touches: there the functions sum to one.
 fn keep_complete_faces(parts: &mut Parts, lost: &[Vec<u32>]) {
     let locator = Locator::new(parts.mesh_places.clone(), parts.faces.clone());
-    let mut keeps = vec![true; parts.faces.len()];
+    let mut keeps = memory::filled(true, parts.faces.len());
     for knots in lost {
-        let knots = knots.iter().map(|&knot| parts.places[knot as usize]).collect();
+        let knots = knots.iter().map(|&knot| parts.places[knot as usize]).collect_vec();
         super::regions::faces_under(knots, &locator, &mut |face| keeps[face as usize] = false);
     }
     let kept = |face: &usize| keeps[*face];
-    parts.parents = (0..keeps.len()).filter(kept).map(|face| parts.parents[face]).collect();
-    parts.faces = (0..keeps.len()).filter(kept).map(|face| parts.faces[face]).collect();
+    parts.parents = (0..keeps.len()).filter(kept).map(|face| parts.parents[face]).collect_vec();
+    parts.faces = (0..keeps.len()).filter(kept).map(|face| parts.faces[face]).collect_vec();
 }
 
 fn not_simple(recipe: &Recipe, frame: &Frame, knot: u32) -> D1rcError {
@@ -377,7 +387,7 @@ fn not_simple(recipe: &Recipe, frame: &Frame, knot: u32) -> D1rcError {
 
 /// Whether all knots of a function lie on one line.
 fn is_flat(configuration: &Configuration, places: &[DVec2]) -> bool {
-    let knots: Vec<DVec2> = configuration.all_knots().map(|knot| places[knot as usize]).collect();
+    let knots: Vec<DVec2> = configuration.all_knots().map(|knot| places[knot as usize]).collect_vec();
     let Some(other) = knots.iter().find(|&&knot| knot != knots[0]) else { return true };
     knots.iter().all(|&knot| orientation(knots[0], *other, knot) == Orientation::Zero)
 }
@@ -394,10 +404,10 @@ struct Halved {
 impl Halved {
     fn new(recipe: &Recipe, mesh: Mesh, is_sharp: &[bool]) -> Result<Self, D1rcError> {
         let mut halved = Self {
-            places: recipe.uv.clone(),
-            rows: (0..recipe.uv.len() as u32).map(|vertex| vec![(vertex, 1.0)]).collect(),
-            cut: is_sharp.to_vec(),
-            parents: (0..recipe.triangles.len() as u32).collect(),
+            places: memory::copied(&recipe.uv),
+            rows: (0..recipe.uv.len() as u32).map(|vertex| vec![(vertex, 1.0)]).collect_vec(),
+            cut: memory::copied(is_sharp),
+            parents: (0..recipe.triangles.len() as u32).collect_vec(),
             mesh,
         };
         // one edge after the other: faces of two lonely edges are halved twice
@@ -414,20 +424,20 @@ impl Halved {
         self.places.push((self.places[a as usize] + self.places[b as usize]) / 2.0);
         self.rows.push(mean_row([a, b].map(|end| self.rows[end as usize].as_slice()).into_iter()));
         let sharp = self.sharp_pairs();
-        let mut triangles = old.to_vec();
+        let mut triangles = memory::copied(old);
         for half in std::iter::once(edge).chain(self.mesh.topology().twin(edge)) {
             let face = half.triangle();
             let corners = [half, half.next(), half.previous()].map(|h| h.origin(old));
             triangles[face] = [corners[0], middle, corners[2]];
-            triangles.push([middle, corners[1], corners[2]]);
+            memory::push(&mut triangles, [middle, corners[1], corners[2]]);
             self.parents.push(self.parents[face]);
         }
-        let points = self.places.iter().map(|uv| uv.extend(0.0)).collect();
+        let points = self.places.iter().map(|uv| uv.extend(0.0)).collect_vec();
         self.mesh = Mesh::new(points, triangles)
             .map_err(|_| D1rcError::NotDisk { reason: "an edge is too short" })?;
         let mut pairs: Vec<[u32; 2]> =
-            sharp.into_iter().filter(|pair| *pair != [a.min(b), a.max(b)]).collect();
-        pairs.extend([[a, middle], [b, middle]]);
+            sharp.into_iter().filter(|pair| *pair != [a.min(b), a.max(b)]).collect_vec();
+        memory::extend(&mut pairs, [[a, middle], [b, middle]]);
         self.cut = sharp::flags(&self.mesh, &pairs)?;
         Ok(())
     }
@@ -435,6 +445,6 @@ impl Halved {
     fn sharp_pairs(&self) -> Vec<[u32; 2]> {
         let half_edges = (0..self.cut.len()).filter(|&h| self.cut[h]).map(|h| HalfEdge::new(h / 3, h % 3));
         let ends = half_edges.map(|h| [h.origin(self.mesh.triangles()), h.target(self.mesh.triangles())]);
-        ends.filter(|[a, b]| a < b).collect()
+        ends.filter(|[a, b]| a < b).collect_vec()
     }
 }

@@ -52,7 +52,9 @@ fn functions_take_their_exact_values() {
         let (function, places) = alone(knots, ring);
         let measured = function.jet(&Site::new(DVec2::from(t)), &places, 0)[0];
         assert!((measured - value).abs() <= 1e-13, "{knots:?} at {t:?}: {measured} instead of {value}");
-        let kernel = kernel::Kernel::new(knots.len(), std::slice::from_ref(&function), &places);
+        let kernel =
+            kernel::Kernel::new(knots.len(), std::slice::from_ref(&function), &places, &Watch::default())
+                .unwrap();
         let mut workspace = kernel::Workspace::default();
         let site = [Site::new(DVec2::from(t))];
         let fast = kernel.jets(0, &function, &places, &site, 0, &mut workspace).unwrap()[0][0];
@@ -683,4 +685,37 @@ fn bad_recipes_are_refused() {
     assert_eq!(space(&uv, &triangles, options, &[[0, 1], [0, 24]]).unwrap_err(), not_an_edge);
     // a single face is a surface of its own with knots beyond it
     assert!(space(&tiny.0, &tiny.1, options, &[]).is_ok());
+}
+
+/// Two rings of `count` knots around a hub, a little out of round so that no four of them lie on a circle.
+fn wheel(count: usize) -> (Vec<DVec2>, Vec<[u32; 3]>) {
+    let mut random = Random::new(7);
+    let n = count as u32;
+    let mut uv = vec![DVec2::ZERO];
+    for radius in [1.0, 2.0] {
+        uv.extend((0..n).map(|k| {
+            let angle = std::f64::consts::TAU * f64::from(k) / f64::from(n);
+            radius * (1.0 + 1e-3 * random.signed()) * DVec2::from_angle(angle)
+        }));
+    }
+    let triangles = (0..n).flat_map(|k| {
+        let (a, b) = (1 + k, 1 + (k + 1) % n);
+        [[0, a, b], [a, a + n, b + n], [a, b + n, b]]
+    });
+    (uv, triangles.collect())
+}
+
+#[test]
+fn functions_around_a_knot_of_many_neighbours_sum_to_one() {
+    for count in [5, 60, 300] {
+        let (uv, triangles) = wheel(count);
+        let space = space(&uv, &triangles, D1rcOptions::default(), &[]).unwrap();
+        let ones = D1rcSurface::new(space, 1, vec![1.0; uv.len()]).unwrap();
+        for place in [DVec2::new(0.01, 0.02), DVec2::new(-0.6, 0.3), DVec2::new(0.2, -1.4)] {
+            let mut value = [0.0];
+            ones.eval_rows(&[place], 0, &mut value);
+            // each function is a sum over as many knots as the hub has neighbours
+            assert!((value[0] - 1.0).abs() <= 1e-12 * count as f64, "{count} at {place}: {value:?}");
+        }
+    }
 }

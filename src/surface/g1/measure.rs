@@ -62,7 +62,7 @@ fn breaks(surface: &PhtSurface, side: Side) -> Vec<f64> {
         .filter(|&[_, q]| q == 0.0)
         .map(|[t, _]| t)
         .collect();
-    breaks.sort_by(f64::total_cmp);
+    breaks.sort_unstable_by(f64::total_cmp);
     breaks
 }
 

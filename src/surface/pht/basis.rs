@@ -18,6 +18,7 @@
 use super::expansion::{Matrix, expansions};
 use super::jet::{self, ROWS};
 use super::{PhtError, PhtSurface};
+use crate::memory::{self, CollectVec};
 use crate::surface::tensor::Axis;
 use crate::tmesh::Topology;
 use crate::tmesh::{TMesh, Vertex};
@@ -113,18 +114,19 @@ impl BasisFunctions<'_> {
                 let ordinates = [0, 1, 2, 3].map(|k| std::array::from_fn(|row| rows[4 * row + k]));
                 BezierForm { leaf, ordinates }
             })
-            .collect()
+            .collect_vec()
     }
 
     /// The extraction operator of a leaf.
     pub fn extraction(&self, leaf: usize) -> LocalExtraction {
         let expansions = self.topology.corners[leaf].map(|vertex| &self.expansions[vertex as usize]);
-        let mut vertices: Vec<u32> = expansions.into_iter().flatten().map(|&(rank, _)| rank).collect();
+        let mut vertices: Vec<u32> = expansions.into_iter().flatten().map(|&(rank, _)| rank).collect_vec();
         vertices.sort_unstable();
         vertices.dedup();
-        let columns: Vec<_> = vertices.iter().map(|&rank| self.leaf_ordinates(leaf, rank as usize)).collect();
+        let columns: Vec<_> =
+            vertices.iter().map(|&rank| self.leaf_ordinates(leaf, rank as usize)).collect_vec();
         let row = |i: usize| columns.iter().flat_map(move |column| column[4 * i..4 * i + 4].iter().copied());
-        LocalExtraction { matrix: (0..16).flat_map(row).collect(), vertices }
+        LocalExtraction { matrix: (0..16).flat_map(row).collect_vec(), vertices }
     }
 
     fn expansion(&self, vertex: u32, rank: usize) -> Option<&Matrix> {
@@ -156,7 +158,7 @@ impl BasisFunctions<'_> {
 
 /// The widest leaf of each vertex's support on each side.
 fn support_widths(mesh: &TMesh, topology: &Topology, expansions: &[Vec<(u32, Matrix)>]) -> Vec<Widths> {
-    let mut widths = vec![Widths { u: [0.0; 2], v: [0.0; 2] }; topology.basis.len()];
+    let mut widths = memory::filled(Widths { u: [0.0; 2], v: [0.0; 2] }, topology.basis.len());
     for (&node, corners) in topology.leaves.iter().zip(&topology.corners) {
         let [low, _, _, high] = mesh.cell(node).corners();
         let third = mesh.cell_domain(mesh.cell(node)).size() / 3.0;
@@ -189,7 +191,7 @@ impl PhtSurface {
         let view = self.view();
         view.widths[basis as usize].get_or_init(|| match basis {
             Basis::Canonical => {
-                self.jets.keys().map(|&vertex| Widths::canonical(&self.mesh, vertex)).collect()
+                self.jets.keys().map(|&vertex| Widths::canonical(&self.mesh, vertex)).collect_vec()
             }
             Basis::SupportSized => support_widths(&self.mesh, &view.topology, self.expansions()),
         })
@@ -199,7 +201,7 @@ impl PhtSurface {
     /// numbers, homogeneous where there are weights.
     pub fn control_points(&self, basis: Basis) -> Vec<f64> {
         let width = self.width();
-        let mut points = vec![0.0; ROWS * width * self.jets.len()];
+        let mut points = memory::filled(0.0, ROWS * width * self.jets.len());
         let vertices = self.jets.values().zip(self.widths(basis));
         for ((jet, widths), points) in vertices.zip(points.chunks_exact_mut(ROWS * width)) {
             for (k, point) in points.chunks_exact_mut(width).enumerate() {
@@ -222,7 +224,7 @@ impl PhtSurface {
         if points.len() != expected {
             return Err(PhtError::Count { what: "the control points", count: points.len(), expected });
         }
-        let mut jets = vec![0.0; expected];
+        let mut jets = memory::filled(0.0, expected);
         let rows = points.chunks_exact(ROWS * width).zip(jets.chunks_exact_mut(ROWS * width));
         for (&rank, (points, jet)) in ranks.iter().zip(rows) {
             let widths = all.get(rank).ok_or(PhtError::NoSuchVertex { index: rank, count: all.len() })?;

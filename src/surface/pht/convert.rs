@@ -8,6 +8,7 @@ use super::{PhtError, PhtSurface};
 use crate::control::Watch;
 use crate::geometry::Domain;
 use crate::knots::KnotVector;
+use crate::memory::{self, CollectVec};
 use crate::surface::tensor::{Axis, TensorSurface};
 use crate::surface::{Patches, Surface};
 use crate::tmesh::{Cell, MAX_LEVEL, NodeId, TMesh, TMeshError, Topology, Vertex};
@@ -98,7 +99,7 @@ impl<'a> Source<'a> {
         };
         let dim = tensor.dim();
         let rows = tensor.control_points().chunks_exact(dim).zip(weights);
-        let points = rows.flat_map(|(point, &w)| point.iter().map(move |x| w * x).chain([w])).collect();
+        let points = rows.flat_map(|(point, &w)| point.iter().map(move |x| w * x).chain([w])).collect_vec();
         let [knots_u, knots_v] = [Axis::U, Axis::V].map(|axis| tensor.knots(axis).clone());
         // a product of a finite point and weight may overflow
         let homogeneous = TensorSurface::new(dim + 1, knots_u, knots_v, points, None);
@@ -124,11 +125,11 @@ impl<'a> Source<'a> {
     fn over(&self, mesh: TMesh, known: &BTreeMap<Vertex, Vec<f64>>) -> Result<PhtSurface, PhtError> {
         let topology = Topology::new(&mesh);
         let vertices: Vec<Vertex> =
-            topology.basis.iter().map(|&vertex| topology.vertices[vertex as usize]).collect();
+            topology.basis.iter().map(|&vertex| topology.vertices[vertex as usize]).collect_vec();
         let new = vertices.iter().filter(|vertex| !known.contains_key(vertex));
-        let uv: Vec<DVec2> = new.map(|&vertex| mesh.parameters(vertex)).collect();
+        let uv: Vec<DVec2> = new.map(|&vertex| mesh.parameters(vertex)).collect_vec();
         let width = self.homogeneous.dim();
-        let mut rows = vec![0.0; uv.len() * 6 * width];
+        let mut rows = memory::filled(0.0, uv.len() * 6 * width);
         self.homogeneous.eval_rows(&uv, 2, &mut rows);
         // of S, Su, Sv, Suu, Suv, Svv those of a jet
         let jet = |rows: &[f64]| [0, 1, 2, 4].map(|row| &rows[row * width..][..width]).concat();
@@ -137,7 +138,7 @@ impl<'a> Source<'a> {
             .iter()
             .filter_map(|vertex| known.get(vertex).cloned().or_else(|| computed.next()))
             .flatten()
-            .collect();
+            .collect_vec();
         PhtSurface::with_any_weights(self.tensor.dim(), self.tensor.weights().is_some(), mesh, &jets)
     }
 
@@ -169,11 +170,11 @@ impl<'a> Source<'a> {
                 let is_rough =
                     !(surface.least_weight(leaf) > 0.0) || self.deviates(&surface, cell, tolerance);
                 if !is_rough {
-                    settled.insert(cell, ordinates.to_vec());
+                    settled.insert(cell, memory::copied(ordinates));
                 }
                 is_rough
             };
-            let rough: Vec<Cell> = leaves.filter(&mut is_rough).map(|(_, cell)| cell).collect();
+            let rough: Vec<Cell> = leaves.filter(&mut is_rough).map(|(_, cell)| cell).collect_vec();
             watch.check()?;
             if rough.is_empty() {
                 return Ok(surface);
@@ -220,9 +221,10 @@ impl<'a> Source<'a> {
         let place = |i: usize, j: usize| {
             domain.min + domain.size() * DVec2::new(i as f64 / counts[0] as f64, j as f64 / counts[1] as f64)
         };
-        let mut rows = [vec![0.0; (counts[1] + 1) * dim], vec![0.0; (counts[1] + 1) * dim]];
+        let mut rows =
+            [memory::filled(0.0, (counts[1] + 1) * dim), memory::filled(0.0, (counts[1] + 1) * dim)];
         (0..=counts[0]).any(|i| {
-            let uv: Vec<DVec2> = (0..=counts[1]).map(|j| place(i, j)).collect();
+            let uv: Vec<DVec2> = (0..=counts[1]).map(|j| place(i, j)).collect_vec();
             self.tensor.eval_rows(&uv, 0, &mut rows[0]);
             surface.eval_rows(&uv, 0, &mut rows[1]);
             let points = rows[0].chunks_exact(dim).zip(rows[1].chunks_exact(dim));

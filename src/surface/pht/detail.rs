@@ -2,6 +2,7 @@
 
 use super::{PhtError, PhtSurface};
 use crate::geometry::Domain;
+use crate::memory::{self, CollectVec};
 use crate::tmesh::{Cell, MAX_LEVEL, TMeshError};
 
 impl PhtSurface {
@@ -13,7 +14,7 @@ impl PhtSurface {
         }
         let mut mesh = self.mesh.clone();
         let mut splits: Vec<Cell> = Vec::new();
-        let mut open: Vec<_> = mesh.leaves().collect();
+        let mut open: Vec<_> = mesh.leaves().collect_vec();
         while let Some(leaf) = open.pop() {
             let cell = mesh.cell(leaf);
             let domain = mesh.cell_domain(cell);
@@ -26,8 +27,8 @@ impl PhtSurface {
                 return Err(PhtError::TooLarge { what: "cells", count, limit: max_cells });
             }
             mesh.split(leaf);
-            splits.push(cell);
-            open.extend(mesh.children(leaf).into_iter().flatten());
+            memory::push(&mut splits, cell);
+            memory::extend(&mut open, mesh.children(leaf).into_iter().flatten());
         }
         self.split(&splits)
     }
@@ -35,6 +36,11 @@ impl PhtSurface {
     /// The ranks of the basis vertices inside a rectangle or on its border, ascending.
     pub fn vertices_in(&self, region: Domain) -> Vec<usize> {
         let inside = |vertex| region.contains(self.mesh.parameters(vertex));
-        self.jets.keys().enumerate().filter(|&(_, &vertex)| inside(vertex)).map(|(rank, _)| rank).collect()
+        self.jets
+            .keys()
+            .enumerate()
+            .filter(|&(_, &vertex)| inside(vertex))
+            .map(|(rank, _)| rank)
+            .collect_vec()
     }
 }

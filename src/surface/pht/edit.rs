@@ -9,6 +9,7 @@ use super::evaluate::View;
 use super::expansion::line_between;
 use super::jet::{ROWS, between, inside};
 use super::{PhtError, PhtSurface};
+use crate::memory;
 use crate::surface::tensor::Axis;
 use crate::tmesh::{Cell, EDGES, NodeId, Role, TMesh, TMeshError, Vertex};
 use std::sync::OnceLock;
@@ -55,7 +56,7 @@ impl PhtSurface {
         let topology = self.topology();
         for (&rank, jet) in ranks.iter().zip(jets.chunks_exact(length)) {
             let vertex = topology.vertices[topology.basis[rank] as usize];
-            changed.jets.insert(vertex, jet.to_vec());
+            changed.jets.insert(vertex, memory::copied(jet));
         }
         changed.view = OnceLock::new();
         changed.view.get_or_init(|| View::new(&changed, topology.clone()));

@@ -7,6 +7,7 @@ use super::PhtSurface;
 use super::basis::Widths;
 use super::expansion::{Matrix, all_jets};
 use super::jet;
+use crate::memory::{self, CollectVec};
 use crate::surface::ORDERS;
 use crate::surface::derivative_rows;
 use crate::surface::homogeneous::divide;
@@ -45,16 +46,16 @@ struct Frame {
 impl View {
     pub fn new(surface: &PhtSurface, topology: Topology) -> Self {
         let (mesh, width) = (&surface.mesh, surface.width());
-        let basis: Vec<f64> = surface.jets.values().flatten().copied().collect();
+        let basis: Vec<f64> = surface.jets.values().flatten().copied().collect_vec();
         let jets = all_jets(&topology, mesh, &basis, width);
-        let mut ordinates = vec![0.0; topology.leaves.len() * 16 * width];
-        let mut frames = Vec::with_capacity(topology.leaves.len());
+        let mut ordinates = memory::filled(0.0, topology.leaves.len() * 16 * width);
+        let mut frames = memory::with_capacity(topology.leaves.len());
         let leaves = topology.leaves.iter().zip(&topology.corners);
         for ((&node, corners), ordinates) in leaves.zip(ordinates.chunks_exact_mut(16 * width)) {
             let domain = mesh.cell_domain(mesh.cell(node));
             let corners = corners.map(|vertex| row(&jets, vertex as usize, jet::ROWS * width));
             jet::ordinates(corners, domain.size().to_array(), width, ordinates);
-            frames.push(Frame { min: domain.min, inverse_size: domain.size().recip() });
+            memory::push(&mut frames, Frame { min: domain.min, inverse_size: domain.size().recip() });
         }
         Self {
             topology,
@@ -176,7 +177,7 @@ impl PhtSurface {
             return Arch::new().dispatch(Batch { surface: self, uv, has_slopes: max_derivative == 1, out });
         }
         let (rows, width) = (derivative_rows(max_derivative), self.width());
-        let mut homogeneous = vec![0.0; rows * width];
+        let mut homogeneous = memory::filled(0.0, rows * width);
         for (&uv, out) in uv.iter().zip(out.chunks_exact_mut(rows * self.dim)) {
             for (orders, row) in ORDERS.into_iter().zip(homogeneous.chunks_exact_mut(width)) {
                 self.derivative(uv, orders, row);

@@ -5,6 +5,7 @@
 
 use super::jet::{Line, ROWS, between, row_pairs};
 use crate::geometry::Axis;
+use crate::memory;
 use crate::tmesh::{Hanging, TMesh, Topology, VertexKind};
 
 /// How a T-vertex lies on the edge of its host.
@@ -17,7 +18,7 @@ fn hanging_line(topology: &Topology, mesh: &TMesh, number: u32, hanging: &Hangin
 /// From the jets of the basis vertices to those of all vertices.
 pub fn all_jets(topology: &Topology, mesh: &TMesh, jets: &[f64], width: usize) -> Vec<f64> {
     let length = ROWS * width;
-    let mut all = vec![0.0; topology.vertices.len() * length];
+    let mut all = memory::filled(0.0, topology.vertices.len() * length);
     for (&vertex, jet) in topology.basis.iter().zip(jets.chunks_exact(length)) {
         all[vertex as usize * length..][..length].copy_from_slice(jet);
     }
@@ -33,9 +34,9 @@ pub fn all_jets(topology: &Topology, mesh: &TMesh, jets: &[f64], width: usize) -
 
 /// For each vertex, the basis vertices its jet is made of with their 4 by 4 matrices, ranks ascending.
 pub fn expansions(topology: &Topology, mesh: &TMesh) -> Vec<Vec<(u32, Matrix)>> {
-    let mut expansions: Vec<Vec<(u32, Matrix)>> = vec![Vec::new(); topology.vertices.len()];
+    let mut expansions: Vec<Vec<(u32, Matrix)>> = memory::filled(Vec::new(), topology.vertices.len());
     for (rank, &vertex) in topology.basis.iter().enumerate() {
-        expansions[vertex as usize].push((rank as u32, IDENTITY));
+        memory::push(&mut expansions[vertex as usize], (rank as u32, IDENTITY));
     }
     for &number in &topology.hanging {
         let VertexKind::Hanging(hanging) = topology.kinds[number as usize] else { continue };

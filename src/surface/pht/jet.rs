@@ -9,6 +9,7 @@
 //! A jet is stored as four rows of `width` numbers.
 
 use crate::hermite::{shape_functions, shape_slopes};
+use crate::memory;
 use crate::surface::tensor::Axis;
 
 /// Rows of a jet: f, f_u, f_v, f_uv.
@@ -41,7 +42,7 @@ pub fn row_pairs(axis: Axis) -> [[usize; 2]; 2] {
 
 /// The jet at a place on the line between two others along `axis`.
 pub fn between(axis: Axis, line: &Line, ends: [&[f64]; 2], width: usize) -> Vec<f64> {
-    let mut jet = vec![0.0; ROWS * width];
+    let mut jet = memory::filled(0.0, ROWS * width);
     for [row, derivative] in row_pairs(axis) {
         for k in 0..width {
             let (r, d) = (row * width + k, derivative * width + k);

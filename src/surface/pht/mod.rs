@@ -38,6 +38,7 @@ pub use stitch::{BorderSide, stitch};
 
 use super::{Domain, Kind, Patches, Region, Surface};
 use crate::bezier::BezierPatch;
+use crate::memory;
 use crate::tmesh::{TMesh, Topology, Vertex};
 use evaluate::View;
 use glam::DVec2;
@@ -46,7 +47,7 @@ use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 /// A PHT-spline surface.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct PhtSurface {
     dim: usize,
     is_rational: bool,
@@ -56,6 +57,21 @@ pub struct PhtSurface {
     region: Region,
     /// Tables and Bezier ordinates, made when first needed after a change.
     view: OnceLock<View>,
+}
+
+/// Tables and ordinates are not copied: most copies are made to be changed.
+impl Clone for PhtSurface {
+    fn clone(&self) -> Self {
+        let Self { dim, is_rational, mesh, jets, region, view: _ } = self;
+        Self {
+            dim: *dim,
+            is_rational: *is_rational,
+            mesh: mesh.clone(),
+            jets: jets.clone(),
+            region: region.clone(),
+            view: OnceLock::new(),
+        }
+    }
 }
 
 impl PartialEq for PhtSurface {
@@ -80,7 +96,7 @@ impl PhtSurface {
     /// The spline that is zero, with weights of 1.
     pub fn zero(dim: usize, is_rational: bool, mesh: TMesh) -> Result<Self, PhtError> {
         let width = dim.saturating_add(usize::from(is_rational));
-        let mut jet = vec![0.0; ROWS.saturating_mul(width)];
+        let mut jet = memory::filled(0.0, ROWS.saturating_mul(width));
         if is_rational {
             jet[dim] = 1.0;
         }

@@ -10,6 +10,7 @@
 use super::{PhtError, PhtSurface, jet};
 use crate::bezier::BezierPatch;
 use crate::control::Watch;
+use crate::memory::{self, CollectVec};
 use crate::surface::Patches;
 use crate::surface::tensor::Axis;
 use crate::tmesh::{Cell, EDGES, Edge, NodeId, QUADRANTS, Vertex};
@@ -42,7 +43,7 @@ impl PhtSurface {
             for cell in self.mergeable_cells(level) {
                 watch.check()?;
                 if let Some(removed) = self.remove_cross(cell, &original, tolerance) {
-                    candidates.push((removed.deviation, cell));
+                    memory::push(&mut candidates, (removed.deviation, cell));
                     self.restore_cross(cell, removed);
                 }
             }
@@ -66,16 +67,16 @@ impl PhtSurface {
         let parents = cells.filter_map(Cell::parent);
         let is_mergeable =
             |cell: &Cell| self.mesh.find(*cell).is_some_and(|node| self.mesh.is_mergeable(node));
-        parents.filter(is_mergeable).collect()
+        parents.filter(is_mergeable).collect_vec()
     }
 
     /// Merges the quarters of a cell if the surface stays within the tolerance; otherwise nothing changes.
     fn remove_cross(&mut self, cell: Cell, original: &Self, tolerance: f64) -> Option<Removed> {
         let node = self.mesh.find(cell).filter(|&node| self.mesh.is_mergeable(node))?;
         let vertices = cell.edge_middles().into_iter().chain([cell.middle()]);
-        let before: Vec<_> = vertices.filter_map(|v| Some((v, self.jets.get(&v)?.clone()))).collect();
+        let before: Vec<_> = vertices.filter_map(|v| Some((v, self.jets.get(&v)?.clone()))).collect_vec();
         self.merge_node(node);
-        let jets = before.into_iter().filter(|(vertex, _)| !self.jets.contains_key(vertex)).collect();
+        let jets = before.into_iter().filter(|(vertex, _)| !self.jets.contains_key(vertex)).collect_vec();
         let mut removed = Removed { jets, deviation: 0.0 };
         for leaf in self.changed_by(node) {
             removed.deviation = removed.deviation.max(self.leaf_deviation(leaf, original, tolerance));
@@ -98,21 +99,21 @@ impl PhtSurface {
     /// ties to its edges.
     fn changed_by(&self, leaf: NodeId) -> Vec<NodeId> {
         let mut changed = vec![leaf];
-        let mut open: Vec<Vertex> = EDGES.iter().flat_map(|edge| self.hanging_in(leaf, edge)).collect();
+        let mut open: Vec<Vertex> = EDGES.iter().flat_map(|edge| self.hanging_in(leaf, edge)).collect_vec();
         let mut seen: Vec<Vertex> = Vec::new();
         while let Some(vertex) = open.pop() {
             if seen.contains(&vertex) {
                 continue;
             }
-            seen.push(vertex);
+            memory::push(&mut seen, vertex);
             for leaf in QUADRANTS.iter().filter_map(|&quadrant| self.mesh.leaf_beside(vertex, quadrant)) {
                 let corners = self.mesh.cell(leaf).corners();
                 let Some(corner) = corners.iter().position(|&corner| corner == vertex) else { continue };
                 if !changed.contains(&leaf) {
-                    changed.push(leaf);
+                    memory::push(&mut changed, leaf);
                 }
                 let edges = EDGES.iter().filter(|edge| edge.ends.contains(&corner));
-                open.extend(edges.flat_map(|edge| self.hanging_in(leaf, edge)));
+                memory::extend(&mut open, edges.flat_map(|edge| self.hanging_in(leaf, edge)));
             }
         }
         changed
@@ -129,7 +130,7 @@ impl PhtSurface {
             Axis::U => Vertex { i: at, j: end.j },
             Axis::V => Vertex { i: end.i, j: at },
         })
-        .collect()
+        .collect_vec()
     }
 
     /// Bound of the distance between the patch of a leaf and the original surface; stops counting beyond
@@ -138,17 +139,17 @@ impl PhtSurface {
         let (cell, width) = (self.mesh.cell(leaf), self.width());
         let jets = cell.corners().map(|corner| self.jet_at(corner));
         let domain = self.mesh.cell_domain(cell);
-        let mut ordinates = vec![0.0; 16 * width];
+        let mut ordinates = memory::filled(0.0, 16 * width);
         let corners = jets.each_ref().map(Vec::as_slice);
         jet::ordinates(corners, domain.size().to_array(), width, &mut ordinates);
         let patch =
             BezierPatch { domain, degree: [3, 3], dim: self.dim, is_rational: self.is_rational, ordinates };
         let mut deviation = 0.0_f64;
         // the original mesh has the same cells and quarters of them
-        let mut open: Vec<NodeId> = original.mesh.find(cell).into_iter().collect();
+        let mut open: Vec<NodeId> = original.mesh.find(cell).into_iter().collect_vec();
         while let Some(node) = open.pop() {
             if let Some(children) = original.mesh.children(node) {
-                open.extend(children);
+                memory::extend(&mut open, children);
                 continue;
             }
             let exact = original.patch(original.topology().leaf_of(node));
@@ -184,7 +185,7 @@ fn distance_bound(patch: &BezierPatch, exact: &BezierPatch) -> f64 {
         let square = |(a, b): (&[f64], &[f64])| a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
         return norm(rows.map(square).fold(0.0, f64::max));
     }
-    let center: Vec<f64> = exact.ordinates[..dim].iter().map(|x| x / exact.ordinates[dim]).collect();
+    let center: Vec<f64> = exact.ordinates[..dim].iter().map(|x| x / exact.ordinates[dim]).collect_vec();
     let (mut miss, mut weight_miss, mut radius, mut least) = (0.0_f64, 0.0_f64, 0.0_f64, f64::INFINITY);
     for (a, b) in rows {
         let dw = a[dim] - b[dim];

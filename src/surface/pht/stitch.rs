@@ -6,6 +6,7 @@
 //! across is averaged in units of both domains' widths.
 
 use super::{PhtError, PhtSurface};
+use crate::memory::{self, CollectVec};
 use crate::surface::Surface;
 use crate::surface::tensor::Axis;
 use crate::tmesh::{Cell, MAX_LEVEL, TMesh, Vertex};
@@ -75,7 +76,7 @@ impl Seam<'_> {
             .keys()
             .filter(on_edge)
             .map(|vertex| self.turn(vertex.along(axis), end))
-            .collect();
+            .collect_vec();
         coordinates.sort_unstable();
         coordinates
     }
@@ -109,7 +110,7 @@ impl Seam<'_> {
                 }
                 debug_assert!(cell.level < MAX_LEVEL, "the coordinate is one of a vertex");
                 mesh.split(leaf);
-                splits.push(cell);
+                memory::push(&mut splits, cell);
             }
         }
         Ok(splits)
@@ -158,7 +159,7 @@ fn check(seams: &[Seam; 2]) -> Result<(), PhtError> {
     let fractions = |seam: &Seam| -> Vec<f64> {
         let breaks = seam.surface.mesh.breaks(seam.side.along());
         let (from, to) = (breaks[0], breaks[breaks.len() - 1]);
-        let mut fractions: Vec<f64> = breaks.iter().map(|t| (t - from) / (to - from)).collect();
+        let mut fractions: Vec<f64> = breaks.iter().map(|t| (t - from) / (to - from)).collect_vec();
         if seam.is_reversed {
             fractions.reverse();
             fractions.iter_mut().for_each(|t| *t = 1.0 - *t);

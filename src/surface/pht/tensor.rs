@@ -8,8 +8,10 @@ use super::PhtSurface;
 use super::evaluate::View;
 use super::expansion::line_between;
 use super::jet::{self, inside};
+use crate::control::{Cancelled, Watch};
 use crate::knots::KnotVector;
-use crate::surface::tensor::{Axis, TensorError, TensorSurface};
+use crate::memory::{self, CollectVec};
+use crate::surface::tensor::{Axis, TensorSurface};
 use crate::surface::{ConvertError, Surface};
 use crate::tmesh::{Cell, NodeId, TMesh, Vertex};
 
@@ -43,13 +45,22 @@ impl PhtSurface {
     /// The same surface as one tensor surface over the common refinement of all cells, if it has at most
     /// `max_coefficients` control points.
     pub fn to_tensor(&self, max_coefficients: usize) -> Result<TensorSurface, ConvertError> {
+        self.to_tensor_watched(max_coefficients, &Watch::default())
+    }
+
+    /// The same, for a call that may be cancelled.
+    pub fn to_tensor_watched(
+        &self,
+        max_coefficients: usize,
+        watch: &Watch,
+    ) -> Result<TensorSurface, ConvertError> {
         let (min, max) = (Vertex { i: 0, j: 0 }, self.mesh.last_vertex());
-        let lines = self.lines(&Block { min, max, levels: [0, 0] }, 0..self.mesh.leaf_count());
+        let lines = self.lines(&Block { min, max, levels: [0, 0] }, 0..self.mesh.leaf_count(), watch)?;
         let needed = (2 * lines[0].len()).saturating_mul(2 * lines[1].len());
         if needed > max_coefficients {
             return Err(ConvertError::TooLarge { needed, limit: max_coefficients });
         }
-        let mut tensor = self.tensor_over(&lines)?;
+        let mut tensor = self.tensor_over(&lines, watch)?;
         *tensor.region_mut() = self.region.clone();
         Ok(tensor)
     }
@@ -58,56 +69,74 @@ impl PhtSurface {
     /// by at most `sigma`: the largest quadtree nodes that allow it, joined where whole sides meet. Each has its
     /// part of the trims.
     pub fn to_tensor_patches(&self, sigma: u32) -> Result<Vec<TensorSurface>, ConvertError> {
+        self.to_tensor_patches_watched(sigma, &Watch::default())
+    }
+
+    /// The same, for a call that may be cancelled.
+    pub fn to_tensor_patches_watched(
+        &self,
+        sigma: u32,
+        watch: &Watch,
+    ) -> Result<Vec<TensorSurface>, ConvertError> {
         let blocks = blocks(&self.mesh, sigma);
-        let leaves = self.leaves_by_block(&blocks);
+        watch.check()?;
+        let leaves = self.leaves_by_block(&blocks, watch)?;
         let patch = |(block, leaves)| {
-            let mut patch = self.tensor_over(&self.lines(block, leaves))?;
+            let mut patch = self.tensor_over(&self.lines(block, leaves, watch)?, watch)?;
             *patch.region_mut() = self.region.restrict(&self.domain(), &patch.domain());
             Ok(patch)
         };
         blocks.iter().zip(leaves).map(patch).collect()
     }
 
-    fn leaves_by_block(&self, blocks: &[Block]) -> Vec<Vec<usize>> {
+    fn leaves_by_block(&self, blocks: &[Block], watch: &Watch) -> Result<Vec<Vec<usize>>, Cancelled> {
         // blocks sorted by their first vertex: a leaf belongs to one of those that begin at or before it
-        let mut leaves = vec![Vec::new(); blocks.len()];
+        let mut leaves = memory::filled(Vec::new(), blocks.len());
         for (leaf, &node) in self.topology().leaves.iter().enumerate() {
+            watch.check_at(leaf)?;
             let [Vertex { i, j }, _, _, _] = self.mesh.cell(node).corners();
             let begins = blocks.partition_point(|block| block.min.i <= i);
             let holds = |block: &Block| i < block.max.i && block.min.j <= j && j < block.max.j;
             if let Some(block) = blocks[..begins].iter().rposition(holds) {
-                leaves[block].push(leaf);
+                memory::push(&mut leaves[block], leaf);
             }
         }
-        leaves
+        Ok(leaves)
     }
 
     /// The coordinates of all vertices of some leaves.
-    fn lines(&self, block: &Block, leaves: impl IntoIterator<Item = usize>) -> [Vec<u32>; 2] {
+    fn lines(
+        &self,
+        block: &Block,
+        leaves: impl IntoIterator<Item = usize>,
+        watch: &Watch,
+    ) -> Result<[Vec<u32>; 2], Cancelled> {
         let topology = self.topology();
         let mut lines = [vec![block.min.i, block.max.i], vec![block.min.j, block.max.j]];
         for leaf in leaves {
+            watch.check_at(leaf)?;
             let [low, _, _, high] = self.mesh.cell(topology.leaves[leaf]).corners();
-            lines[0].extend([low.i, high.i]);
-            lines[1].extend([low.j, high.j]);
+            memory::extend(&mut lines[0], [low.i, high.i]);
+            memory::extend(&mut lines[1], [low.j, high.j]);
         }
-        lines.map(|mut lines| {
+        Ok(lines.map(|mut lines| {
             lines.sort_unstable();
             lines.dedup();
             lines
-        })
+        }))
     }
 
     /// The tensor surface over the rectangle that these lines cut.
-    fn tensor_over(&self, lines: &[Vec<u32>; 2]) -> Result<TensorSurface, TensorError> {
+    fn tensor_over(&self, lines: &[Vec<u32>; 2], watch: &Watch) -> Result<TensorSurface, ConvertError> {
         let (view, width) = (self.view(), self.width());
         let breaks = [(Axis::U, &lines[0]), (Axis::V, &lines[1])]
             .map(|(axis, lines)| lines.iter().map(|&at| self.mesh.parameter(axis, at)).collect::<Vec<f64>>());
         let offsets = [&breaks[0], &breaks[1]].map(|breaks| offsets(breaks));
         let count_v = 2 * breaks[1].len();
-        let mut net = vec![0.0; 2 * breaks[0].len() * count_v * width];
+        let mut net = memory::filled(0.0, 2 * breaks[0].len() * count_v * width);
         for (a, &i) in lines[0].iter().enumerate() {
             for (b, &j) in lines[1].iter().enumerate() {
+                watch.check_at(b)?;
                 let is_last = [a + 1 == lines[0].len(), b + 1 == lines[1].len()];
                 let jet = self.jet_inside(view, Vertex { i, j }, is_last);
                 for (s, p) in offsets[0][a].into_iter().enumerate() {
@@ -120,7 +149,7 @@ impl PhtSurface {
         }
         let [knots_u, knots_v] = breaks.map(|breaks| double_knots(&breaks));
         let (points, weights) = split_weights(&net, self.dim, self.is_rational);
-        TensorSurface::new(self.dim, knots_u, knots_v, points, weights)
+        Ok(TensorSurface::new(self.dim, knots_u, knots_v, points, weights)?)
     }
 
     /// The jet at a place of a rectangle, from the leaf to the right and above, or below at the ends.
@@ -150,12 +179,12 @@ fn offsets(breaks: &[f64]) -> Vec<[f64; 2]> {
         k if k == last => [-third(k - 1), 0.0],
         k => [-third(k - 1), third(k)],
     };
-    (0..=last).map(around).collect()
+    (0..=last).map(around).collect_vec()
 }
 
 /// Cubic knots with both ends fourfold and all others double.
 fn double_knots(breaks: &[f64]) -> KnotVector {
-    let doubled: Vec<f64> = breaks[1..breaks.len() - 1].iter().flat_map(|&t| [t, t]).collect();
+    let doubled: Vec<f64> = breaks[1..breaks.len() - 1].iter().flat_map(|&t| [t, t]).collect_vec();
     let (first, last) = (breaks[0], breaks[breaks.len() - 1]);
     let knots = [[first; 4].as_slice(), &doubled, &[last; 4]].concat();
     KnotVector::new(knots, 3).expect("parameters of vertices increase")
@@ -164,11 +193,11 @@ fn double_knots(breaks: &[f64]) -> KnotVector {
 /// From rows of a net to points and, where the rows are homogeneous, weights.
 fn split_weights(net: &[f64], dim: usize, is_rational: bool) -> (Vec<f64>, Option<Vec<f64>>) {
     if !is_rational {
-        return (net.to_vec(), None);
+        return (memory::copied(net), None);
     }
     let rows = net.chunks_exact(dim + 1);
-    let points = rows.clone().flat_map(|row| row[..dim].iter().map(|x| x / row[dim])).collect();
-    (points, Some(rows.map(|row| row[dim]).collect()))
+    let points = rows.clone().flat_map(|row| row[..dim].iter().map(|x| x / row[dim])).collect_vec();
+    (points, Some(rows.map(|row| row[dim]).collect_vec()))
 }
 
 /// Rectangles of leaves whose levels differ by at most `sigma`, sorted by their first vertex.
@@ -215,7 +244,7 @@ fn join(blocks: &mut Vec<Block>, axis: Axis, sigma: u32) {
         Axis::U => (block.min.j, block.max.j, block.min.i),
         Axis::V => (block.min.i, block.max.i, block.min.j),
     });
-    let mut joined: Vec<Block> = Vec::with_capacity(blocks.len());
+    let mut joined: Vec<Block> = memory::with_capacity(blocks.len());
     for block in blocks.iter() {
         match joined.last_mut().and_then(|last| Some((last.joined(block, axis, sigma)?, last))) {
             Some((both, last)) => *last = both,

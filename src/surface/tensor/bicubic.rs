@@ -4,6 +4,7 @@
 //! control points of one line, and are compiled once more for processors with wide registers (through `pulp`).
 
 use super::{Axis, TensorSurface};
+use crate::memory::{self, CollectVec};
 use crate::surface::cubic::{CubicSpan, fma};
 use crate::surface::rows_of_four::{combine, contract};
 use glam::DVec2;
@@ -98,8 +99,8 @@ impl WithSimd for Grid<'_> {
             .map(|&v| &self.table.spans[1][knots_v.rank_at(v)])
             .zip(self.v)
             .map(|(span, &v)| (3 * span.first, span.basis::<S>(v)))
-            .collect();
-        let mut line = vec![0.0; line_length];
+            .collect_vec();
+        let mut line = memory::filled(0.0, line_length);
         for (&u, out) in self.u.iter().zip(self.out.chunks_exact_mut(3 * self.v.len())) {
             let span = &self.table.spans[0][knots_u.rank_at(u)];
             let net = &self.surface.control_points[span.first * line_length..];

@@ -6,6 +6,7 @@
 use super::{Axis, TensorError, TensorSurface};
 use crate::failure::{Classify, ErrorKind};
 use crate::knots::KnotVector;
+use crate::memory::CollectVec;
 use crate::surface::Surface;
 
 /// Surfaces cannot be added.
@@ -145,7 +146,7 @@ impl Common {
                 let inside = runs.filter(move |run| start < run[0] && run[0] < end);
                 inside.map(move |run| (run[0], run.len() + raised))
             })
-            .collect();
+            .collect_vec();
         inner.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
         inner.dedup_by_key(|knot| knot.0);
         Self { degree, inner }
@@ -154,7 +155,7 @@ impl Common {
     /// What has to be inserted so that `knots`, of the common degree, become the common ones.
     fn missing(&self, knots: &KnotVector) -> Vec<f64> {
         let lacks = |&(t, count): &(f64, usize)| std::iter::repeat_n(t, count - knots.multiplicity(t));
-        self.inner.iter().flat_map(lacks).collect()
+        self.inner.iter().flat_map(lacks).collect_vec()
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::{Axis, TensorSurface};
 use crate::basis::basis_derivatives;
+use crate::memory;
 use crate::surface::homogeneous::divide;
 use crate::surface::{ORDERS, derivative_rows};
 use glam::DVec2;
@@ -12,15 +13,15 @@ impl TensorSurface {
         let point_len = rows * self.dim;
         match &self.weights {
             None => {
-                let mut scratch = vec![0.0; 3 * self.dim];
+                let mut scratch = memory::filled(0.0, 3 * self.dim);
                 for (uv, out) in uv.iter().zip(out.chunks_exact_mut(point_len)) {
                     self.contract(&self.control_points, self.dim, *uv, max_derivative, &mut scratch, out);
                 }
             }
             Some(weights) => {
                 let width = self.dim + 1;
-                let mut scratch = vec![0.0; 3 * width];
-                let mut homogeneous = vec![0.0; rows * width];
+                let mut scratch = memory::filled(0.0, 3 * width);
+                let mut homogeneous = memory::filled(0.0, rows * width);
                 for (uv, out) in uv.iter().zip(out.chunks_exact_mut(point_len)) {
                     let net = &weights.homogeneous;
                     self.contract(net, width, *uv, max_derivative, &mut scratch, &mut homogeneous);

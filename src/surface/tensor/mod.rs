@@ -14,6 +14,7 @@ pub use combine::CombineError;
 
 use super::{ControlNet, Domain, Kind, Patches, Region, Surface, eval_grid_by_rows};
 pub use crate::geometry::Axis;
+use crate::memory::{self, CollectVec};
 
 use crate::bezier::{BezierPatch, apply, extraction};
 use crate::failure::{Classify, ErrorKind};
@@ -93,7 +94,7 @@ impl Classify for TensorError {
 /// A tensor product B-spline surface.
 ///
 /// Control point `(i, j)`, `i` along u, is row `i * count_v + j` of `dim` numbers.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct TensorSurface {
     dim: usize,
     knots_u: KnotVector,
@@ -103,6 +104,22 @@ pub struct TensorSurface {
     region: Region,
     /// Made at the first evaluation; None for surfaces that it does not serve.
     bicubic: OnceLock<Option<BicubicTable>>,
+}
+
+/// The table is not copied: it is made again where it is of use.
+impl Clone for TensorSurface {
+    fn clone(&self) -> Self {
+        let Self { dim, knots_u, knots_v, control_points, weights, region, bicubic: _ } = self;
+        Self {
+            dim: *dim,
+            knots_u: knots_u.clone(),
+            knots_v: knots_v.clone(),
+            control_points: memory::copied(control_points),
+            weights: weights.clone(),
+            region: region.clone(),
+            bicubic: OnceLock::new(),
+        }
+    }
 }
 
 impl PartialEq for TensorSurface {
@@ -205,7 +222,7 @@ impl Weights {
             .chunks_exact(dim)
             .zip(&weights)
             .flat_map(|(point, &w)| point.iter().map(move |x| w * x).chain([w]))
-            .collect();
+            .collect_vec();
         Ok(Self { weights, homogeneous })
     }
 }
@@ -257,12 +274,12 @@ impl Surface for TensorSurface {
             return None;
         }
         let (count_u, count_v) = (self.knots_u.basis_count() as u32, self.knots_v.basis_count() as u32);
-        let along_u = (0..count_v).map(|j| (0..count_u).map(|i| i * count_v + j).collect());
-        let along_v = (0..count_u).map(|i| (0..count_v).map(|j| i * count_v + j).collect());
+        let along_u = (0..count_v).map(|j| (0..count_u).map(|i| i * count_v + j).collect_vec());
+        let along_v = (0..count_u).map(|i| (0..count_v).map(|j| i * count_v + j).collect_vec());
         Some(ControlNet {
-            points: self.control_points.chunks_exact(3).map(DVec3::from_slice).collect(),
+            points: self.control_points.chunks_exact(3).map(DVec3::from_slice).collect_vec(),
             weights: self.weights().map(<[f64]>::to_vec),
-            lines: along_u.chain(along_v).collect(),
+            lines: along_u.chain(along_v).collect_vec(),
         })
     }
 }
@@ -283,7 +300,7 @@ impl Patches for TensorSurface {
             None => (&self.control_points, self.dim),
         };
         let line = (degree[1] + 1) * width;
-        let mut part = Vec::with_capacity((degree[0] + 1) * line);
+        let mut part = memory::with_capacity((degree[0] + 1) * line);
         for i in span_u - degree[0]..=span_u {
             let first = (i * self.knots_v.basis_count() + span_v - degree[1]) * width;
             part.extend_from_slice(&net[first..first + line]);

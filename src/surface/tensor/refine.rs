@@ -3,6 +3,7 @@
 use super::{Axis, TensorError, TensorSurface};
 use crate::geometry::Domain;
 use crate::knots::{KnotError, KnotVector};
+use crate::memory::CollectVec;
 use crate::refinement::Refinement;
 use crate::surface::{Region, Surface};
 use glam::DVec2;
@@ -67,7 +68,7 @@ impl TensorSurface {
             _ if start < t && t < end => (start + end - t).clamp(start, end),
             _ => start + end - t,
         };
-        let knots = self.knots(axis).knots().iter().rev().map(|&t| mirror(t)).collect();
+        let knots = self.knots(axis).knots().iter().rev().map(|&t| mirror(t)).collect_vec();
         let knots = KnotVector::new(knots, self.knots(axis).degree()).map_err(|e| blame(axis, e))?;
         let points = self.reverse_rows(axis, &self.control_points, self.dim);
         let weights = self.weights().map(|weights| self.reverse_rows(axis, weights, 1));
@@ -87,15 +88,16 @@ impl TensorSurface {
         let line = self.knots_v.basis_count() * width;
         let net: Vec<f64> = match axis {
             Axis::U => refinement.apply(net, line),
-            Axis::V => net.chunks_exact(line).flat_map(|line| refinement.apply(line, width)).collect(),
+            Axis::V => net.chunks_exact(line).flat_map(|line| refinement.apply(line, width)).collect_vec(),
         };
         let knots = refinement.knots().clone();
         if self.weights.is_none() {
             return self.with_knots(axis, knots, net, None);
         }
         let rows = net.chunks_exact(width);
-        let points = rows.clone().flat_map(|row| row[..self.dim].iter().map(|x| x / row[self.dim])).collect();
-        self.with_knots(axis, knots, points, Some(rows.map(|row| row[self.dim]).collect()))
+        let points =
+            rows.clone().flat_map(|row| row[..self.dim].iter().map(|x| x / row[self.dim])).collect_vec();
+        self.with_knots(axis, knots, points, Some(rows.map(|row| row[self.dim]).collect_vec()))
     }
 
     fn with_knots(
@@ -121,12 +123,12 @@ impl TensorSurface {
     fn reverse_rows(&self, axis: Axis, rows: &[f64], width: usize) -> Vec<f64> {
         let line = self.knots_v.basis_count() * width;
         match axis {
-            Axis::U => rows.chunks_exact(line).rev().flatten().copied().collect(),
+            Axis::U => rows.chunks_exact(line).rev().flatten().copied().collect_vec(),
             Axis::V => rows
                 .chunks_exact(line)
                 .flat_map(|line| line.chunks_exact(width).rev().flatten())
                 .copied()
-                .collect(),
+                .collect_vec(),
         }
     }
 }

@@ -3,6 +3,7 @@
 use super::{DEGREE, TSplineSurface};
 use crate::bezier::{BezierPatch, extraction, extraction_over};
 use crate::curve::{Curve, common_breaks};
+use crate::memory::{self, CollectVec};
 use crate::surface::{Domain, Patches, Surface};
 use glam::DVec2;
 
@@ -18,7 +19,7 @@ pub(super) struct Cells {
 impl Cells {
     pub fn new(surface: &TSplineSurface) -> Self {
         let together = |span| common_breaks(&surface.active(span).iter().collect::<Vec<&Curve>>());
-        let breaks: Vec<Vec<f64>> = surface.knots_v.spans().map(together).collect();
+        let breaks: Vec<Vec<f64>> = surface.knots_v.spans().map(together).collect_vec();
         let mut first = vec![0];
         breaks.iter().for_each(|breaks| first.push(first[first.len() - 1] + breaks.len() - 1));
         Self { breaks, first }
@@ -27,7 +28,7 @@ impl Cells {
 
 /// `rows points`: as many rows of `dim` numbers as `rows` has rows of four.
 fn weigh(rows: &[f64], points: &[f64], dim: usize) -> Vec<f64> {
-    let mut sums = vec![0.0; rows.len() / 4 * dim];
+    let mut sums = memory::filled(0.0, rows.len() / 4 * dim);
     for (row, out) in rows.chunks_exact(4).zip(sums.chunks_exact_mut(dim)) {
         for (weight, point) in row.iter().zip(points.chunks_exact(dim)) {
             out.iter_mut().zip(point).for_each(|(sum, x)| *sum += weight * x);

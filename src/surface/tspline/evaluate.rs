@@ -5,13 +5,14 @@
 
 use super::{DEGREE, TSplineSurface};
 use crate::basis::basis_derivatives;
+use crate::memory;
 use crate::surface::{ORDERS, Surface, derivative_rows};
 use glam::DVec2;
 
 impl TSplineSurface {
     pub(super) fn eval_rows_plain(&self, uv: &[DVec2], max_derivative: usize, out: &mut [f64]) {
         let dim = self.dim();
-        let mut values = vec![0.0; (max_derivative + 1) * dim];
+        let mut values = memory::filled(0.0, (max_derivative + 1) * dim);
         for (uv, out) in uv.iter().zip(out.chunks_exact_mut(derivative_rows(max_derivative) * dim)) {
             let span = self.knots_v.span(uv.y);
             let basis = basis_derivatives(&self.knots_v, span, uv.y, max_derivative);

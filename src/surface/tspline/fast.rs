@@ -10,6 +10,7 @@
 
 use super::TSplineSurface;
 use crate::curve::Curve;
+use crate::memory;
 use crate::surface::Surface;
 use crate::surface::cubic::{CubicSpan, fma};
 use glam::DVec2;
@@ -37,7 +38,7 @@ impl FastTable {
     /// None for surfaces of another dimension.
     fn new(surface: &TSplineSurface) -> Option<Self> {
         (surface.dim() == 3).then(|| {
-            let mut first = Vec::with_capacity(surface.curves.len());
+            let mut first = memory::with_capacity(surface.curves.len());
             let mut pieces = Vec::new();
             for curve in &surface.curves {
                 first.push(pieces.len());

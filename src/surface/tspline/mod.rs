@@ -21,6 +21,7 @@ use super::{ControlNet, Domain, Kind, Patches, Region, Surface};
 use crate::curve::Curve;
 use crate::failure::{Classify, ErrorKind};
 use crate::knots::{KnotError, KnotVector};
+use crate::memory::CollectVec;
 use cells::Cells;
 use fast::FastTable;
 use glam::{DVec2, DVec3};
@@ -196,8 +197,8 @@ impl Surface for TSplineSurface {
     fn knot_lines(&self) -> Vec<[DVec2; 2]> {
         let Domain { min, max } = self.domain();
         let across = |v: f64| [DVec2::new(min.x, v), DVec2::new(max.x, v)];
-        let mut lines: Vec<[DVec2; 2]> = self.knots_v.breaks().into_iter().map(across).collect();
-        let places: Vec<f64> = (0..self.curves.len()).map(|curve| self.knots_v.greville(curve)).collect();
+        let mut lines: Vec<[DVec2; 2]> = self.knots_v.breaks().into_iter().map(across).collect_vec();
+        let places: Vec<f64> = (0..self.curves.len()).map(|curve| self.knots_v.greville(curve)).collect_vec();
         for (k, curve) in self.curves.iter().enumerate() {
             let from = k.checked_sub(1).map_or(min.y, |before| places[before].midpoint(places[k]));
             let to = places.get(k + 1).map_or(max.y, |&after| places[k].midpoint(after));

@@ -12,6 +12,7 @@ use super::{DEGREE, TSplineError, TSplineSurface};
 use crate::bezier::extraction;
 use crate::curve::{Curve, common_knots, on_common_knots};
 use crate::knots::{KnotError, KnotVector};
+use crate::memory::{self, CollectVec};
 use crate::surface::tensor::{TensorError, TensorSurface};
 use crate::surface::{ConvertError, Surface};
 use std::sync::OnceLock;
@@ -72,7 +73,7 @@ impl TSplineSurface {
             return Err(KnotError::Torn { at: v, degree: DEGREE }.into());
         }
         let k = t.partition_point(|&t| t <= v) - 1;
-        let mut knots = t.to_vec();
+        let mut knots = memory::copied(t);
         knots.insert(k + 1, v);
         let knots_v = KnotVector::new(knots, DEGREE)?;
         let blended = |j: usize| -> Result<Curve, TSplineError> {
@@ -92,7 +93,7 @@ impl TSplineSurface {
 
     /// Control points of [`TSplineSurface::to_tensor`].
     pub fn tensor_coefficient_count(&self) -> Result<usize, TSplineError> {
-        let curves: Vec<&Curve> = self.curves.iter().collect();
+        let curves: Vec<&Curve> = self.curves.iter().collect_vec();
         Ok(common_knots(&curves)?.basis_count() * self.curves.len())
     }
 
@@ -103,9 +104,9 @@ impl TSplineSurface {
         if needed > max_coefficients {
             return Err(ConvertError::TooLarge { needed, limit: max_coefficients });
         }
-        let joined = on_common_knots(&self.curves.iter().collect::<Vec<_>>());
+        let joined = on_common_knots(&self.curves.iter().collect_vec());
         let curves = joined.map_err(TSplineError::from)?;
-        let lines: Vec<&[f64]> = curves.iter().map(Curve::control_points).collect();
+        let lines: Vec<&[f64]> = curves.iter().map(Curve::control_points).collect_vec();
         let mut tensor = tensor_of(curves[0].knots().clone(), self.knots_v.clone(), &lines, self.dim())?;
         *tensor.region_mut() = self.region.clone();
         Ok(tensor)
@@ -114,7 +115,7 @@ impl TSplineSurface {
     /// Control points of [`TSplineSurface::to_strips`].
     pub fn strip_coefficient_count(&self) -> Result<usize, TSplineError> {
         let count = |span| {
-            let curves: Vec<&Curve> = self.active(span).iter().collect();
+            let curves: Vec<&Curve> = self.active(span).iter().collect_vec();
             Ok(common_knots(&curves)?.basis_count() * (DEGREE + 1))
         };
         self.knots_v.spans().map(count).sum()
@@ -127,12 +128,12 @@ impl TSplineSurface {
     }
 
     fn strip(&self, span: usize) -> Result<TensorSurface, TSplineError> {
-        let curves = on_common_knots(&self.active(span).iter().collect::<Vec<_>>())?;
+        let curves = on_common_knots(&self.active(span).iter().collect_vec())?;
         let rows = extraction(&self.knots_v, span);
         let lines: Vec<Vec<f64>> = rows
             .chunks_exact(DEGREE + 1)
             .map(|row| {
-                let mut line = vec![0.0; curves[0].control_points().len()];
+                let mut line = memory::filled(0.0, curves[0].control_points().len());
                 for (weight, curve) in row.iter().zip(&curves) {
                     line.iter_mut().zip(curve.control_points()).for_each(|(sum, x)| *sum += weight * x);
                 }
@@ -140,7 +141,7 @@ impl TSplineSurface {
             })
             .collect();
         let knots_v = KnotVector::clamped(&self.knots_v.knots()[span..=span + 1], DEGREE)?;
-        let lines: Vec<&[f64]> = lines.iter().map(Vec::as_slice).collect();
+        let lines: Vec<&[f64]> = lines.iter().map(Vec::as_slice).collect_vec();
         let mut strip = tensor_of(curves[0].knots().clone(), knots_v, &lines, self.dim())?;
         *strip.region_mut() = self.region.restrict(&self.domain(), &strip.domain());
         Ok(strip)
@@ -162,7 +163,7 @@ fn tensor_of(
     lines: &[&[f64]],
     dim: usize,
 ) -> Result<TensorSurface, TSplineError> {
-    let mut points = Vec::with_capacity(lines.len() * lines[0].len());
+    let mut points = memory::with_capacity(lines.len() * lines[0].len());
     for start in (0..lines[0].len()).step_by(dim) {
         lines.iter().for_each(|line| points.extend_from_slice(&line[start..start + dim]));
     }

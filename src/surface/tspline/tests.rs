@@ -9,7 +9,7 @@ fn surface(dim: usize, seed: u64) -> TSplineSurface {
     let curves = (0..knots_v.basis_count()).map(|j| {
         let mut breaks: Vec<f64> = (0..2 + 3 * (j % 4)).map(|_| random.unit()).collect();
         breaks.extend([0.0, 0.25, 0.5, 1.0]);
-        breaks.sort_by(f64::total_cmp);
+        breaks.sort_unstable_by(f64::total_cmp);
         let knots = KnotVector::clamped(&breaks, 3).unwrap();
         let points = (0..dim * knots.basis_count()).map(|_| random.signed()).collect();
         Curve::new(dim, knots, points).unwrap()

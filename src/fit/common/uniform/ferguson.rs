@@ -12,6 +12,7 @@ use super::grid::UniformGrid;
 use crate::fit::common::FitError;
 use crate::hermite;
 use crate::linalg::Entries;
+use crate::memory::{self, CollectVec};
 use glam::DVec2;
 
 /// The four unknowns of a knot.
@@ -30,7 +31,7 @@ pub fn fit(
 ) -> Result<Vec<f64>, FitError> {
     let [count_u, count_v] = grid.map(|grid| grid.count);
     let knots = Knots { count_u, count_v };
-    let (mut entries, mut right) = (Entries::default(), vec![0.0; knots.unknown_count() * dim]);
+    let (mut entries, mut right) = (Entries::default(), memory::filled(0.0, knots.unknown_count() * dim));
     add_data(&knots, grid, uv, values, dim, &mut entries, &mut right);
     knots.lines().for_each(|line| bend(&line, smoothing, &mut entries));
     add_sweeps(&knots, &mut entries);
@@ -49,7 +50,7 @@ pub fn fit_line(
     let knots = Knots { count_u: grid.count, count_v: 1 };
     let line = Line { knots: &knots, is_u: true, at: 0 };
     let n = 2 * grid.count;
-    let (mut entries, mut right) = (Entries::default(), vec![0.0; n * dim]);
+    let (mut entries, mut right) = (Entries::default(), memory::filled(0.0, n * dim));
     for (&u, value) in u.iter().zip(values.chunks_exact(dim)) {
         let (i, s) = grid.locate(u);
         let shapes = hermite::shape_functions(s);
@@ -68,8 +69,8 @@ pub fn fit_line(
     let columns: Vec<Vec<f64>> = right
         .chunks_exact(n)
         .map(|column| hermite::control_points(&column[..grid.count], &column[grid.count..]))
-        .collect();
-    Ok((0..grid.count + 2).flat_map(|i| columns.iter().map(move |column| column[i])).collect())
+        .collect_vec();
+    Ok((0..grid.count + 2).flat_map(|i| columns.iter().map(move |column| column[i])).collect_vec())
 }
 
 /// Numbers the unknowns.
@@ -138,7 +139,7 @@ fn add_data(
                 let field = [VALUE, SLOPE_U, SLOPE_V, TWIST][a / 2 + 2 * (b / 2)];
                 (knots.unknown(field, i + a % 2, j + b % 2), along_u[a] * along_v[b])
             })
-            .collect();
+            .collect_vec();
         for &(row, weight) in functions.iter().filter(|(unknown, _)| *unknown < n / 4) {
             functions.iter().for_each(|&(column, shape)| entries.add(row, column, weight * shape));
             value.iter().enumerate().for_each(|(k, x)| right[k * n + row] += weight * x);
@@ -188,19 +189,19 @@ fn sweep(line: &Line, values: usize, slopes: usize, entries: &mut Entries) {
 
 fn control_points(knots: &Knots, unknowns: &[f64], dim: usize) -> Vec<f64> {
     let (n, count_v) = (knots.unknown_count(), knots.count_v);
-    let mut points = vec![0.0; (knots.count_u + 2) * (count_v + 2) * dim];
+    let mut points = memory::filled(0.0, (knots.count_u + 2) * (count_v + 2) * dim);
     for k in 0..dim {
         let column = &unknowns[k * n..][..n];
         let along_u = |values: usize, slopes: usize, j: usize| {
             let line = |field| -> Vec<f64> {
-                (0..knots.count_u).map(|i| column[knots.unknown(field, i, j)]).collect()
+                (0..knots.count_u).map(|i| column[knots.unknown(field, i, j)]).collect_vec()
             };
             hermite::control_points(&line(values), &line(slopes))
         };
-        let values: Vec<Vec<f64>> = (0..count_v).map(|j| along_u(VALUE, SLOPE_U, j)).collect();
-        let slopes: Vec<Vec<f64>> = (0..count_v).map(|j| along_u(SLOPE_V, TWIST, j)).collect();
+        let values: Vec<Vec<f64>> = (0..count_v).map(|j| along_u(VALUE, SLOPE_U, j)).collect_vec();
+        let slopes: Vec<Vec<f64>> = (0..count_v).map(|j| along_u(SLOPE_V, TWIST, j)).collect_vec();
         for i in 0..knots.count_u + 2 {
-            let line = |rows: &[Vec<f64>]| -> Vec<f64> { rows.iter().map(|row| row[i]).collect() };
+            let line = |rows: &[Vec<f64>]| -> Vec<f64> { rows.iter().map(|row| row[i]).collect_vec() };
             for (j, x) in hermite::control_points(&line(&values), &line(&slopes)).into_iter().enumerate() {
                 points[(i * (count_v + 2) + j) * dim + k] = x;
             }

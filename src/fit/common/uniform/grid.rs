@@ -8,6 +8,7 @@
 //! Natural ends (zero curvature) eliminate the outer two: `c_0 = 2c_1 - c_2`, `c_{I+1} = 2c_I - c_{I-1}`.
 
 use crate::knots::{KnotError, KnotVector};
+use crate::memory::{self, CollectVec};
 
 /// What happens at the ends of the knots.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -38,7 +39,7 @@ impl UniformGrid {
 
     /// The knots with their ends fourfold.
     pub fn knot_vector(&self) -> Result<KnotVector, KnotError> {
-        let breaks: Vec<f64> = (0..self.count).map(|k| self.knot(k)).collect();
+        let breaks: Vec<f64> = (0..self.count).map(|k| self.knot(k)).collect_vec();
         KnotVector::clamped(&breaks, 3)
     }
 
@@ -194,7 +195,7 @@ impl UniformBasis {
     /// Inside, the coefficient is the control point; at the ends the blossom at three or two equal knots
     /// is `(c_0 + 4c_1 + c_2)/6` and `(2c_1 + c_2)/3`.
     pub fn control_points(&self, unknowns: &[f64], row: usize) -> Vec<f64> {
-        let mut points = vec![0.0; (self.grid.count + 2) * row];
+        let mut points = memory::filled(0.0, (self.grid.count + 2) * row);
         self.write_control_points(unknowns, row, &mut points);
         points
     }
@@ -266,7 +267,7 @@ pub struct Banded4 {
 
 impl Banded4 {
     pub fn zeros(n: usize) -> Self {
-        Self { rows: vec![[0.0; 4]; n] }
+        Self { rows: memory::filled([0.0; 4], n) }
     }
 
     pub fn add_square(&mut self, window: &Window, weight: f64) {

@@ -9,6 +9,7 @@ use crate::control::Pool;
 use crate::linalg::dissection::grid_order;
 use crate::linalg::{Cholesky, Conditions, NotPositiveDefinite, SymbolicCholesky, impose_all};
 use crate::lists::Lists;
+use crate::memory::{self, CollectVec, ParallelCollectVec};
 use glam::DVec2;
 use rayon::prelude::*;
 use sprs::CsMat;
@@ -93,7 +94,7 @@ pub struct NormalEquations<D = UniformBasis> {
 /// The data of each cell; to be called within a pool.
 pub fn by_cell(basis: &TensorBasis<impl Direction>, uv: &[DVec2]) -> Lists {
     let [cells_u, cells_v] = basis.cells();
-    let cells: Vec<u32> = uv.par_iter().map(|&uv| basis.cell(uv) as u32).collect();
+    let cells: Vec<u32> = uv.par_iter().map(|&uv| basis.cell(uv) as u32).collect_vec();
     Lists::by_key(cells_u * cells_v, &cells)
 }
 
@@ -122,7 +123,7 @@ impl<D: Direction + Clone> NormalEquations<D> {
     pub fn assemble(basis: TensorBasis<D>, samples: &Samples, pool: &Pool) -> Self {
         let [cells_u, _] = basis.cells();
         let (rows, n, dim) = (basis.v.len(), basis.len(), samples.dim);
-        let (mut matrix, mut right) = (vec![0.0; n * STENCIL], vec![0.0; n * dim]);
+        let (mut matrix, mut right) = (memory::filled(0.0, n * STENCIL), memory::filled(0.0, n * dim));
         pool.run(|| {
             let by_cell = by_cell(&basis, samples.uv);
             // strips of a block are kept at once: the block bounds the memory, and is fixed
@@ -131,7 +132,7 @@ impl<D: Direction + Clone> NormalEquations<D> {
                 let strips: Vec<Strip> = (block..cells_u.min(block + BLOCK))
                     .into_par_iter()
                     .map(|cell_u| assemble_strip(&basis, samples, &by_cell, cell_u))
-                    .collect();
+                    .collect_vec();
                 for (cell_u, strip) in (block..).zip(strips) {
                     strip.add_to(basis.u.first(cell_u) * rows, &mut matrix, &mut right);
                 }
@@ -161,12 +162,12 @@ impl<D: Direction + Clone> NormalEquations<D> {
                 }
             }
         }
-        Self { basis, matrix, right: vec![0.0; n * dim], dim }
+        Self { basis, matrix, right: memory::filled(0.0, n * dim), dim }
     }
 
     /// These and `weight` times others over the same basis.
     pub fn plus(&self, other: &Self, weight: f64) -> Self {
-        let add = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a + weight * b).collect();
+        let add = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a + weight * b).collect_vec();
         let (matrix, right) = (add(&self.matrix, &other.matrix), add(&self.right, &other.right));
         Self { matrix, right, basis: self.basis.clone(), dim: self.dim }
     }
@@ -207,10 +208,10 @@ impl<D: Direction + Clone> NormalEquations<D> {
     fn with_energy(&self, weight: f64, terms: &[EnergyTerm]) -> CsMat<f64> {
         let (count_u, count_v) = (self.basis.u.len(), self.basis.v.len());
         let n = count_u * count_v;
-        let mut starts = Vec::with_capacity(n + 1);
-        let mut rows = Vec::with_capacity(n * 25);
-        let mut values = Vec::with_capacity(n * 25);
-        starts.push(0);
+        let mut starts = memory::with_capacity(n + 1);
+        let mut rows = memory::with_capacity(n * 25);
+        let mut values = memory::with_capacity(n * 25);
+        memory::push(&mut starts, 0);
         for i in 0..count_u {
             for j in 0..count_v {
                 for a in 0..=REACH.min(count_u - 1 - i) {
@@ -218,11 +219,11 @@ impl<D: Direction + Clone> NormalEquations<D> {
                         let bend: f64 =
                             terms.iter().map(|t| t.weight * t.u.rows[i][a] * t.v.get(j, jj)).sum();
                         let stencil = &self.matrix[(i * count_v + j) * STENCIL..];
-                        rows.push((i + a) * count_v + jj);
-                        values.push(stencil[7 * a + REACH + jj - j] + weight * bend);
+                        memory::push(&mut rows, (i + a) * count_v + jj);
+                        memory::push(&mut values, stencil[7 * a + REACH + jj - j] + weight * bend);
                     }
                 }
-                starts.push(rows.len());
+                memory::push(&mut starts, rows.len());
             }
         }
         CsMat::new_csc((n, n), starts, rows, values)
@@ -243,9 +244,11 @@ fn assemble_strip(
 ) -> Strip {
     let (width_u, width_v, rows) = (basis.u.width(), basis.v.width(), basis.v.len());
     let (cells_v, dim) = (basis.cells()[1], samples.dim);
-    let mut strip =
-        Strip { matrix: vec![0.0; width_u * rows * STENCIL], right: vec![0.0; width_u * rows * dim] };
-    let mut sums = CellSums { matrix: [0.0; 160], right: vec![0.0; 16 * dim] };
+    let mut strip = Strip {
+        matrix: memory::filled(0.0, width_u * rows * STENCIL),
+        right: memory::filled(0.0, width_u * rows * dim),
+    };
+    let mut sums = CellSums { matrix: [0.0; 160], right: memory::filled(0.0, 16 * dim) };
     for cell_v in 0..cells_v {
         let data = by_cell.of(cell_u * cells_v + cell_v);
         if data.is_empty() {

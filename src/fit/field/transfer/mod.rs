@@ -26,6 +26,7 @@ use crate::control::{Control, Stage};
 use crate::fit::common::FitError;
 use crate::fit::common::checks::check_rows;
 use crate::fit::common::report::{FitReport, ToleranceScale};
+use crate::memory::{self, CollectVec};
 use crate::mesh::Mesh;
 use crate::options::with_fields;
 use crate::query::project::{ProjectOptions, Projector};
@@ -163,8 +164,8 @@ impl Transfer {
         let transfer = Self {
             fitter,
             shape,
-            source_points: source.points().to_vec(),
-            target_points: targets.to_vec(),
+            source_points: memory::copied(source.points()),
+            target_points: memory::copied(targets),
             parameters,
             distances: summary.each,
             targets: targets_side,
@@ -269,7 +270,7 @@ fn project(
     let (mut parameters, mut distances) = (Vec::new(), Vec::new());
     for points in targets.chunks(PROJECTED_AT_ONCE) {
         control.report(parameters.len() as f64 / targets.len() as f64, f64::NAN)?;
-        let rows: Vec<f64> = points.iter().flat_map(|p| p.to_array()).collect();
+        let rows: Vec<f64> = points.iter().flat_map(|p| p.to_array()).collect_vec();
         let nearest = projector.project(&rows, &ProjectOptions::default(), control.pool())?;
         parameters.extend(nearest.uv);
         distances.extend(nearest.distances);

@@ -1,5 +1,6 @@
 use super::*;
 use crate::control::Control;
+use crate::control::Watch;
 use crate::mesh::Mesh;
 use crate::samples::machine::{self, Part};
 
@@ -115,7 +116,7 @@ fn exact_models_are_written_and_saved_as_they_are() {
     use crate::export::{native, step};
     let Part { mesh, .. } = machine::box_with_hole(1000, 2).unwrap();
     let model = fit(&mesh, 1e-3).unwrap().model;
-    let (text, report) = step::to_text(&model, &step::StepOptions::default()).unwrap();
+    let (text, report) = step::to_text(&model, &step::StepOptions::default(), &Watch::default()).unwrap();
     let count = |entity: &str| text.matches(&format!("={entity}(")).count();
     // twelve lines of the block and the seam; two rims
     assert_eq!((count("PLANE"), count("CYLINDRICAL_SURFACE"), count("CIRCLE"), count("LINE")), (6, 1, 2, 13));

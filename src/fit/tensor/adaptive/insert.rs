@@ -130,7 +130,7 @@ impl NetFitter<'_> {
             return Err(if is_exhausted { StopReason::DataExhausted } else { StopReason::Limit });
         }
         let [u, v] = breaks.map(|mut breaks| {
-            breaks.sort_by(f64::total_cmp);
+            breaks.sort_unstable_by(f64::total_cmp);
             Lines::new(breaks)
         });
         // halves that rounding cannot tell from their ends

@@ -20,6 +20,7 @@ use super::{FitError, Knots, Method, Problem, TensorFit};
 use crate::control::Control;
 use crate::fit::common::report::StopReason;
 use crate::geometry::Bounds;
+use crate::memory;
 use crate::surface::Surface;
 use buffer::with_buffer;
 use insert::Growth;
@@ -112,7 +113,7 @@ impl Problem<'_> {
         let (mut thin, solves) = fitter.thin(net.clone(), most, None, control)?;
         rounds += solves;
         if self.mesh.is_none() && thin.coefficient_count() <= SMALL && self.uv.len() <= FEW_DATA {
-            let mut factors = vec![1.0; self.uv.len()];
+            let mut factors = memory::filled(1.0, self.uv.len());
             let solves;
             (thin, solves) = fitter.thin(thin, WEIGHED_SOLVES, Some(&mut factors), control)?;
             rounds += solves;

@@ -20,6 +20,7 @@ use crate::fit::common::uniform::energy::EnergyTerm;
 use crate::fit::common::uniform::grid::Direction;
 use crate::fit::common::uniform::normal_equations::{NormalEquations, Samples, TensorBasis};
 use crate::linalg::{Conditions, SymbolicCholesky};
+use crate::memory::{self, CollectVec};
 use crate::surface::tensor::TensorSurface;
 use crate::surface::{Surface, Trims};
 use glam::DVec2;
@@ -131,10 +132,10 @@ impl<'a> NetFitter<'a> {
             Some(weights) => weights[datum],
             None => 1.0,
         };
-        let weights: Vec<f64> = (0..count).map(weight).collect();
+        let weights: Vec<f64> = (0..count).map(weight).collect_vec();
         let sort = |coordinate: fn(&DVec2) -> f64| {
-            let mut sorted: Vec<f64> = problem.uv.iter().map(coordinate).collect();
-            sorted.sort_by(f64::total_cmp);
+            let mut sorted: Vec<f64> = problem.uv.iter().map(coordinate).collect_vec();
+            sorted.sort_unstable_by(f64::total_cmp);
             sorted
         };
         let between = (!withholds).then(|| problem.between(watch));
@@ -181,7 +182,7 @@ impl<'a> NetFitter<'a> {
     ) -> Result<NetEquations, FitError> {
         let weights = match factors {
             None => Cow::Borrowed(&self.weights),
-            Some(factors) => Cow::Owned(self.weights.iter().zip(factors).map(|(w, f)| w * f).collect()),
+            Some(factors) => Cow::Owned(self.weights.iter().zip(factors).map(|(w, f)| w * f).collect_vec()),
         };
         let own = Rows { values: &self.values, dim: self.problem.dim, are_own: true };
         control.watch(|pool, watch| self.assemble_rows(lines, &own, &weights, pool, watch))?
@@ -200,7 +201,7 @@ impl<'a> NetFitter<'a> {
     /// Rows of signs, one of each column for a datum.
     fn signs(&self) -> Vec<f64> {
         let sign = |k: usize| if scramble(k) & 1 == 0 { 1.0 } else { -1.0 };
-        (0..PROBES * self.problem.uv.len()).map(sign).collect()
+        (0..PROBES * self.problem.uv.len()).map(sign).collect_vec()
     }
 
     /// How many data a fit follows: the trace of the matrix that makes its values of theirs.
@@ -213,7 +214,7 @@ impl<'a> NetFitter<'a> {
         let signs = self.signs();
         control.watch(|pool, watch| {
             let surface = self.surface(probes, PROBES, smoothing, watch)?;
-            let mut rows = vec![0.0; signs.len()];
+            let mut rows = memory::filled(0.0, signs.len());
             evaluate_rows(&surface, &self.problem.uv, &mut rows, pool);
             Ok(rows.iter().zip(&signs).map(|(x, sign)| x * sign).sum::<f64>() / PROBES as f64)
         })?
@@ -242,7 +243,7 @@ impl<'a> NetFitter<'a> {
         let in_cells = |uv: DVec2| DVec2::new(place(0, uv.x), place(1, uv.y));
         let mut data = problem.interior_data(in_cells, &self.values);
         if !rows.are_own {
-            data.values = vec![0.0; dim * data.uv.len()];
+            data.values = memory::filled(0.0, dim * data.uv.len());
         }
         let equations = if data.uv.is_empty() {
             nodes
@@ -311,8 +312,10 @@ impl<'a> NetFitter<'a> {
         let solved = equations.solve(&net.symbolic, weight, &net.energy, &net.conditions);
         let unknowns = solved.map_err(|_| FitError::Singular)?;
         let n = coefficient_count(&net.lines);
-        let points: Vec<f64> =
-            (0..n).flat_map(|i| (0..dim).map(move |k| (i, k))).map(|(i, k)| unknowns[k * n + i]).collect();
+        let points: Vec<f64> = (0..n)
+            .flat_map(|i| (0..dim).map(move |k| (i, k)))
+            .map(|(i, k)| unknowns[k * n + i])
+            .collect_vec();
         let [u, v] = [0, 1].map(|axis| net.lines[axis].knots().clone());
         TensorSurface::new(dim, u, v, points, None).map_err(|_| FitError::Singular)
     }

@@ -9,6 +9,7 @@ use super::super::lines::Lines;
 use super::net::{Net, NetFitter};
 use crate::control::Control;
 use crate::fit::common::uniform::grid::Direction;
+use crate::memory;
 
 /// Share of the lines that are tried at first.
 const FIRST_SHARE: f64 = 0.2;
@@ -66,7 +67,7 @@ impl NetFitter<'_> {
             if let Some(thinner) = thinner {
                 net = thinner;
             } else if let [line] = batch[..] {
-                kept[line.axis].push(net.lines[line.axis].breaks()[line.index]);
+                memory::push(&mut kept[line.axis], net.lines[line.axis].breaks()[line.index]);
             } else {
                 share = 0.5 * batch.len() as f64 / ranked.len() as f64;
             }
@@ -84,7 +85,7 @@ impl NetFitter<'_> {
         control: &mut Control,
     ) -> Result<Option<Net>, FitError> {
         let tolerance = self.problem.goal.tolerance;
-        let mut trial = factors.clone();
+        let mut trial = memory::copied(&factors);
         for _ in 0..MOST_WEIGHED {
             *solves += 1;
             let equations = self.assemble(lines.clone(), Some(&trial), control)?;
