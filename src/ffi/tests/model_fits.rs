@@ -134,7 +134,7 @@ unsafe fn check_page(model: *const planish_model, mesh: *const planish_mesh) {
 
 #[test]
 fn a_field_on_a_ball_is_a_model_of_its_own_dimension() {
-    let mesh = ball(8, false);
+    let mesh = ball(16, false);
     let (mut model, mut fitter, mut field) = (null_mut(), null_mut(), null_mut());
     let mut report = planish_fit_report::default();
     // SAFETY: live handles, arrays of their sizes.
@@ -180,7 +180,8 @@ fn a_field_on_a_ball_is_a_model_of_its_own_dimension() {
             // of x along the sphere
             let exact = [0, 1, 2].map(|c| f64::from(u8::from(c == 0)) - place[0] * place[c]);
             for c in 0..3 {
-                assert!((gradients[6 * k + c] - 2.0 * exact[c]).abs() <= 0.05, "{gradients:?} {exact:?}");
+                // the same over half a side
+                assert!((gradients[6 * k + c] - 2.0 * exact[c]).abs() <= 0.2, "{gradients:?} {exact:?}");
                 assert!(gradients[6 * k + 3 + c].abs() <= 1e-12);
             }
         }
@@ -214,7 +215,7 @@ fn a_field_on_a_ball_is_a_model_of_its_own_dimension() {
         let mut there = [0.0; 20];
         ok(planish_transfer_apply(transfer, values.as_ptr(), count, 2, there.as_mut_ptr()));
         for (row, point) in there.chunks_exact(2).zip(points.chunks_exact(3)) {
-            assert!((row[0] - 2.0 * point[0]).abs() <= 0.01 && (row[1] - 4.0).abs() <= 1e-13);
+            assert!((row[0] - 2.0 * point[0]).abs() <= 0.02 && (row[1] - 4.0).abs() <= 1e-13);
         }
         let status = planish_transfer_copy_parameters(transfer, there.as_mut_ptr(), 10);
         refused(status, planish_status::WrongKind, -1, &["patches"]);
@@ -257,10 +258,10 @@ fn two_sides_of_a_roof_become_one_smooth_shell() {
         let options = planish_smooth_options { thread_count: 2, ..planish_smooth_options::default() };
         let both = [left.0.cast_const(), right.0.cast_const()];
         let made = planish_model_smooth_from_patches(both.as_ptr(), 2, &options, &mut model, &mut report);
-        assert!(matches!(made, planish_status::ToleranceNotMet | planish_status::Stagnated), "{made:?}");
+        ok(made);
         assert_eq!((report.joined_count, report.free_count, report.piece_count), (1, 6, 1));
         assert!(report.given_normal_jump > 0.3 && report.normal_jump <= 1e-12, "{report:?}");
-        assert!(report.max_deviation > report.tolerance && report.max_deviation < 0.05, "{report:?}");
+        assert!(report.max_deviation > 0.0 && report.max_deviation <= report.tolerance, "{report:?}");
         planish_model_free(model);
 
         let before = format!("{report:?}");

@@ -12,7 +12,11 @@ use glam::{DVec2, DVec3};
 
 /// A torus of triangles, about 2 across, and its model.
 fn ring() -> (Mesh, ModelFit) {
-    let (quads, points) = torus(40, 20);
+    ring_of(40, 20)
+}
+
+fn ring_of(around: u32, across: u32) -> (Mesh, ModelFit) {
+    let (quads, points) = torus(around, across);
     let triangles = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
     let mesh = Mesh::new(points, triangles).unwrap();
     let fit = fit_mesh(&mesh, &MeshModelOptions::default(), &mut Control::new(2)).unwrap();
@@ -105,8 +109,9 @@ fn gradients_agree_across_edges_and_with_difference_quotients() {
 
 #[test]
 fn a_sample_splits_cells_until_it_keeps_the_tolerance() {
-    let (mesh, ModelFit { model, .. }) = ring();
-    let values = values(&mesh, |p| (6.0 * p.x).sin() * (5.0 * p.y).cos());
+    let (mesh, ModelFit { model, .. }) = ring_of(96, 48);
+    // a wave over some two cells of the shape
+    let values = values(&mesh, |p| (12.0 * p.x).sin() * (10.0 * p.y).cos());
     let options = FieldOptions::default().with_tolerance(Tolerance { value: 2e-3, ..Default::default() });
     let sample = SampleField { values: &values, dim: 1 };
     let make = |sample| ModelFieldFitter::new(&model, &mesh, &options, sample, &mut Control::new(2)).unwrap();
