@@ -631,6 +631,32 @@ planish::mesh torus_mesh(int around, int across, double bumps) {
   return planish::mesh(made);
 }
 
+// A fitted solid as OpenCASCADE reads it: valid, without a free edge, with the curves and the volume that we have.
+void check_solid(const planish::fitted_model &fit, const char *path) {
+  fit.model.write_step(path);
+  const TopoDS_Shape shape = read(path);
+  CHECK(!shape.IsNull());
+  if (shape.IsNull()) return;
+  CHECK(BRepCheck_Analyzer(shape).IsValid());
+  CHECK_EQUAL(count(shape, TopAbs_SOLID), 1);
+  CHECK_EQUAL(static_cast<std::size_t>(count(shape, TopAbs_FACE)), fit.model.face_count());
+  TopTools_IndexedDataMapOfShapeListOfShape faces_of_edges;
+  TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of_edges);
+  CHECK_EQUAL(static_cast<std::size_t>(faces_of_edges.Extent()), fit.model.edge_count());
+  double tolerance = 0;
+  for (int k = 1; k <= faces_of_edges.Extent(); ++k) {
+    CHECK_EQUAL(faces_of_edges(k).Extent(), 2);
+    tolerance = std::fmax(tolerance, BRep_Tool::Tolerance(TopoDS::Edge(faces_of_edges.FindKey(k))));
+  }
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(shape, properties, 1e-7); // adaptively: a few points a face are off by 4e-5
+  CHECK_NEAR(properties.Mass() / fit.report.volume, 1.0, 1e-6);
+  CHECK_NEAR(properties.Mass() / fit.report.mesh_volume, 1.0, 1e-2); // flat facets cut off some of a round shape
+  CHECK(tolerance <= 2e-7 * fit.report.diagonal);
+  std::printf("solid: %zu faces, volume %.9g (own %.9g, mesh %.9g), largest edge tolerance %.2e\n",
+              fit.model.face_count(), properties.Mass(), fit.report.volume, fit.report.mesh_volume, tolerance);
+}
+
 TEST(OcctModel, ClosedMeshesBecomeSolids) {
   for (const double bumps : {0.0, 0.2}) {
     const planish::mesh mesh = torus_mesh(64, 32, bumps);
@@ -641,29 +667,56 @@ TEST(OcctModel, ClosedMeshesBecomeSolids) {
     CHECK(fit.report.max_error <= fit.report.tolerance);
     CHECK_EQUAL(fit.report.genus, std::size_t{1});
     CHECK(fit.report.normal_jump <= 1e-10);
-    fit.model.write_step("occt_solid.step");
-    const TopoDS_Shape shape = read("occt_solid.step");
-    CHECK(!shape.IsNull());
-    if (shape.IsNull()) return;
-    CHECK(BRepCheck_Analyzer(shape).IsValid());
-    CHECK_EQUAL(count(shape, TopAbs_SOLID), 1);
-    CHECK_EQUAL(static_cast<std::size_t>(count(shape, TopAbs_FACE)), fit.model.face_count());
-    TopTools_IndexedDataMapOfShapeListOfShape faces_of_edges;
-    TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of_edges);
-    CHECK_EQUAL(static_cast<std::size_t>(faces_of_edges.Extent()), fit.model.edge_count());
-    double tolerance = 0;
-    for (int k = 1; k <= faces_of_edges.Extent(); ++k) {
-      CHECK_EQUAL(faces_of_edges(k).Extent(), 2);
-      tolerance = std::fmax(tolerance, BRep_Tool::Tolerance(TopoDS::Edge(faces_of_edges.FindKey(k))));
-    }
-    GProp_GProps properties;
-    BRepGProp::VolumeProperties(shape, properties, 1e-7); // adaptively: a few points a face are off by 4e-5
-    CHECK_NEAR(properties.Mass() / fit.report.volume, 1.0, 1e-6);
-    CHECK_NEAR(properties.Mass() / fit.report.mesh_volume, 1.0, 1e-2); // flat facets cut off some of the tube
-    CHECK(tolerance <= 2e-7 * fit.report.diagonal);
-    std::printf("solid: %zu faces, volume %.9g (own %.9g, mesh %.9g), largest edge tolerance %.2e\n",
-                fit.model.face_count(), properties.Mass(), fit.report.volume, fit.report.mesh_volume, tolerance);
+    check_solid(fit, "occt_solid.step");
   }
+}
+
+// A wall of radius and height 1 on a flat foot, with half a ball on it, as rings of points round the z axis.
+planish::mesh dome_mesh(int around) {
+  std::vector<double> radii{0.5}, heights{0.0};
+  for (int k = 0; k <= 8; ++k) radii.push_back(1.0), heights.push_back(k / 8.0);
+  for (int k = 1; k < 12; ++k) {
+    radii.push_back(std::cos(k * M_PI / 24));
+    heights.push_back(1 + std::sin(k * M_PI / 24));
+  }
+  const int rings = static_cast<int>(radii.size());
+  std::vector<double> points;
+  std::vector<std::uint32_t> triangles;
+  const auto node = [&](int ring, int k) { return static_cast<std::uint32_t>(ring * around + k % around); };
+  const auto foot = static_cast<std::uint32_t>(rings * around), top = foot + 1;
+  for (int ring = 0; ring < rings; ++ring) {
+    for (int k = 0; k < around; ++k) {
+      const double a = 2 * M_PI * k / around;
+      points.insert(points.end(), {radii[ring] * std::cos(a), radii[ring] * std::sin(a), heights[ring]});
+      if (ring == 0) triangles.insert(triangles.end(), {node(0, k + 1), node(0, k), foot});
+      if (ring + 1 == rings) {
+        triangles.insert(triangles.end(), {node(ring, k), node(ring, k + 1), top});
+      } else {
+        triangles.insert(triangles.end(), {node(ring, k), node(ring, k + 1), node(ring + 1, k + 1)});
+        triangles.insert(triangles.end(), {node(ring, k), node(ring + 1, k + 1), node(ring + 1, k)});
+      }
+    }
+  }
+  points.insert(points.end(), {0, 0, 0, 0, 0, 2});
+  planish_mesh *made = nullptr;
+  CHECK_EQUAL(planish_mesh_new(points.data(), points.size() / 3, triangles.data(), triangles.size() / 3, nullptr, &made),
+              PLANISH_STATUS_OK);
+  return planish::mesh(made);
+}
+
+TEST(OcctModel, PartsKeepTheirSharpEdges) {
+  const planish::mesh mesh = dome_mesh(60);
+  auto options = planish::defaults<planish_model_options>();
+  options.thread_count = 2;
+  const planish::fitted_model fit = planish::model_fit(mesh, options);
+  CHECK_EQUAL(fit.status, PLANISH_STATUS_OK);
+  CHECK(fit.report.max_error <= fit.report.tolerance);
+  CHECK(fit.report.normal_jump <= 1e-10);
+  // the foot is a plane, which no patch counts
+  CHECK(fit.model.face_count() > fit.report.patch_count);
+  CHECK(fit.model.measure().sharp_edge_count >= std::size_t{3});
+  CHECK_NEAR(fit.report.volume / (M_PI * 5 / 3), 1.0, 5e-4);
+  check_solid(fit, "occt_dome.step");
 }
 
 int main() { return check::run(); }

@@ -120,6 +120,11 @@ impl Projector {
     }
 }
 
+/// The place in planes that is nearest to a point.
+pub fn nearest_in(planes: impl Iterator<Item = PlaneEquation>, point: DVec3) -> DVec3 {
+    moved_into(&orthonormal(planes, true), point)
+}
+
 fn moved_into(rows: &[(DVec3, f64)], mut point: DVec3) -> DVec3 {
     // once more, for the rounding of the first time
     for _ in 0..2 {

@@ -2,6 +2,7 @@
 
 use super::tests::*;
 use super::*;
+use crate::fit::common::report::Remarks;
 use crate::layout::{CUBE_FACES, Creases, HalfEdge, Side};
 use crate::model::{Frame, Patchwork, Plane, PlaneFace, Planes, Rim, Role, of_patches};
 use crate::samples::layouts::{PlacedQuads, numbered_edges};
@@ -205,4 +206,154 @@ fn a_cylinder_is_its_wall_between_two_planes() {
         );
         assert!((measure.area / exact[1] - 1.0).abs() <= 1e-3, "slip {slip}: {}", measure.area / exact[1]);
     }
+}
+
+#[test]
+fn a_fold_is_told() {
+    let (layout, constraints, _) = wall_layout();
+    let (mesh, mut places) = wall(60, 12, 0.0);
+    let fit = |places: &[Option<Place>]| {
+        let options = ModelOptions::default().with_smoothing(1e-3).with_max_rounds(1);
+        let places = NodePlaces::Patches(places);
+        fit_with_creases(&mesh, &layout, places, &constraints, &options, &mut Control::new(1)).unwrap()
+    };
+    assert_eq!(fit(&places).report.folded_cells, 0);
+    // inside one patch the map runs backwards
+    for place in places.iter_mut().flatten() {
+        let is_inside = (0.01..0.99).contains(&place.uv.x) && (0.01..0.99).contains(&place.uv.y);
+        if place.quad == 0 && is_inside {
+            place.uv.x = 1.0 - place.uv.x;
+        }
+    }
+    let report = fit(&places).report;
+    assert!(report.folded_cells > 0 && report.remarks.has(Remarks::FOLDED_PARAMETERS), "{report:?}");
+}
+
+/// A solid between rings of as many points, each ring joined with the next, the first and the last with a point.
+fn lathe(rings: &[Vec<DVec3>], ends: [DVec3; 2]) -> Mesh {
+    let turn = rings[0].len() as u32;
+    let points: Vec<DVec3> = rings.iter().flatten().copied().chain(ends).collect();
+    let last = (rings.len() as u32 - 1) * turn;
+    let [first_end, last_end] = [0, 1].map(|k| last + turn + k);
+    let around = (0..turn).map(|k| [k, (k + 1) % turn]);
+    let mut triangles: Vec<[u32; 3]> = Vec::new();
+    for [a, b] in around {
+        triangles.extend([[b, a, first_end], [last + a, last + b, last_end]]);
+        for row in (0..last).step_by(turn as usize) {
+            let [a, b] = [row + a, row + b];
+            triangles.extend([[a, b, b + turn], [a, b + turn, a + turn]]);
+        }
+    }
+    Mesh::new(points, triangles).unwrap()
+}
+
+/// A ring of `turn` points at a height.
+fn ring(turn: u32, radius: f64, height: f64) -> Vec<DVec3> {
+    let at = |k: u32| {
+        let (sin, cos) = (2.0 * PI * f64::from(k) / f64::from(turn)).sin_cos();
+        DVec3::new(radius * cos, radius * sin, height)
+    };
+    (0..turn).map(at).collect()
+}
+
+/// Rings of squares from one ring to the next, `wall` of them on each step.
+fn between(from: &[DVec3], to: &[DVec3], count: u32) -> Vec<Vec<DVec3>> {
+    let at = |k: u32| from.iter().zip(to).map(|(a, b)| a.lerp(*b, f64::from(k) / f64::from(count))).collect();
+    (0..count).map(at).collect()
+}
+
+/// A cylinder of radius 1 and height 2, closed.
+fn cylinder() -> Mesh {
+    let [low, high] = [0.0, 2.0].map(|height| ring(60, 1.0, height));
+    let caps = [0.0, 2.0].map(|height| ring(60, 0.5, height));
+    let mut rings = vec![caps[0].clone()];
+    rings.extend(between(&low, &high, 12));
+    rings.extend([high, caps[1].clone()]);
+    lathe(&rings, [DVec3::ZERO, DVec3::new(0.0, 0.0, 2.0)])
+}
+
+/// A plate of 4 by 3 by 1 with a hole of radius 0.7 through its middle.
+fn holed_plate() -> Mesh {
+    // as many points on the rectangle, with its corners among them
+    let outline: Vec<DVec3> = (0..64)
+        .map(|k| {
+            let (side, at) = (k / 16, f64::from(k % 16) / 16.0);
+            let corners = [[2.0, -1.5], [2.0, 1.5], [-2.0, 1.5], [-2.0, -1.5]];
+            let [a, b] = [side, (side + 1) % 4].map(|k| DVec2::from_array(corners[k as usize]));
+            a.lerp(b, at).extend(0.0)
+        })
+        .collect();
+    let hole: Vec<DVec3> = outline
+        .iter()
+        .map(|p| {
+            let angle = p.y.atan2(p.x);
+            DVec3::new(0.7 * angle.cos(), 0.7 * angle.sin(), 0.0)
+        })
+        .collect();
+    let raised = |ring: &[DVec3]| -> Vec<DVec3> { ring.iter().map(|p| *p + DVec3::Z).collect() };
+    // down the hole, out below, up outside, in above
+    let corners = [raised(&hole), hole, outline.clone(), raised(&outline)];
+    let rings: Vec<Vec<DVec3>> =
+        (0..4).flat_map(|k| between(&corners[k], &corners[(k + 1) % 4], [6, 4, 3, 4][k])).collect();
+    let turn = 64;
+    let count = rings.len() as u32;
+    let squares = (0..count * turn).map(|at| (at / turn, at % turn));
+    let triangles = squares.flat_map(|(row, k)| {
+        let node = |row: u32, k: u32| row % count * turn + k % turn;
+        let [a, b, c, d] = [node(row, k), node(row, k + 1), node(row + 1, k + 1), node(row + 1, k)];
+        [[a, b, c], [a, c, d]]
+    });
+    Mesh::new(rings.iter().flatten().copied().collect(), triangles.collect()).unwrap()
+}
+
+/// A shaft of radius 1 and height 1 with one of radius 0.6 on it.
+fn stepped_shaft() -> Mesh {
+    let [low, step, shoulder, high] =
+        [(1.0, 0.0), (1.0, 1.0), (0.6, 1.0), (0.6, 2.0)].map(|(radius, height)| ring(60, radius, height));
+    let mut rings = vec![ring(60, 0.5, 0.0)];
+    rings.extend(between(&low, &step, 8));
+    rings.extend(between(&step, &shoulder, 3));
+    rings.extend(between(&shoulder, &high, 8));
+    rings.extend([high, ring(60, 0.3, 2.0)]);
+    lathe(&rings, [DVec3::ZERO, DVec3::new(0.0, 0.0, 2.0)])
+}
+
+/// Patches and planes are what a part becomes, closed, within the tolerance and of its size; `curved` regions of it.
+fn check_part(name: &str, mesh: &Mesh, [planes, curved]: [usize; 2], [volume, area]: [f64; 2], euler: i64) {
+    let fit = fit_mesh(
+        mesh,
+        &MeshModelOptions { exact: false, ..MeshModelOptions::default() },
+        &mut Control::new(1),
+    )
+    .unwrap();
+    let (report, model) = (&fit.report, &fit.model);
+    assert_eq!(fit.components[0].exact_faces, planes, "{name}");
+    assert!(report.patches.len() <= 6 * curved, "{name}: {} patches", report.patches.len());
+    assert!(report.coefficient_count <= 700 * curved, "{name}: {}", report.coefficient_count);
+    assert!(report.max_error <= report.tolerance, "{name}: {report:?}");
+    assert_eq!(report.folded_cells, 0, "{name}");
+    assert!(report.normal_jump <= 1e-12, "{name}: {:e}", report.normal_jump);
+    assert_eq!((model.shells().len(), model.shells()[0].role), (1, Role::Solid), "{name}");
+    assert_eq!(model.euler_characteristic(), euler, "{name}");
+    let measure = model.measure();
+    assert!(measure.max_gap <= 1e-12 && measure.free_edge_count == 0, "{name}: {measure:?}");
+    assert!((measure.volume / volume - 1.0).abs() <= 5e-4, "{name}: {}", measure.volume / volume);
+    assert!((measure.area / area - 1.0).abs() <= 1e-3, "{name}: {}", measure.area / area);
+    // each node lies on a face where its place says
+    for (node, place) in fit.places.iter().enumerate() {
+        let (face, uv) = place.unwrap();
+        let point = model.carrier(face).points(&[uv])[0];
+        let distance = point.distance(mesh.points()[node]);
+        assert!(distance <= fit.errors[node] + 1e-12, "{name}: node {node}, {distance:e}");
+    }
+}
+
+#[test]
+fn parts_become_patches_between_planes() {
+    check_part("cylinder", &cylinder(), [2, 1], [2.0 * PI, 6.0 * PI], 2);
+    let disk = 0.49 * PI;
+    let sides = 14.0 + 1.4 * PI;
+    check_part("holed plate", &holed_plate(), [6, 1], [12.0 - disk, 2.0 * (12.0 - disk) + sides], 0);
+    let shaft = [1.36 * PI, (2.0 + 2.0 + 1.2) * PI];
+    check_part("stepped shaft", &stepped_shaft(), [3, 2], shaft, 2);
 }

@@ -3,6 +3,7 @@
 use crate::control::Cancelled;
 use crate::failure::{Classify, ErrorKind};
 use crate::fit::common::FitError;
+use crate::layout::of_features::FeatureLayoutError;
 use crate::layout::of_mesh::MeshLayoutError;
 use crate::mesh::FeatureError;
 use crate::model::ModelError;
@@ -57,6 +58,9 @@ pub enum ModelFitError {
     /// The mesh gets no layout.
     #[error(transparent)]
     Layout(#[from] MeshLayoutError),
+    /// Its regions get no layout.
+    #[error(transparent)]
+    Regions(#[from] FeatureLayoutError),
     /// The patches make no model.
     #[error(transparent)]
     Model(#[from] ModelError),
@@ -86,6 +90,7 @@ impl Classify for ModelFitError {
             Self::Features(error) => error.kind(),
             Self::Sphere(error) => error.kind(),
             Self::Layout(error) => error.kind(),
+            Self::Regions(error) => error.kind(),
             Self::Model(error) => error.kind(),
             Self::Place { .. } => ErrorKind::InvalidArgument,
         }
@@ -100,6 +105,7 @@ impl Classify for ModelFitError {
             Self::Features(error) => error.index(),
             Self::Sphere(error) => error.index(),
             Self::Layout(error) => error.index(),
+            Self::Regions(error) => error.index(),
             Self::Model(error) => error.index(),
             Self::Components { .. } => None,
             Self::Open { node, .. } | Self::ZeroVolume { node } | Self::Place { node } => Some(*node),

@@ -15,6 +15,7 @@ mod bodies;
 mod constraints;
 #[cfg(test)]
 mod crease_tests;
+mod creased;
 mod error;
 mod exact;
 pub mod field;

@@ -2,28 +2,30 @@
 //!
 //! ```text
 //! closed, exact       planes and cylinders that explain all of it, without a patch
+//! sharp edges         patches and planes between them; where that fails, as without
 //! closed, genus 0     over the cube; where that misses the tolerance, over a base complex too, and the better is kept
 //! closed, handles     over a base complex
 //! open, exact         shells of planes and cylinders
-//! open                one chart: a PHT-spline inside its trims
+//! open                one chart: a PHT-spline inside its trims; with sharp edges or several loops as above
 //! ```
 //! Several closed components become several shells, one inside another a void.
 
 use super::bodies::{self, Body, bodies};
+use super::creased::over_features;
 use super::error::ModelFitError;
 use super::exact::{self, ExactFit, Obstacle};
 use super::{LayoutFit, ModelOptions, ModelReport, NodePlaces, fit_over_layout};
 use crate::control::{Cancelled, Control};
-use crate::failure::Classify;
+use crate::failure::{Classify, ErrorKind};
 use crate::fit::common::report::{FitReport, Remarks, Tolerance, ToleranceScale};
 use crate::fit::pht::{self, PhtOptions};
-use crate::layout::Layout;
 use crate::layout::of_mesh::{LayoutKind, MeshLayout, MeshLayoutError, MeshLayoutOptions, layout_of_mesh};
+use crate::layout::{Layout, Place};
 use crate::memory;
 use crate::mesh::{FeatureOptions, Mesh};
 use crate::model::{
-    FaceId, Form, FormOptions, Model, NodePlace, Origin, PatchModel, PatchPiece, Patchwork, Role, ShellId,
-    of_patches, of_surface,
+    FaceId, Form, FormOptions, Model, NodePlace, Origin, PatchModel, PatchPiece, Patchwork, Planes, Role,
+    ShellId, of_patches, of_surface,
 };
 use crate::parameterize::sphere::{SphereOptions, map_to_sphere};
 use crate::query::crossings::crossings;
@@ -84,7 +86,7 @@ pub struct ComponentReport {
     pub genus: usize,
     /// Which layout it has; None for a chart or exact faces.
     pub layout: Option<LayoutKind>,
-    /// Faces on planes and cylinders.
+    /// Faces on planes and cylinders, also those beside patches.
     pub exact_faces: usize,
     /// Symmetric Dirichlet energy of the node map by area: 4 for an isometry.
     pub map_energy: f64,
@@ -107,6 +109,33 @@ pub struct Piece {
     pub layout: Layout,
     /// One for each quad.
     pub surfaces: Vec<PhtSurface>,
+    /// What closes them where the layout has borders.
+    pub planes: Planes,
+}
+
+/// Where a node of a component lies.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Spot {
+    /// On a patch.
+    Patch(Place),
+    /// On a plane, by its number, at parameters.
+    Plane(usize, DVec2),
+}
+
+/// A component that has become patches and planes; places and errors by its nodes.
+pub(super) struct Component {
+    pub piece: Piece,
+    pub spots: Vec<Option<Spot>>,
+    pub errors: Vec<f64>,
+    pub report: ComponentReport,
+}
+
+impl Component {
+    fn smooth(layout: Layout, fit: LayoutFit, report: ComponentReport) -> Self {
+        let spots = fit.places.into_iter().map(|place| place.map(Spot::Patch)).collect();
+        let piece = Piece { layout, surfaces: fit.surfaces, planes: Planes::default() };
+        Self { piece, spots, errors: fit.errors, report }
+    }
 }
 
 impl Piece {
@@ -163,6 +192,7 @@ pub fn fit_mesh(
     let mut fit = match is_chart {
         true => match open_parts(mesh, options, control)? {
             Some(exact) => exact,
+            None if options.family == Family::Auto => open(mesh, options, control)?,
             None => chart(mesh, options, control)?,
         },
         false => patches(mesh, options, control)?,
@@ -191,6 +221,54 @@ fn count_crossings(mesh: &Mesh, fit: &mut ModelFit, control: &mut Control) -> Re
     Ok(())
 }
 
+/// An open mesh: over its features if it has some inside or several loops, and what comes of it is good; else as one
+/// chart.
+fn open(mesh: &Mesh, options: &MeshModelOptions, control: &mut Control) -> Result<ModelFit, ModelFitError> {
+    let has_features = || -> Result<bool, ModelFitError> {
+        let features = mesh.find_features(&options.features)?;
+        Ok(features.edges.len() > features.border_count || mesh.loops().len() > 1)
+    };
+    let is_few = mesh.component_count() <= bodies::MAX_COMPONENTS;
+    if !is_few || !asks_for_features(options) || !has_features()? {
+        return chart(mesh, options, control);
+    }
+    options.fit.check(1)?;
+    let creased = control.within(0.0, 0.5, |control| shells(mesh, bodies::shells(mesh), options, control));
+    let is_cancelled = |error: &ModelFitError| error.kind() == ErrorKind::Cancelled;
+    match creased {
+        Ok(fit) if is_good(&fit.report) => Ok(fit),
+        Err(error) if is_cancelled(&error) => Err(error),
+        creased => match (creased, control.within(0.5, 1.0, |control| chart(mesh, options, control))) {
+            (Ok(creased), Ok(chart)) if is_better(&creased.report, &chart.report) => Ok(creased),
+            (Ok(creased), Err(error)) if !is_cancelled(&error) => Ok(creased),
+            (_, chart) => chart,
+        },
+    }
+}
+
+/// Whether edges may stay sharp.
+fn asks_for_features(options: &MeshModelOptions) -> bool {
+    let FeatureOptions { sharp_angle, sharp_edges, labels, .. } = options.features;
+    sharp_angle.is_some() || !sharp_edges.is_empty() || !labels.is_empty()
+}
+
+/// Whether a fit is all that was asked for.
+fn is_good(report: &ModelReport) -> bool {
+    !report.remarks.has(Remarks::TOLERANCE_NOT_MET) && report.folded_cells == 0
+}
+
+/// Whether a fit is better than another: without folds, and then nearer to the nodes.
+fn is_better(report: &ModelReport, other: &ModelReport) -> bool {
+    match (report.folded_cells == 0, other.folded_cells == 0) {
+        (true, false) => report.max_error <= NEARLY * other.max_error,
+        (false, true) => NEARLY * report.max_error < other.max_error,
+        _ => report.max_error <= other.max_error,
+    }
+}
+
+/// A fit with folds has to be so many times nearer to be preferred.
+const NEARLY: f64 = 4.0;
+
 /// Share of a component's time in which its map is made.
 const MAP_SHARE: f64 = 0.4;
 
@@ -210,24 +288,35 @@ fn patches(
     {
         return Ok(fit);
     }
+    shells(mesh, bodies, options, control)
+}
+
+/// A shell of patches and planes for each body.
+fn shells(
+    mesh: &Mesh,
+    bodies: Vec<Body>,
+    options: &MeshModelOptions,
+    control: &mut Control,
+) -> Result<ModelFit, ModelFitError> {
+    // the tolerance is that of the whole
+    let (value, _) = options.fit.tolerance.absolute(&mesh.bounds());
     let absolute = Tolerance { value, scale: ToleranceScale::Absolute };
     let options = MeshModelOptions { fit: options.fit.with_tolerance(absolute), ..*options };
     let mut places = memory::filled(None, mesh.points().len());
     let mut errors = memory::filled(f64::NAN, mesh.points().len());
-    let (mut pieces, mut components, mut node_places) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut pieces, mut components, mut spots) = (Vec::new(), Vec::new(), Vec::new());
     let all = mesh.triangles().len() as f64;
     let mut done = 0.0;
     for body in &bodies {
         let next = done + body.mesh.triangles().len() as f64 / all;
-        let (piece, fit, component) =
-            control.within(done, next, |control| component(body, &options, control))?;
+        let made = control.within(done, next, |control| component(body, &options, control))?;
         done = next;
-        for (&node, &error) in body.nodes.iter().zip(&fit.errors) {
+        for (&node, &error) in body.nodes.iter().zip(&made.errors) {
             errors[node as usize] = error;
         }
-        node_places.push(fit.places);
-        pieces.push(piece);
-        components.push(component);
+        spots.push(made.spots);
+        pieces.push(made.piece);
+        components.push(made.report);
     }
     let patchworks: Vec<Patchwork> = pieces
         .iter()
@@ -235,21 +324,32 @@ fn patches(
         .map(|(piece, body)| Patchwork {
             layout: &piece.layout,
             surfaces: &piece.surfaces,
-            planes: None,
+            planes: Some(&piece.planes),
             void_in: body.void_in,
         })
         .collect();
     let stitched: PatchModel = of_patches(&patchworks, options.level_spread)?;
-    for (number, (body, of_body)) in bodies.iter().zip(&node_places).enumerate() {
-        for (&node, place) in body.nodes.iter().zip(of_body) {
-            places[node as usize] = place.map(|place| (stitched.face_at(number, place), place.uv));
+    for (number, (body, of_body)) in bodies.iter().zip(&spots).enumerate() {
+        for (&node, spot) in body.nodes.iter().zip(of_body) {
+            places[node as usize] = spot.map(|spot| match spot {
+                Spot::Patch(place) => (stitched.face_at(number, place), place.uv),
+                Spot::Plane(plane, uv) => (stitched.plane_at(number, plane), uv),
+            });
         }
     }
-    let report = together(mesh, &components, &errors);
+    let mut report = together(mesh, &components, &errors);
+    let has_planes = components.iter().any(|component| component.exact_faces > 0);
+    if has_planes && stitched.model.free_edge_count() == 0 {
+        report.volume = stitched.model.measure().volume;
+    }
+    // fields are fitted over patches that are smooth across all their edges
+    let is_smooth = pieces
+        .iter()
+        .all(|piece| (0..piece.layout.edges().len() as u32).all(|edge| piece.layout.is_smooth(edge)));
     let origin = Origin {
         nodes: origins(&places, &errors),
-        pieces: pieces.iter().map(Piece::origin).collect(),
-        patch_of_face: stitched.patch_of_face(),
+        pieces: pieces.iter().filter(|_| is_smooth).map(Piece::origin).collect(),
+        patch_of_face: if is_smooth { stitched.patch_of_face() } else { Vec::new() },
     };
     let model = stitched.model.with_origin(origin)?;
     Ok(ModelFit { model, pieces, places, errors, components, report, seconds: 0.0 })
@@ -333,10 +433,38 @@ fn of_body(features: &FeatureOptions, body: &Body) -> (Vec<u32>, Vec<[u32; 2]>) 
     (labels, features.sharp_edges.iter().filter_map(both).collect())
 }
 
-type Component = (Piece, LayoutFit, ComponentReport);
-
-/// One component: over the cube, over a base complex, or the better of both.
+/// One component: over its features, or smooth, or the better of both.
 fn component(
+    body: &Body,
+    options: &MeshModelOptions,
+    control: &mut Control,
+) -> Result<Component, ModelFitError> {
+    let is_open = !body.mesh.loops().is_empty();
+    if !is_open && (!asks_for_features(options) || options.layout.kind != LayoutKind::Auto) {
+        return smooth(body, options, control);
+    }
+    let (labels, sharp_edges) = of_body(&options.features, body);
+    let features = FeatureOptions { labels: &labels, sharp_edges: &sharp_edges, ..options.features };
+    let of_body = MeshModelOptions { features, ..*options };
+    match control.within(0.0, 0.5, |control| over_features(body, &of_body, control)) {
+        Ok(None) if is_open => Err(open_body(body)),
+        Ok(Some(made)) if is_open || is_good(&made.report.fit) => Ok(made),
+        Err(error) if is_open || error.kind() == ErrorKind::Cancelled => Err(error),
+        creased => match (creased, control.within(0.5, 1.0, |control| smooth(body, options, control))) {
+            (Ok(Some(made)), Ok(rounded)) if is_better(&made.report.fit, &rounded.report.fit) => Ok(made),
+            (Ok(Some(made)), Err(error)) if error.kind() != ErrorKind::Cancelled => Ok(made),
+            (_, rounded) => rounded,
+        },
+    }
+}
+
+fn open_body(body: &Body) -> ModelFitError {
+    let loops = body.mesh.loops();
+    ModelFitError::Open { loops: loops.len(), node: loops[0][0] as usize }
+}
+
+/// A body without sharp edges: over the cube, over a base complex, or the better of both.
+fn smooth(
     body: &Body,
     options: &MeshModelOptions,
     control: &mut Control,
@@ -348,13 +476,13 @@ fn component(
         LayoutKind::Auto if !is_simple => over_complex(body, options, control),
         LayoutKind::Auto => {
             let cube = control.within(0.0, 0.5, |control| over_cube(body, options, control))?;
-            if !cube.2.fit.remarks.has(Remarks::TOLERANCE_NOT_MET) {
+            if !cube.report.fit.remarks.has(Remarks::TOLERANCE_NOT_MET) {
                 return Ok(cube);
             }
             // patches that follow the limbs may do what six cannot
             match control.within(0.5, 1.0, |control| over_complex(body, options, control)) {
-                Ok(complex) if complex.2.fit.max_error < cube.2.fit.max_error => Ok(complex),
-                Err(error) if error.kind() == crate::failure::ErrorKind::Cancelled => Err(error),
+                Ok(complex) if complex.report.fit.max_error < cube.report.fit.max_error => Ok(complex),
+                Err(error) if error.kind() == ErrorKind::Cancelled => Err(error),
                 _ => Ok(cube),
             }
         }
@@ -384,7 +512,7 @@ fn over_cube(
         map_seconds: sphere.report.seconds,
         fit: fit.report.clone(),
     };
-    Ok((Piece { layout, surfaces: fit.surfaces.clone() }, fit, report))
+    Ok(Component::smooth(layout, fit, report))
 }
 
 fn over_complex(
@@ -408,7 +536,7 @@ fn over_complex(
         map_seconds: made.report.seconds,
         fit: fit.report.clone(),
     };
-    Ok((Piece { layout: made.layout, surfaces: fit.surfaces.clone() }, fit, report))
+    Ok(Component::smooth(made.layout, fit, report))
 }
 
 /// Times that the number of patches is doubled where a layout folds nodes.
