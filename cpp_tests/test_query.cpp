@@ -258,9 +258,8 @@ TEST(Tessellate, RefusesByName) {
   options.keep_trims = 2;
   CHECK_FAILS(planish_surface_tessellate(surface.get(), &options, &mesh), invalid, -1, "keep_trims is 2");
   options = tessellate_options();
-  options.reserved = 1;
-  CHECK_FAILS(planish_surface_tessellate(surface.get(), &options, &mesh), PLANISH_STATUS_VERSION, -1,
-              "planish_tessellate_options");
+  options.thread_count = 1025;
+  CHECK_FAILS(planish_surface_tessellate(surface.get(), &options, &mesh), invalid, -1, "thread_count is 1025");
   options = tessellate_options();
   options.max_edge_length = 1e-3;
   options.max_point_count = 100;
