@@ -128,8 +128,8 @@ impl Threads {
 impl Drop for Threads {
     fn drop(&mut self) {
         if !self.are_here() {
-            // nobody would hear, and waiting would never end
-            std::mem::forget(self.pool.take());
+            // nobody would hear, waiting would never end, and there is nothing to let go of
+            std::mem::forget((self.pool.take(), std::mem::take(&mut self.handles)));
             return;
         }
         self.pool = None; // tells the threads to end
