@@ -2094,8 +2094,8 @@ typedef struct planish_tensor_options {
      */
     double *out_plane;
     /**
-     * The curve that the side at the least u is, exactly; NULL (default) for a free side. A clamped curve of degree 3 at most, without knots of more than one inside; with
-     * sides that are given knots are adaptive and there is no buffer.
+     * The curve that the side at the least u is, exactly; NULL (default) for a free side. Clamped, of degree 3 at most,
+     * without knots of more than one inside. With sides that are given knots are adaptive, and there is no buffer.
      */
     const struct planish_curve *curve_u_low;
     /**
@@ -2111,8 +2111,8 @@ typedef struct planish_tensor_options {
      */
     const struct planish_curve *curve_v_high;
     /**
-     * The tensor surface beyond the side at the least u; NULL (default) for none. Bicubic, clamped, without weights: the side takes over
-     * its side that lies nearest to the data, and its tangent planes there.
+     * The tensor surface beyond the side at the least u; NULL (default) for none. Bicubic, clamped, without weights:
+     * the side takes over its side that lies nearest to the data, and its tangent planes there.
      */
     const struct planish_surface *neighbour_u_low;
     /**
@@ -2986,8 +2986,8 @@ typedef struct planish_fair_options {
      */
     size_t struct_size;
     /**
-     * How far the surface may come to lie from itself, or from the data, positive, measured in tolerance_scale.
-     * Default 1e-3.
+     * How far the surface may come to lie from itself, or from the data, positive, measured in tolerance_scale. All of
+     * it is used where that lowers the energy: much more than the noise flattens ridges too. Default 1e-3.
      */
     double tolerance;
     /**

@@ -2,11 +2,10 @@
 
 mod common;
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use planish::Control;
-use planish::fit::fair::{FairData, FairOptions, fair};
 use planish::fit::pht::{PhtFit, PhtOptions, fit_mesh, fit_points};
-use planish::fit::report::{Remarks, StopReason, Tolerance, ToleranceScale};
+use planish::fit::report::{Remarks, StopReason, Tolerance};
 use planish::mesh::Mesh;
 use planish::surface::Surface;
 use std::path::Path;
@@ -75,51 +74,6 @@ fn ridges_are_met_where_they_were_not_sampled() {
     let miss = |(a, b): (&[f64], &[f64])| a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
     let largest = rows.chunks_exact(3).zip(values.chunks_exact(3)).map(miss).fold(0.0, f64::max).sqrt();
     assert!(largest < 1.2e-3 * fit.report.diagonal, "{:e}", largest / fit.report.diagonal);
-}
-
-/// Root mean square of the angles between the normals of two surfaces.
-fn normal_deviation(a: &dyn Surface, b: &dyn Surface) -> f64 {
-    let places: Vec<DVec2> =
-        (0..10_000).map(|k| DVec2::new((k % 100) as f64 + 0.5, (k / 100) as f64 + 0.5) / 100.0).collect();
-    let normals = |surface: &dyn Surface| -> Vec<DVec3> {
-        let mut rows = vec![0.0; 9 * places.len()];
-        surface.eval_rows(&places, 1, &mut rows);
-        let normal = |row: &[f64]| DVec3::from_slice(&row[3..]).cross(DVec3::from_slice(&row[6..]));
-        rows.chunks_exact(9).map(normal).collect()
-    };
-    let squares: f64 = normals(a).iter().zip(normals(b)).map(|(a, b)| a.angle_between(b).powi(2)).sum();
-    (squares / places.len() as f64).sqrt()
-}
-
-#[test]
-fn a_rough_scan_is_made_fair_within_its_tolerance() {
-    let [Some(clean), Some(noisy)] =
-        ["synthetic/rough_4k.f64", "synthetic/rough_4k_noise.f64"].map(common::shared_data)
-    else {
-        return;
-    };
-    let mut control = Control::default();
-    let (uv, values) = points(&clean);
-    let truth = fit_points(&uv, &values, 3, &options(3e-4), &mut control).unwrap().surface;
-    let (uv, values) = points(&noisy);
-    let tolerance = Tolerance { value: 1.5e-3, scale: ToleranceScale::Relative };
-    let data = FairData { uv: &uv, values: &values };
-    for smoothing in [1e-3, 1e-6] {
-        let fit =
-            fit_points(&uv, &values, 3, &PhtOptions { smoothing, ..options(1.5e-3) }, &mut control).unwrap();
-        let faired = fair(
-            &fit.surface.clone().into(),
-            Some(data),
-            &FairOptions::default().with_tolerance(tolerance),
-            &mut control,
-        )
-        .unwrap();
-        assert!(faired.report.max_deviation <= faired.report.tolerance, "{:?}", faired.report);
-        let [before, after] =
-            [&fit.surface as &dyn Surface, faired.surface.as_surface()].map(|s| normal_deviation(s, &truth));
-        println!("smoothing {smoothing:e}: normals {before:.4} -> {after:.4}, {:?}", faired.report);
-        assert!(after < before, "{before} {after}");
-    }
 }
 
 #[test]

@@ -38,8 +38,8 @@ pub enum planish_kept_border {
 record! {
     /// How a surface is made fair. Fill with planish_fair_options_init(), then change what you need.
     pub struct planish_fair_options (planish_fair_options_init; core: FairOptions) {
-        /// How far the surface may come to lie from itself, or from the data, positive, measured in tolerance_scale.
-        /// Default 1e-3.
+        /// How far the surface may come to lie from itself, or from the data, positive, measured in tolerance_scale. All of
+        /// it is used where that lowers the energy: much more than the noise flattens ridges too. Default 1e-3.
         pub tolerance: f64 = core.tolerance.value,
         /// Hears of the progress and may cancel; NULL (default) for nobody.
         pub progress: planish_progress,

@@ -205,8 +205,8 @@ record! {
         /// nobody. Written on success only.
         /// Array: [6].
         pub out_plane: *mut f64,
-        /// The curve that the side at the least u is, exactly; NULL (default) for a free side. A clamped curve of degree 3 at most, without knots of more than one inside; with
-        /// sides that are given knots are adaptive and there is no buffer.
+        /// The curve that the side at the least u is, exactly; NULL (default) for a free side. Clamped, of degree 3 at most,
+        /// without knots of more than one inside. With sides that are given knots are adaptive, and there is no buffer.
         pub curve_u_low: *const planish_curve,
         /// The curve that the side at the largest u is, exactly; NULL (default) for a free side. As curve_u_low.
         pub curve_u_high: *const planish_curve,
@@ -214,8 +214,8 @@ record! {
         pub curve_v_low: *const planish_curve,
         /// The curve that the side at the largest v is, exactly; NULL (default) for a free side. As curve_u_low.
         pub curve_v_high: *const planish_curve,
-        /// The tensor surface beyond the side at the least u; NULL (default) for none. Bicubic, clamped, without weights: the side takes over
-        /// its side that lies nearest to the data, and its tangent planes there.
+        /// The tensor surface beyond the side at the least u; NULL (default) for none. Bicubic, clamped, without weights:
+        /// the side takes over its side that lies nearest to the data, and its tangent planes there.
         pub neighbour_u_low: *const planish_surface,
         /// The tensor surface beyond the side at the largest u; NULL (default) for none. As neighbour_u_low.
         pub neighbour_u_high: *const planish_surface,

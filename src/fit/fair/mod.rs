@@ -74,7 +74,8 @@ pub struct FairData<'a> {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FairOptions {
     /// How far the surface may come to lie from itself, or from the data; relative to the diagonal of the box of its
-    /// control points, or of the data.
+    /// control points, or of the data. All of it is used where that lowers the energy: much more than the noise flattens
+    /// ridges too.
     pub tolerance: Tolerance,
     /// Which energy is lowered.
     pub energy: Fairness,
