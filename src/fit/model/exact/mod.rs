@@ -98,12 +98,13 @@ pub fn fit_exact(
     let found = mesh.find_features(features).map_err(Obstacle::Features)?;
     let scale = Scale { tolerance, noise: 0.0, diagonal: mesh.diagonal() };
     let mut fit = fit_segments(mesh, &found, &scale, features, watch);
-    // on coarse round walls the estimate finds noise where there is none
-    let is_open_question = matches!(&fit, Err(obstacle) if !matches!(obstacle, Obstacle::Cancelled(_)));
-    let noise = if is_open_question { found.regions(mesh).noise(mesh) * mean_edge(mesh) } else { 0.0 };
-    if noise > 0.0 {
-        let scale = Scale { noise, ..scale };
-        fit = fit_segments(mesh, &found, &scale, features, watch);
+    // on coarse round walls the estimate finds noise where there is none, and over all nodes also beside edges
+    let estimates = [found.regions(mesh).noise(mesh), found.noise].map(|noise| noise * mean_edge(mesh));
+    for noise in estimates.into_iter().filter(|noise| *noise > 0.0) {
+        if matches!(&fit, Ok(_) | Err(Obstacle::Cancelled(_))) {
+            break;
+        }
+        fit = fit_segments(mesh, &found, &Scale { noise, ..scale }, features, watch);
     }
     let mut fit = fit?;
     fit.report.fit_seconds = start.elapsed().as_secs_f64();
