@@ -36,7 +36,7 @@ pub enum TransferError {
     },
     /// Fields on the source cannot be fitted.
     #[error(transparent)]
-    Field(#[from] FieldError),
+    Field(FieldError),
     /// Values are none.
     #[error(transparent)]
     Fit(#[from] FitError),
@@ -46,6 +46,15 @@ pub enum TransferError {
     /// The progress callback asked to stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+}
+
+impl From<FieldError> for TransferError {
+    fn from(error: FieldError) -> Self {
+        match error {
+            FieldError::Fit(error) => Self::Fit(error),
+            other => Self::Field(other),
+        }
+    }
 }
 
 impl Classify for TransferError {

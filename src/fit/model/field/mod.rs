@@ -148,21 +148,21 @@ impl ModelFieldFitter {
     }
 
     /// Fits rows of `dim` numbers, one a node.
-    pub fn fit(&self, values: &[f64], dim: usize) -> Result<ModelField, FitError> {
-        check(&self.known, self.node_count, values, dim)?;
+    pub fn fit(&self, values: &[f64], dim: usize) -> Result<ModelField, FieldError> {
+        self.check(values, dim)?;
         let center = self.center(values, dim);
         let mut patches = Vec::new();
         for piece in &self.pieces {
             let unknowns = piece.unknowns(values, dim, &center, &self.pool);
             patches.extend(piece.surfaces(&unknowns, dim, &center)?);
         }
-        ModelField::new(patches, self.patch_of_face.clone()).ok_or(FitError::Singular)
+        Ok(ModelField::new(patches, self.patch_of_face.clone()).ok_or(FitError::Singular)?)
     }
 
     /// Measures a field of this fitter against values.
     pub fn measure(&self, field: &ModelField, values: &[f64], dim: usize) -> Result<FieldReport, FieldError> {
         let start = Instant::now();
-        check(&self.known, self.node_count, values, dim)?;
+        self.check(values, dim)?;
         if field.dim() != dim || field.patch_of_face() != self.patch_of_face {
             return Err(FieldError::OtherGrid);
         }
@@ -191,6 +191,11 @@ impl ModelFieldFitter {
         };
         fit.remarks.add_if(errors.max > goal.tolerance, Remarks::TOLERANCE_NOT_MET);
         Ok(FieldReport { fit, errors: errors.each })
+    }
+
+    fn check(&self, values: &[f64], dim: usize) -> Result<(), FieldError> {
+        self.pool.check_process()?;
+        Ok(check(&self.known, self.node_count, values, dim)?)
     }
 
     /// The mean of the values of all nodes that have any.

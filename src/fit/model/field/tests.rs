@@ -171,8 +171,8 @@ fn masks_are_kept_and_what_does_not_fit_is_named() {
     let errors = masked.measure(&field, &values, 1).unwrap().errors;
     assert!(errors.iter().zip(&is_known).all(|(error, known)| error.is_nan() != *known));
     values[3] = f64::INFINITY;
-    assert_eq!(masked.fit(&values, 1).unwrap_err(), FitError::ValuesNotFinite { index: 3 });
-    assert!(matches!(masked.fit(&values[1..], 1), Err(FitError::Count { .. })));
+    assert_eq!(masked.fit(&values, 1).unwrap_err(), FieldError::Fit(FitError::ValuesNotFinite { index: 3 }));
+    assert!(matches!(masked.fit(&values[1..], 1), Err(FieldError::Fit(FitError::Count { .. }))));
 
     let other = Mesh::new(mesh.points()[..3].to_vec(), vec![[0, 1, 2]]).unwrap();
     let refused = make(&model, &other, &FieldOptions::default()).unwrap_err();

@@ -126,7 +126,7 @@ impl Carry for ModelTransfer {
 
     fn apply(&self, values: &[f64], dim: usize, out: &mut [f64]) -> Result<(), TransferError> {
         let fitter = &self.fitter;
-        check(&fitter.known, fitter.node_count, values, dim)?;
+        fitter.check(values, dim)?;
         check_room("the values at the targets", out, self.target_points.len(), dim)?;
         let center = fitter.center(values, dim);
         for (piece, (numbers, at)) in fitter.pieces.iter().zip(&self.targets) {
@@ -142,6 +142,7 @@ impl Carry for ModelTransfer {
 
     fn apply_transpose(&self, forces: &[f64], dim: usize, out: &mut [f64]) -> Result<(), TransferError> {
         let fitter = &self.fitter;
+        fitter.pool.check_process().map_err(FieldError::from)?;
         let all: Vec<u32> = (0..self.target_points.len() as u32).collect();
         check(&all, self.target_points.len(), forces, dim).map_err(of_forces)?;
         check_room("the forces at the nodes", out, self.source_points.len(), dim)?;
