@@ -281,6 +281,8 @@ impl<'a> Decimation<'a> {
         let after = before + valence - 4;
         let (least, most) = match self.border.node(to) {
             None => (LEAST_VALENCE, MOST_VALENCE),
+            // what must go goes, however many triangles meet there
+            Some(_) if self.is_border_only => (LEAST_BORDER_VALENCE, usize::MAX),
             Some(_) => (LEAST_BORDER_VALENCE, MOST_BORDER_VALENCE),
         };
         (least..=most.max(before)).contains(&after)
@@ -300,11 +302,12 @@ impl<'a> Decimation<'a> {
     fn may_lose_triangle(&self, node: u32, edge: [u32; 2]) -> bool {
         let valence = self.rings.valence(node);
         match (self.border.node(node), self.chains[node as usize]) {
-            (Some(BorderNode { need, .. }), Some(ends)) => {
-                // two of its triangles are void
-                valence > 2 + *need as usize && !edge.iter().all(|end| ends.contains(end))
+            (Some(BorderNode { need, is_corner, .. }), Some(ends)) => {
+                // two of its triangles are void, and what will go needs only one more
+                let need = if self.is_border_only && !is_corner { 1 } else { *need as usize };
+                valence > 2 + need && !edge.iter().all(|end| ends.contains(end))
             }
-            _ if self.border.is_tip(node) => valence > LEAST_BORDER_VALENCE,
+            _ if self.border.is_tip(node) || self.is_border_only => valence > LEAST_BORDER_VALENCE,
             _ => valence > LEAST_VALENCE,
         }
     }

@@ -17,8 +17,10 @@ use std::f64::consts::FRAC_PI_2;
 
 /// Edges of a closed chain at the start.
 const CLOSED_EDGES: u32 = 4;
-/// Fewest: two quads of a ring must not have both ends of an edge in common.
-const LEAST_CLOSED: u32 = 3;
+/// Fewest: arcs of a quarter turn, which cubics follow closely.
+const LEAST_CLOSED: u32 = 4;
+/// Fewest of a loop: two quads of a ring must not have both ends of an edge in common.
+const LEAST_LOOP: u32 = 3;
 /// A chain that turns by more than this gets one more edge: 120 degrees.
 const TURN_PER_EDGE: f64 = 2.1;
 /// Chains get no more edges than at the start and these.
@@ -29,9 +31,11 @@ const MOST_FILLED: u32 = 10;
 const STEPS: usize = 20_000;
 /// A border that cannot be filled costs as much as many that can.
 const UNFILLED: f64 = 1e3;
-/// Of other regions: the share of an edge of their borders, and of a difference between two loops.
+/// Of rings: the share of an edge of their borders, and of a difference between both loops.
 const EDGE_COST: f64 = 0.05;
 const UNEQUAL_COST: f64 = 0.4;
+/// Of other regions: the share of an edge, more than that of any filling, so that none is made long for its own sake.
+const LONG_EDGE_COST: f64 = 0.15;
 /// Rounds over all changes.
 const ROUNDS: usize = 12;
 /// Quarter turns of a vertex inside a chain, and the quads it needs.
@@ -359,15 +363,21 @@ impl<'a> Counts<'a> {
             .iter()
             .map(|runs| runs.iter().map(|side| self.of_chains[side.chain as usize]).sum())
             .collect();
-        let cost = if total % 2 == 1 || of_loops.iter().any(|&edges| edges < LEAST_CLOSED) {
+        let cost = if total % 2 == 1 || of_loops.iter().any(|&edges| edges < LEAST_LOOP) {
             UNFILLED
         } else if let ([runs], true) = (&loops[..], total <= MOST_FILLED) {
             let polygon = polygon(runs, &self.of_chains, self.lines);
             polygon.filled(STEPS).map_or(UNFILLED, |filling| filling.cost)
-        } else if let [a, b] = of_loops[..] {
-            EDGE_COST * f64::from(total) + UNEQUAL_COST * f64::from(a.abs_diff(b))
+        } else if let [first, second] = &loops[..] {
+            // both sides of a chain that ends inside have their own quads
+            let around = |runs: &[Side]| -> u32 {
+                let is_bound = |side: &&Side| !self.odd_beside[side.chain as usize].is_empty();
+                runs.iter().filter(is_bound).map(|side| self.of_chains[side.chain as usize]).sum()
+            };
+            let difference = around(first).abs_diff(around(second));
+            EDGE_COST * f64::from(total) + UNEQUAL_COST * f64::from(difference)
         } else {
-            EDGE_COST * f64::from(total)
+            LONG_EDGE_COST * f64::from(total)
         };
         self.known.insert(key, cost);
         cost
@@ -407,5 +417,5 @@ fn least_count(mesh: &Mesh, line: &Line) -> u32 {
         })
         .sum();
     let is_loop = line.nodes[0] == line.nodes[line.nodes.len() - 1];
-    (1 + (turn / TURN_PER_EDGE) as u32).max(if is_loop { LEAST_CLOSED } else { 1 })
+    (1 + (turn / TURN_PER_EDGE) as u32).max(if is_loop { LEAST_LOOP } else { 1 })
 }

@@ -10,7 +10,7 @@ use super::border::Loop;
 use super::pieces::Piece;
 use super::polygon::{Filling, Polygon};
 use crate::Control;
-use crate::control::Cancelled;
+use crate::control::{Cancelled, Stage};
 use crate::failure::{Classify, ErrorKind};
 use crate::layout::Place;
 use crate::layout::bilinear::place_in;
@@ -40,7 +40,7 @@ pub(super) struct Quads {
 /// Borders longer than this are left to other methods.
 const MOST_SIDES: usize = 16;
 /// Quads that are tried on a polygon; the best filling so far is taken after them.
-const STEPS: usize = 300_000;
+const STEPS: usize = 100_000;
 /// A way to a corner narrower than this, in quarter turns, would part it in two: it is this much longer.
 const NARROW: f64 = 1.5;
 const NARROW_PRICE: f64 = 3.0;
@@ -344,7 +344,9 @@ fn drawn(
     let mut disk = disk.clone();
     disk.set_parameters(uv)?;
     let options = ParameterizeOptions::MEAN_VALUE.with_border(Border::Kept);
-    match parameterize(&disk, &options, control) {
+    let map = parameterize(&disk, &options, control);
+    control.enter(Stage::Layout);
+    match map {
         Ok(map) => Ok(Some(map.uv)),
         Err(error) if error.kind() == ErrorKind::Cancelled => Err(Cancelled.into()),
         Err(_) => Ok(None),

@@ -293,7 +293,7 @@ impl<'a> Assembly<'a> {
             return self.relaxed(piece, loops, quads, sweeps, control);
         }
         let few = match fill::fill(piece, loops, control)? {
-            Some(quads) => Some(self.relaxed(piece, loops, quads, sweeps, control)?),
+            Some(quads) => self.candidate(piece, loops, quads, sweeps, control)?,
             None => None,
         };
         if let Some(few) = few.as_ref().filter(|few| few.rank() == 0 && few.quality.energy <= GOOD_ENERGY) {
@@ -301,7 +301,7 @@ impl<'a> Assembly<'a> {
         }
         let sides: usize = loops.iter().map(|border| border.stops.len()).sum();
         let many = match over::over(piece, loops, patches.max(sides / 2 + 1), self.halving, control)? {
-            Some(quads) => Some(self.relaxed(piece, loops, quads, sweeps, control)?),
+            Some(quads) => self.candidate(piece, loops, quads, sweeps, control)?,
             None => None,
         };
         let is_worth_it = |few: &Filled, many: &Filled| {
@@ -311,6 +311,30 @@ impl<'a> Assembly<'a> {
         match (few, many) {
             (Some(few), Some(many)) => Ok(if is_worth_it(&few, &many) { many } else { few }),
             (few, many) => few.or(many).ok_or(FeatureLayoutError::NoLayout { region: piece.region as usize }),
+        }
+    }
+
+    /// A piece relaxed over quads, if they make a layout: no quad may meet a vertex twice, from both sides of a chain.
+    fn candidate(
+        &self,
+        piece: &Piece,
+        loops: &[Loop],
+        quads: Quads,
+        sweeps: usize,
+        control: &mut Control,
+    ) -> Result<Option<Filled>, FeatureLayoutError> {
+        let stops: Vec<Stop> = loops.iter().flat_map(|border| &border.stops).map(|stop| stop.stop).collect();
+        let stop = |vertex: u32| stops.get(vertex as usize);
+        let meets_twice = |quad: &[u32; 4]| {
+            (0..4).any(|k| stop(quad[k]).is_some() && (0..k).any(|j| stop(quad[j]) == stop(quad[k])))
+        };
+        if quads.corners.iter().any(meets_twice) {
+            return Ok(None);
+        }
+        match self.relaxed(piece, loops, quads, sweeps, control) {
+            Ok(filled) => Ok(Some(filled)),
+            Err(FeatureLayoutError::Layout(_)) => Ok(None),
+            Err(error) => Err(error),
         }
     }
 

@@ -119,12 +119,13 @@ fn runs(nodes: &[u32], old: &[u32], lines: &[Line], chain_of_edge: &BTreeMap<[u3
         };
         (at, is_forward)
     };
+    // a chain from a corner to itself has one node at both ends
     let begins = |k: usize| {
         let line = &lines[chain(k) as usize];
         match place(k) {
             (at, true) => at == 0,
             (at, false) if line.is_closed => at == 0,
-            (at, false) => at == line.nodes.len() - 1,
+            (_, false) => line.nodes.last() == Some(&old(k)),
         }
     };
     let start = (0..count).find(|&k| begins(k)).expect("chains end in corners, or are closed");
