@@ -41,7 +41,7 @@ fn fields_on_a_closed_brain_are_followed() {
     assert!(mesh.loops().is_empty(), "it is not cut open");
     let model = fit_mesh(&mesh, &MeshModelOptions::default(), &mut Control::new(2)).unwrap().model;
     let origin = model.origin().unwrap();
-    for name in ["thickness", "curvature"] {
+    for name in ["thickness", "curv"] {
         let values = mesh.field(name).unwrap();
         let tolerance = Tolerance { value: 0.1, ..Default::default() };
         let options = FieldOptions::default().with_tolerance(tolerance);

@@ -92,7 +92,7 @@ contains
   subroutine versions_and_names()
     character(:), allocatable :: version
     version = planish_version()
-    call check(index(version, "0.1.") == 1, "the version is 0.1.x")
+    call check(index(version, "0.2.") == 1, "the version is 0.2.x")
     call check(planish_status_name(PLANISH_STATUS_SINGULAR) == "PLANISH_STATUS_SINGULAR", "names of statuses")
   end subroutine
 

@@ -30,6 +30,11 @@ pub(in crate::fit) fn places_of_values(mesh: &Mesh, uv: &[DVec2], rows: usize) -
     (0..uv.len()).map(|node| mesh.is_used(node as u32).then_some(uv[node])).collect()
 }
 
+/// The box of the parameters of a mesh: its border lies beyond the middles of its triangles.
+pub(in crate::fit) fn box_of_nodes(mesh: &Mesh, uv: &[DVec2]) -> Domain {
+    Domain::around((0..).zip(uv).filter(|&(node, _)| mesh.is_used(node)).map(|(_, &uv)| uv))
+}
+
 /// Whether so many rows are the values of triangles.
 pub(in crate::fit) fn is_on_triangles(mesh: &Mesh, rows: usize) -> bool {
     rows == mesh.triangles().len() && rows != mesh.points().len()
@@ -51,7 +56,7 @@ pub(in crate::fit) struct Partial {
     given: Vec<usize>,
     /// Of all, with the place of the first that has a value for those without a place.
     all_uv: Vec<DVec2>,
-    /// The box of all.
+    /// The box of all, and of the mesh they lie on.
     pub data_box: Domain,
 }
 
@@ -59,6 +64,7 @@ impl Partial {
     /// `values`: rows of `dim` numbers; a row with a NaN is missing if that is allowed.
     pub fn of(
         places: &[Option<DVec2>],
+        data_box: Domain,
         values: &[f64],
         dim: usize,
         weights: Option<&[f64]>,
@@ -72,15 +78,14 @@ impl Partial {
         let row = |datum: usize| &values[datum * dim..][..dim];
         let is_missing = |datum: usize| missing == Missing::Skipped && row(datum).iter().any(|x| x.is_nan());
         let all = places.iter().enumerate().filter_map(|(datum, place)| Some((datum, (*place)?)));
-        let (given, uv): (Vec<usize>, Vec<DVec2>) =
-            all.clone().filter(|&(datum, _)| !is_missing(datum)).unzip();
+        let (given, uv): (Vec<usize>, Vec<DVec2>) = all.filter(|&(datum, _)| !is_missing(datum)).unzip();
         check_count(given.len())?;
         let some_place = uv[0];
         Ok(Self {
             values: given.iter().flat_map(|&datum| row(datum)).copied().collect(),
             weights: weights.map(|weights| given.iter().map(|&datum| weights[datum]).collect()),
             all_uv: places.iter().map(|place| place.unwrap_or(some_place)).collect(),
-            data_box: Domain::around(all.map(|(_, place)| place)),
+            data_box,
             uv,
             given,
         })

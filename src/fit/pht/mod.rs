@@ -26,7 +26,7 @@ pub use options::{Estimator, PhtOptions};
 use super::common::checks::{check_parameters, check_unused, check_values};
 use super::common::neighbours::triangles_between;
 use super::common::outliers::{self, Cloud};
-use super::common::partial::{is_on_triangles, is_partial, places_of_values};
+use super::common::partial::{box_of_nodes, is_on_triangles, is_partial, places_of_values};
 use super::common::report::{FitReport, Remarks};
 use super::common::{
     Demands, FitError, NodeParameters, Outliers, Partial, Symmetry, Used, node_parameters, prefer_plane,
@@ -108,7 +108,8 @@ pub fn fit_points(
     check_unused(options.demands.symmetry == Symmetry::None, "symmetry", "the fit of points")?;
     if dim > 0 && is_partial(values, options.missing) {
         let places: Vec<Option<DVec2>> = uv.iter().copied().map(Some).collect();
-        let mut fit = fit_partial(&places, values, dim, options, control)?;
+        let data_box = Domain::around(uv.iter().copied());
+        let mut fit = fit_partial(&places, data_box, values, dim, options, control)?;
         fit.report.seconds = start.elapsed().as_secs_f64();
         return Ok(fit);
     }
@@ -147,7 +148,8 @@ fn fit_partial_field(
     let parameterize_seconds = start.elapsed().as_secs_f64();
     let places = places_of_values(mesh, &map.uv, values.len() / dim);
     control.set_stage(0.3, 1.0);
-    let mut fit = fit_partial(&places, values, dim, options, control)?;
+    let data_box = box_of_nodes(mesh, &map.uv);
+    let mut fit = fit_partial(&places, data_box, values, dim, options, control)?;
     fit.surface.region_mut().trims = trims(Some(mesh), &map.uv, &fit.surface.domain());
     fit.report.parameterize_seconds = parameterize_seconds;
     fit.report.remarks.0 |= map.remarks.0;
@@ -159,6 +161,7 @@ fn fit_partial_field(
 /// Fits those values that there are, over the box of all.
 fn fit_partial(
     places: &[Option<DVec2>],
+    data_box: Domain,
     values: &[f64],
     dim: usize,
     options: &PhtOptions,
@@ -166,7 +169,7 @@ fn fit_partial(
 ) -> Result<PhtFit, FitError> {
     const BY: &str = "the fit of data without values at some places";
     check_unused(options.demands == Demands::default(), "what single data demand", BY)?;
-    let partial = Partial::of(places, values, dim, options.weights, options.missing)?;
+    let partial = Partial::of(places, data_box, values, dim, options.weights, options.missing)?;
     let options = PhtOptions { weights: partial.weights(), ..*options };
     let fit = check_values(partial.uv.len(), &partial.values, dim, options.weights)
         .and_then(|()| check_parameters(&partial.uv))

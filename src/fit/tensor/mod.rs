@@ -28,7 +28,7 @@ use super::common::checks::{check_parameters, check_unused, check_values};
 use super::common::errors::{DataErrors, data_errors};
 use super::common::neighbours::triangles_between;
 use super::common::outliers::{self, Cloud};
-use super::common::partial::{is_on_triangles, is_partial, places_of_values};
+use super::common::partial::{box_of_nodes, is_on_triangles, is_partial, places_of_values};
 use super::common::report::{FitReport, Goal};
 use super::common::uniform::normal_equations::TensorBasis;
 use super::common::{
@@ -110,7 +110,8 @@ pub fn fit_points(
     let start = Instant::now();
     if dim > 0 && is_partial(values, options.missing) {
         let places: Vec<Option<DVec2>> = uv.iter().copied().map(Some).collect();
-        let mut fit = fit_partial(&places, values, dim, options, control)?;
+        let data_box = Domain::around(uv.iter().copied());
+        let mut fit = fit_partial(&places, data_box, values, dim, options, control)?;
         fit.report.seconds = start.elapsed().as_secs_f64();
         return Ok(fit);
     }
@@ -147,7 +148,8 @@ fn fit_partial_field(
     let parameterize_seconds = start.elapsed().as_secs_f64();
     let places = places_of_values(mesh, &map.uv, values.len() / dim);
     control.set_stage(0.3, 1.0);
-    let mut fit = fit_partial(&places, values, dim, options, control)?;
+    let data_box = box_of_nodes(mesh, &map.uv);
+    let mut fit = fit_partial(&places, data_box, values, dim, options, control)?;
     fit.surface.region_mut().trims = trims(Some(mesh), &map.uv, &fit.surface.domain());
     fit.report.parameterize_seconds = parameterize_seconds;
     fit.report.remarks.0 |= map.remarks.0;
@@ -159,6 +161,7 @@ fn fit_partial_field(
 /// Fits those values that there are, over the box of all.
 fn fit_partial(
     places: &[Option<DVec2>],
+    data_box: Domain,
     values: &[f64],
     dim: usize,
     options: &TensorOptions,
@@ -167,7 +170,7 @@ fn fit_partial(
     const BY: &str = "the fit of data without values at some places";
     check_unused(options.demands == Demands::default(), "what single data demand", BY)?;
     check_unused(options.sides.are_free(), "sides", BY)?;
-    let partial = Partial::of(places, values, dim, options.weights, options.missing)?;
+    let partial = Partial::of(places, data_box, values, dim, options.weights, options.missing)?;
     let options = TensorOptions { weights: partial.weights(), ..*options };
     let fit = check(&partial.uv, &partial.values, dim, &options).and_then(|()| {
         let problem = Problem::new(partial.uv.clone(), &partial.values, dim, None, &options)?;

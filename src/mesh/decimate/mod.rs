@@ -195,8 +195,9 @@ impl Mesh {
         control.enter(Stage::Coarsen);
         let uv = options.parameters_of(self);
         let side = side(self.triangles(), uv)?;
-        let features = Features::of(self, options)?;
-        let mut collapsing = Collapsing::new(centred(self), self.triangles(), uv.zip(side), features);
+        let (safe, _) = self.at_safe_scale();
+        let features = Features::of(&safe, options)?;
+        let mut collapsing = Collapsing::new(centred(&safe), self.triangles(), uv.zip(side), features);
         let removable = self.used_count.saturating_sub(options.target_count);
         let collapse_count = collapse_all(&mut collapsing, removable, self.points.len() as u32, control)?;
         let piece = self.compacted(collapsing.triangles()).expect("collapses keep a mesh a mesh");

@@ -205,6 +205,10 @@ impl Mesh {
     /// Finds edges where the surface is not smooth.
     pub fn find_features(&self, options: &FeatureOptions) -> Result<Features, FeatureError> {
         options.check(self)?;
+        Ok(self.at_safe_scale().0.features(options))
+    }
+
+    fn features(&self, options: &FeatureOptions) -> Features {
         let noise = noise::estimate(self);
         let is_noisy = options.filter_noise && noise > noise::WORTH_FILTERING;
         let turns = turns(self, is_noisy);
@@ -215,7 +219,7 @@ impl Mesh {
         let prolonged_count = if is_searched { net.prolong(&turns, options.weak_angle) } else { 0 };
         let dropped_count = net.drop_slivers() + net.drop_bits(options.least_length * self.diagonal());
         let corners = net.corners(options.corner_angle, if is_noisy { NOISY_REACH } else { 1 });
-        Ok(Features {
+        Features {
             edges: net.edges(),
             chains: net.chains(&corners),
             corners,
@@ -223,7 +227,7 @@ impl Mesh {
             prolonged_count,
             dropped_count,
             noise,
-        })
+        }
     }
 }
 
