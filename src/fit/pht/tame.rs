@@ -6,7 +6,7 @@ use super::global::{ByLeaf, Energy, KnownSums, System};
 use super::refine::{Refinement, Round, outward};
 use crate::control::{Control, Pool, Watch};
 use crate::fit::common::FitError;
-use crate::fit::common::tame::{Standing, TENSE_WITHIN, excursion, is_wild, tamed};
+use crate::fit::common::tame::{FINER_BEYOND, Standing, TENSE_WITHIN, excursion, is_wild, tamed};
 use crate::fit::common::trims;
 use crate::surface::pht::PhtSurface;
 use crate::surface::{Domain, Trims};
@@ -39,7 +39,7 @@ impl Refinement<'_> {
             this.data.mesh.is_some() || 4 * Topology::new(mesh).basis.len() <= this.data.uv.len()
         };
         let finer = std::iter::successors(first, finer).take(SPLITS).take_while(is_allowed);
-        let meshes: Vec<TMesh> = [this.mesh.clone()].into_iter().chain(finer).collect();
+        let (same, finer) = ([this.mesh.clone()], finer.collect::<Vec<TMesh>>());
         let judge = |round: &Round, pool: &Pool| Standing {
             excursion: this.excursion(&round.surface, pool),
             error: round.errors.demand,
@@ -49,7 +49,7 @@ impl Refinement<'_> {
         let refit = |mesh: &TMesh, tension, control: &mut Control| {
             control.watch(|pool, watch| this.tense(mesh, &trims, [smoothing, tension], pool, watch))?
         };
-        let round = tamed(round, this.goal.tolerance, &meshes, judge, refit, control)?;
+        let round = tamed(round, this.goal.tolerance, &same, (&finer, FINER_BEYOND), judge, refit, control)?;
         self.mesh = round.surface.mesh().clone();
         Ok(round)
     }

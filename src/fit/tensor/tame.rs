@@ -3,7 +3,7 @@
 use super::single_grid::Candidate;
 use super::{FitError, Method, Problem};
 use crate::control::{Control, Pool};
-use crate::fit::common::tame::{FARTHEST, Standing, excursion, is_wild, tamed};
+use crate::fit::common::tame::{FARTHEST, FINER_BEYOND, Standing, excursion, is_wild, tamed};
 use crate::fit::common::trims;
 use crate::fit::common::uniform::grid::Part;
 use crate::geometry::{Bounds, Domain};
@@ -79,19 +79,21 @@ impl Problem<'_> {
         };
         let smoothing = candidate.smoothing;
         let counts = candidate.counts();
-        let mut grids = vec![(counts, CutCells::No), (counts, CutCells::Yes)];
-        if self.options.fixed_grid.is_none() {
-            let finer = FINER.map(|halvings| [0, 1].map(|axis| ((counts[axis] - 1) << halvings[axis]) + 1));
-            let finer = finer.into_iter().filter(|&counts| self.allows(counts));
-            grids.extend(finer.map(|counts| (counts, CutCells::Yes)));
+        let mut same = vec![(counts, CutCells::No), (counts, CutCells::Yes)];
+        let finer = FINER.map(|halvings| [0, 1].map(|axis| ((counts[axis] - 1) << halvings[axis]) + 1));
+        let finer = finer.into_iter().filter(|&counts| self.allows(counts));
+        let mut finer: Vec<_> = finer.map(|counts| (counts, CutCells::Yes)).collect();
+        if self.options.fixed_grid.is_some() {
+            finer.clear();
         }
         if self.options.method == Method::Ferguson {
-            grids.clear();
+            (same, finer) = (Vec::new(), Vec::new());
         }
         let refit = |&(counts, cut): &([usize; 2], CutCells), tension, control: &mut Control| {
             control.watch(|pool, watch| self.fit_tense(counts, cut, [smoothing, tension], pool, watch))?
         };
-        let mut candidate = tamed(candidate, self.goal.tolerance, &grids, judge, refit, control)?;
+        let mut candidate =
+            tamed(candidate, self.goal.tolerance, &same, (&finer, FINER_BEYOND), judge, refit, control)?;
         if self.excursion(&candidate.surface, control.pool()) > FARTHEST {
             candidate.surface = self.with_less_buffer(candidate.surface, control.pool());
             candidate.errors = self.errors(&candidate.surface, control.pool());

@@ -5,7 +5,7 @@ use super::super::lines::Lines;
 use super::super::tame::{CutCells, HALVINGS};
 use super::net::{Net, NetFitter, Tension};
 use crate::control::{Control, Pool};
-use crate::fit::common::tame::{Standing, tamed};
+use crate::fit::common::tame::{AIM, Standing, tamed};
 use crate::fit::common::uniform::grid::Direction;
 
 impl NetFitter<'_> {
@@ -21,9 +21,10 @@ impl NetFitter<'_> {
             lines[0].len() * lines[1].len() <= limit
                 && lines.iter().all(|lines| lines.cell_count() < problem.options.max_grid)
         };
-        let finer = std::iter::successors(Some(net.lines.clone()), halved);
-        let finer = finer.take(1 + HALVINGS).take_while(is_allowed).map(|lines| (lines, CutCells::Yes));
-        let nets: Vec<_> = [(net.lines.clone(), CutCells::No)].into_iter().chain(finer).collect();
+        let same = [CutCells::No, CutCells::Yes].map(|cut| (net.lines.clone(), cut));
+        let finer = std::iter::successors(halved(&net.lines), halved);
+        let finer = finer.take(HALVINGS).take_while(is_allowed).map(|lines| (lines, CutCells::Yes));
+        let finer: Vec<_> = finer.collect();
         let (smoothing, bound) = (net.smoothing, self.bound());
         let fitter = std::cell::RefCell::new(self);
         let judge = |net: &Net, pool: &Pool| {
@@ -39,7 +40,7 @@ impl NetFitter<'_> {
             fitter.borrow_mut().tension = Tension { multiple, cut: *cut };
             fitter.borrow().fit(lines.clone(), smoothing, control)
         };
-        let net = tamed(net, bound, &nets, judge, refit, control)?;
+        let net = tamed(net, bound, &same, (&finer, AIM), judge, refit, control)?;
         let fitter = fitter.into_inner();
         fitter.tension = net.tension;
         fitter.may_be_wild = fitter.is_wild(&net, control.pool());
