@@ -287,15 +287,18 @@ impl<'a> Decimation<'a> {
         };
         (least..=most.max(before)).contains(&after)
             && !self.border.is_tip(to)
-            && self.keeps_border(node, to, sides)
+            && self.keeps_border(node, to)
             && sides.iter().all(|&side| self.may_lose_triangle(side, [node, to]))
             && self.marks.count(self.rings.of(to)) == 2
     }
 
     /// A node of the border goes along it, and not where the rest of its loop would be one edge.
-    fn keeps_border(&self, node: u32, to: u32, sides: [u32; 2]) -> bool {
-        self.chains[node as usize]
-            .is_none_or(|ends| ends.contains(&to) && ends.iter().all(|end| !sides.contains(end)))
+    fn keeps_border(&self, node: u32, to: u32) -> bool {
+        let [Some(ends), Some(next)] = [node, to].map(|node| self.chains[node as usize]) else {
+            return self.chains[node as usize].is_none();
+        };
+        // three nodes are the shortest loop: both are then neighbours of the third
+        ends.contains(&to) && !ends.iter().any(|end| *end != to && next.contains(end))
     }
 
     /// Whether a node has triangles to spare for the one with this edge.
@@ -362,6 +365,9 @@ impl<'a> Decimation<'a> {
     /// Finds `node` and the nodes in the triangles around it again in those that replace them: a fan around the first
     /// of the ring. `chain`: the neighbours that the node had along the border.
     fn relocate(&mut self, node: u32, ring: &[u32], chain: Option<[u32; 2]>) {
+        if let Some(end) = self.ear_end(ring) {
+            return self.relocate_ear(node, ring[0], end);
+        }
         let count = ring.len();
         let around: Vec<DVec3> = ring.iter().map(|&other| self.points[other as usize]).collect();
         // a chain of the border stays straight, and tips are beyond it
@@ -393,6 +399,54 @@ impl<'a> Decimation<'a> {
             let weight_of = |corner: u32| {
                 let place = corners.iter().position(|&other| other == corner).expect("the same three");
                 weights[place] / sum
+            };
+            self.places[inner as usize] = (first, first.map(weight_of));
+            self.inside.entry(first).or_default().push(inner);
+        }
+    }
+
+    /// Of a node with one triangle beside the border, which went to the first of its ring: the third corner.
+    fn ear_end(&self, ring: &[u32]) -> Option<u32> {
+        let mut inner = ring[1..].iter().copied().filter(|&node| !self.border.is_tip(node));
+        let end = inner.next().filter(|_| ring.len() == 3);
+        end.filter(|_| inner.next().is_none())
+    }
+
+    /// What lay in the triangle of an ear comes to lie on the edge that closes it, from `to` to `end`, in the triangle
+    /// beyond.
+    fn relocate_ear(&mut self, node: u32, to: u32, end: u32) {
+        let ring = self.rings.of(to);
+        let at = self.rings.position(to, end);
+        let beside = [ring[(at + 1) % ring.len()], ring[(at + ring.len() - 1) % ring.len()]];
+        let Some((side, &beyond)) = beside.iter().enumerate().find(|(_, other)| !self.border.is_tip(**other))
+        else {
+            return;
+        };
+        let first = if side == 0 { face(to, end, beyond) } else { face(to, beyond, end) };
+        let share = |from: u32| self.points[node as usize].distance(self.points[from as usize]);
+        let [near, far] = [share(to), share(end)];
+        let to_end = if near + far > 0.0 { near / (near + far) } else { 0.5 };
+        let mut moved = vec![(node, [1.0 - to_end, to_end])];
+        for old in [face(node, to, end), face(node, end, to)] {
+            for inner in self.inside.remove(&old).unwrap_or_default() {
+                let (corners, weights) = self.places[inner as usize];
+                let weight_of = |corner: u32| {
+                    corners
+                        .iter()
+                        .zip(weights)
+                        .filter(|&(&other, _)| other == corner)
+                        .map(|(_, weight)| weight)
+                        .sum()
+                };
+                let [of_node, of_to, of_end]: [f64; 3] = [node, to, end].map(weight_of);
+                moved.push((inner, [of_to + (1.0 - to_end) * of_node, of_end + to_end * of_node]));
+            }
+        }
+        for (inner, [of_to, of_end]) in moved {
+            let weight_of = |corner: u32| match corner {
+                _ if corner == to => of_to,
+                _ if corner == end => of_end,
+                _ => 0.0,
             };
             self.places[inner as usize] = (first, first.map(weight_of));
             self.inside.entry(first).or_default().push(inner);
