@@ -208,8 +208,9 @@ const CALL: &str = "PLANISH_OUT_OF_MEMORY";
 const NTH: &str = "PLANISH_NTH_ALLOCATION";
 /// So many allocations of each call fail in turn, evenly over the call.
 const MOST_INJECTIONS: usize = 16;
-/// So many injections may end the process: docs/testing.md lists the libraries below that ask in vain.
-const MOST_ABORTS: usize = 40;
+/// Of so many injections one may end the process: docs/testing.md says where. It is one in nine, and which allocations are hit
+/// depends on their number.
+const OF_INJECTIONS: usize = 7;
 
 type Call = fn() -> planish_status;
 
@@ -526,7 +527,8 @@ fn memory_that_cannot_be_had_is_a_status() {
     let total: usize = aborts.values().sum();
     println!("{total} of {injections} failures end the process");
     aborts.iter().for_each(|(place, count)| println!("{count:4} {place}"));
-    assert!(injections > 200 && total <= MOST_ABORTS, "{total} of {injections} failures end the process");
+    assert!(injections > 200, "{injections} failures");
+    assert!(OF_INJECTIONS * total <= injections, "{total} of {injections} failures end the process");
 }
 
 #[test]

@@ -536,14 +536,14 @@ pub fn remarks(remarks: Remarks) -> impl Iterator<Item = &'static str> {
         (Remarks::EMPTY_CELLS, "some cells inside the boundary hold no nodes"),
         (
             Remarks::ROUGH_BETWEEN_NODES,
-            "between the nodes the surface leaves the facets by more than the tolerance: at sharp edges, which \
-             --family d1rc --sharp-angle 30 keeps, or where it swings, which more --smoothing prevents",
+            "between the nodes the surface leaves the facets by more than the tolerance: at sharp edges, which models \
+             and --family d1rc keep from their --sharp-angle on, or where it swings, which more --smoothing prevents",
         ),
         (Remarks::SEGMENTATION_ADVISED, "the map is very compressed: cut the mesh into several charts"),
         (
             Remarks::SELF_INTERSECTING,
-            "triangles of the mesh or of the model cross: repair the mesh there, or tighten the tolerance below half of \
-             the thinnest wall",
+            "triangles of the mesh or of the model cross: repair the mesh there, or tighten the tolerance, below half of \
+             the thinnest wall at least",
         ),
         (Remarks::PLATE_ENERGY_USED, "the plate energy was used: the beam energy leaves the data free"),
     ]

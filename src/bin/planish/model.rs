@@ -175,6 +175,11 @@ fn table(arguments: &FitArguments, mesh: &Mesh, repairs: &MeshRepairs, fit: &Mod
         table.row("normal jump, gap", format!("{:.1e}, {:.1e}", report.normal_jump, report.gap));
         table.row("volume", format!("{:.6e}, of the mesh {:.6e}", report.volume, report.mesh_volume));
     }
+    let crossings = report.crossings.unwrap_or(0);
+    if report.mesh_crossings + crossings > 0 {
+        let pairs = format!("{} pairs of the mesh, {crossings} of the model", report.mesh_crossings);
+        table.row("crossings", pairs);
+    }
     let map: f64 = fit.components.iter().map(|component| component.map_seconds).sum();
     table.row("seconds", format!("{map:.2} map, {:.2} fit, {:.2} in all", report.fit_seconds, fit.seconds));
     table.row("result", crate::fit::verdict(report.remarks, report.stop));
