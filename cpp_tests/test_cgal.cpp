@@ -121,7 +121,8 @@ TEST(Cgal, ModelsEncloseTheirVolumeAndDoNotMeetThemselves) {
   const double volume = CGAL::to_double(pmp::volume(exact));
   CHECK_NEAR(volume, measure.volume, 2 * options.chord_tolerance * measure.area);
   CHECK_NEAR(CGAL::to_double(pmp::volume(theirs)), measure.volume, 2e-2 * volume);
-  std::printf("model of %zu triangles: volume %.6f, by CGAL %.6f\n", theirs.number_of_faces(), measure.volume, volume);
+  std::printf("model of %zu triangles: volume %.6f, by CGAL %.6f\n", std::size_t{theirs.number_of_faces()}, measure.volume,
+              volume);
 }
 
 #ifdef HAS_DISTANCE

@@ -659,7 +659,7 @@ void check_solid(const planish::fitted_model &fit, const char *path) {
 
 TEST(OcctModel, ClosedMeshesBecomeSolids) {
   for (const double bumps : {0.0, 0.2}) {
-    const planish::mesh mesh = torus_mesh(64, 32, bumps);
+    const planish::mesh mesh = torus_mesh(96, 48, bumps);
     auto options = planish::defaults<planish_model_options>();
     options.thread_count = 2;
     const planish::fitted_model fit = planish::model_fit(mesh, options);

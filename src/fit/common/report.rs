@@ -37,14 +37,18 @@ impl Tolerance {
     /// A relative tolerance below this asks for digits that rounding has eaten.
     pub const SMALLEST: f64 = 1e-12;
 
-    /// The tolerance in model units, and whether it had to be raised to [`Tolerance::SMALLEST`].
+    /// The tolerance in model units, and whether it had to be raised to [`Tolerance::SMALLEST`] or to what rounding leaves of
+    /// the largest number.
     pub fn absolute(&self, bounds: &Bounds) -> (f64, bool) {
+        /// A value is a sum of sixteen products.
+        const ROUNDING: f64 = 16.0 * f64::EPSILON;
         let diagonal = bounds.diagonal();
+        let largest = bounds.min.iter().chain(&bounds.max).fold(0.0, |most: f64, x| most.max(x.abs()));
         let asked = match self.scale {
             ToleranceScale::Relative => self.value * diagonal,
             ToleranceScale::Absolute => self.value,
         };
-        let least = Self::SMALLEST * diagonal;
+        let least = (Self::SMALLEST * diagonal).max(ROUNDING * largest);
         (asked.max(least), asked < least)
     }
 }

@@ -104,7 +104,8 @@ pub(in crate::fit) fn excursion(
         if pool.check().is_err() {
             return 0.0;
         }
-        let places: Vec<DVec2> = cells.iter().flat_map(places).collect();
+        let mut places = Vec::with_capacity(cells.len() * (SAMPLES + 1) * (SAMPLES + 1));
+        cells.iter().for_each(|cell| add_places(cell, &mut places));
         let mut rows = vec![0.0; places.len() * surface.dim()];
         surface.eval_rows(&places, 0, &mut rows);
         rows.chunks_exact(surface.dim()).map(|row| bounds.distance(row)).fold(0.0, f64::max)
@@ -113,15 +114,18 @@ pub(in crate::fit) fn excursion(
     if distance > 0.0 { distance / bounds.diagonal() } else { 0.0 }
 }
 
-/// Places of a cell, its corners among them.
-fn places(cell: &Domain) -> impl Iterator<Item = DVec2> + use<> {
+/// Adds the places of a cell, its corners among them.
+fn add_places(cell: &Domain, places: &mut Vec<DVec2>) {
     let (min, max) = (cell.min, cell.max);
     let along = |k: usize, min: f64, max: f64| match k {
         SAMPLES => max,
         _ => min + (max - min) * k as f64 / SAMPLES as f64,
     };
-    let pairs = (0..=SAMPLES).flat_map(|i| (0..=SAMPLES).map(move |j| (i, j)));
-    pairs.map(move |(i, j)| DVec2::new(along(i, min.x, max.x), along(j, min.y, max.y)))
+    for i in 0..=SAMPLES {
+        for j in 0..=SAMPLES {
+            places.push(DVec2::new(along(i, min.x, max.x), along(j, min.y, max.y)));
+        }
+    }
 }
 
 #[cfg(test)]

@@ -43,7 +43,7 @@ impl Locator {
         let mut pairs = Vec::new();
         for face in 0..locator.faces.len() {
             let around = Domain::around(locator.corners(face as u32));
-            memory::extend(&mut pairs, locator.cells(&around).map(|cell| (cell as u32, face as u32)));
+            locator.for_each_cell(&around, |cell| memory::push(&mut pairs, (cell as u32, face as u32)));
         }
         locator.by_cell = Lists::new(counts[0] * counts[1], pairs.into_iter());
         locator
@@ -74,10 +74,11 @@ impl Locator {
         [(at.x as usize).min(self.counts[0] - 1), (at.y as usize).min(self.counts[1] - 1)]
     }
 
-    fn cells(&self, around: &Domain) -> impl Iterator<Item = usize> + use<> {
+    fn for_each_cell(&self, around: &Domain, mut work: impl FnMut(usize)) {
         let ([i0, j0], [i1, j1]) = (self.cell(around.min), self.cell(around.max));
-        let count = self.counts[1];
-        (i0..=i1).flat_map(move |i| (j0..=j1).map(move |j| i * count + j))
+        for i in i0..=i1 {
+            (j0..=j1).for_each(|j| work(i * self.counts[1] + j));
+        }
     }
 
     fn entries(&self, cell: usize) -> &[u32] {
@@ -87,9 +88,7 @@ impl Locator {
     /// The faces that a box may meet, in increasing order.
     pub fn faces_near(&self, around: &Domain, out: &mut Vec<u32>) {
         out.clear();
-        for cell in self.cells(around) {
-            out.extend_from_slice(self.entries(cell));
-        }
+        self.for_each_cell(around, |cell| out.extend_from_slice(self.entries(cell)));
         out.sort_unstable();
         out.dedup();
     }
