@@ -169,7 +169,7 @@ def test_demands_that_cannot_be_met_are_refused():
     uv[5] = uv[9]
     with pytest.raises(planish.InvalidError, match="5 and 9"):
         planish.fit_points(uv, values, fixed=[9, 5])
-    with pytest.raises(planish.PlanishError, match="there are 100"):
+    with pytest.raises(planish.RangeError, match="there are 100"):
         planish.fit_points(uv, values, fixed=[100])
 
 

@@ -98,7 +98,8 @@ impl Rounds for Refinement<'_> {
         let is_fixed = self.data.standards.fixed.iter().all(|&datum| {
             round.errors.each[datum] * self.data.standards.factor(datum) <= self.goal.tolerance
         });
-        if is_fixed && self.noise.has_reached_floor(round) {
+        let idle_rounds = IDLE_ROUNDS + usize::from(self.data.standards.leaves_out());
+        if is_fixed && self.noise.idle_rounds(round) >= idle_rounds {
             return Next::Drop(StopReason::Stagnated);
         }
         let is_met = round.rough.iter().all(|rough| rough.error <= self.goal.tolerance);
@@ -325,13 +326,15 @@ struct NoiseTest {
 
 /// F below which a round has gained nothing.
 const LEAST_GAIN: f64 = 1.5;
-/// Rounds without gain that end the fit.
+/// Rounds without gain that end the fit. One more where data are left out: a line along the end of what is left is one
+/// for nothing.
 const IDLE_ROUNDS: usize = 1;
 /// Share of the data that a round must concern.
 const LEAST_SHARE: f64 = 0.3;
 
 impl NoiseTest {
-    fn has_reached_floor(&mut self, round: &Round) -> bool {
+    /// Rounds in a row that gained nothing, with the next one.
+    fn idle_rounds(&mut self, round: &Round) -> usize {
         let (mut count, mut before, mut after) = (0, 0.0, 0.0);
         for (&(is_split, old), &new) in self.before.iter().zip(&round.errors.each) {
             if is_split {
@@ -347,7 +350,7 @@ impl NoiseTest {
             count as f64 >= LEAST_SHARE * self.before.len() as f64 && free > added && added > 0.0;
         let gains_nothing = is_evidence && before - after < LEAST_GAIN * added * (after / free);
         self.idle = if gains_nothing { self.idle + 1 } else { 0 };
-        self.idle >= IDLE_ROUNDS
+        self.idle
     }
 }
 
