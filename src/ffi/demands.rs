@@ -18,6 +18,7 @@ pub enum planish_symmetry {
 }
 
 /// The fields of a record that tell of single data, and of symmetry.
+#[derive(Clone, Copy)]
 pub(super) struct GivenDemands {
     pub tolerances: *const f64,
     pub fixed: *const u32,

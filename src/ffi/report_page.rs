@@ -48,8 +48,8 @@ impl planish_report_options {
     unsafe fn core(&self) -> Result<ReportOptions<'_>, ArgumentError> {
         let defaults = ReportOptions::default();
         // SAFETY: the caller's promise.
-        let or = |given, default, name| unsafe {
-            if given == std::ptr::null() { Ok(default) } else { text(given, name) }
+        let or = |given: *const c_char, default, name| unsafe {
+            if given.is_null() { Ok(default) } else { text(given, name) }
         };
         Ok(ReportOptions {
             title: or(self.title, defaults.title, "title")?,

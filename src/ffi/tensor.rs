@@ -252,10 +252,10 @@ impl planish_tensor_options {
     /// The handles are NULL or those of curves and surfaces that live until the sides are no longer used.
     unsafe fn sides<'a>(&self) -> Result<Sides<'a>, ArgumentError> {
         let curve = |at: *const planish_curve| -> Result<Option<&'a Curve>, ArgumentError> {
-            // SAFETY: the caller's promise.
             if at.is_null() {
                 Ok(None)
             } else {
+                // SAFETY: the caller's promise.
                 unsafe { deref(at, "curve") }.map(|curve| Some(curve.core()))
             }
         };

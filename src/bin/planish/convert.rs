@@ -33,6 +33,7 @@ pub struct ConvertArguments {
 }
 
 /// What is converted.
+#[allow(clippy::large_enum_variant, reason = "there is one in a run")]
 enum Source {
     Surface(AnySurface),
     Model(Model),

@@ -41,6 +41,7 @@ Exit codes: 0 done, and the tolerance met; 2 done and written, but the tolerance
 More by subject: planish help topics";
 
 #[derive(Debug, Subcommand)]
+#[allow(clippy::large_enum_variant, reason = "there is one in a run")]
 enum Command {
     /// Fit a surface to a mesh file (OFF, OBJ, PLY, STL) and report how close it came.
     Fit(fit::FitArguments),

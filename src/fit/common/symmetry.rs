@@ -190,7 +190,7 @@ fn candidates(mesh: &Mesh) -> Vec<Plane> {
     let (mut area, mut center) = (0.0, DVec3::ZERO);
     let corners = |t: &[u32; 3]| t.map(|node| mesh.points()[node as usize]);
     let areas: Vec<f64> =
-        mesh.triangles().iter().map(|t| corners(t)).map(|[a, b, c]| (b - a).cross(c - a).length()).collect();
+        mesh.triangles().iter().map(&corners).map(|[a, b, c]| (b - a).cross(c - a).length()).collect();
     for (t, weight) in mesh.triangles().iter().zip(&areas) {
         area += weight;
         center += *weight / 3.0 * corners(t).iter().sum::<DVec3>();

@@ -42,7 +42,7 @@ pub fn foot_points(
         distances.par_chunks_mut(PIECE).zip(data).for_each(|(distances, ((places, locks), points))| {
             let samples = places.iter_mut().zip(locks).zip(points);
             for (distance, ((place, lock), &point)) in distances.iter_mut().zip(samples) {
-                *distance = ground.to_foot(place, lock, point, steps);
+                *distance = ground.step_to_foot(place, lock, point, steps);
             }
         });
     });
@@ -50,7 +50,7 @@ pub fn foot_points(
 }
 
 impl Ground<'_> {
-    fn to_foot(&self, place: &mut Place, lock: &mut Lock, point: DVec3, steps: u32) -> f64 {
+    fn step_to_foot(&self, place: &mut Place, lock: &mut Lock, point: DVec3, steps: u32) -> f64 {
         let mut row = [0.0; 9];
         for _ in 0..steps {
             self.surfaces[place.quad as usize].eval_rows(&[place.uv], 1, &mut row);

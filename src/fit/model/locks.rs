@@ -121,7 +121,7 @@ pub fn feature_at(layout: &Layout, place: Place) -> Option<Feature> {
 pub fn halfway(layout: &Layout, a: Feature, b: Feature) -> Option<OnCrease> {
     let (from, to) = (a.from, b.to);
     if from.side == to.side {
-        return (from.t <= to.t).then(|| OnCrease { t: 0.5 * (from.t + to.t), ..from });
+        return (from.t <= to.t).then_some(OnCrease { t: 0.5 * (from.t + to.t), ..from });
     }
     (layout.sector_at(from.side.next()).corners[0] == to.side).then(|| {
         let half = 0.5 * (1.0 - from.t + to.t);

@@ -70,7 +70,7 @@ fn even(line: &Line, begin: f64, count: u32) -> Vec<f64> {
 fn anchors(piece: &Piece, division: &Division) -> Vec<u32> {
     let of_run = |run: &Run| {
         let lengths = &division.lengths[run.chain as usize];
-        let is_stop = |length: f64| lengths.iter().any(|&stop| stop == length);
+        let is_stop = |length: f64| lengths.contains(&length);
         run.nodes
             .iter()
             .zip(&run.lengths)

@@ -89,7 +89,7 @@ impl Draft {
             check_places(&meeting, beside, &places, scale).then_some(meeting).ok_or(Obstacle::Edge { chain })
         });
         let meetings = meetings.collect::<Result<Vec<Meeting>, Obstacle>>()?;
-        draft.add_corners(mesh, features, regions, found, &rims, &meetings, scale)?;
+        draft.add_corners(mesh, features, regions, (found, &rims), &meetings, scale)?;
         for (chain, (of, meeting)) in features.chains.iter().zip(&meetings).enumerate() {
             let mut edge = draft.edge(mesh, of, meeting).ok_or(Obstacle::Edge { chain })?;
             // an edge of one face meets nothing at an angle
@@ -125,8 +125,7 @@ impl Draft {
         mesh: &Mesh,
         features: &Features,
         regions: &Regions,
-        found: &[Recognized],
-        rims: &[Option<Carrier>],
+        (found, rims): (&[Recognized], &[Option<Carrier>]),
         meetings: &[Meeting],
         scale: &Scale,
     ) -> Result<(), Obstacle> {

@@ -139,11 +139,10 @@ fn corners(patches: &[Given], tolerance: f64) -> Result<Vec<[u32; 4]>, FromPatch
 }
 
 /// The edges, the edge of each side, and how far joined sides are apart.
-fn edges(
-    patches: &[Given],
-    quads: &[[u32; 4]],
-    tolerance: f64,
-) -> Result<(Vec<Joint>, Vec<[u32; 4]>, Seams), FromPatchesError> {
+type Edges = (Vec<Joint>, Vec<[u32; 4]>, Seams);
+
+/// Finds which sides meet.
+fn edges(patches: &[Given], quads: &[[u32; 4]], tolerance: f64) -> Result<Edges, FromPatchesError> {
     let mut joints: Vec<Joint> = Vec::new();
     let mut between: BTreeMap<[u32; 2], Vec<u32>> = BTreeMap::new();
     let (mut numbers, mut seams) = (vec![[0; 4]; quads.len()], Seams::default());

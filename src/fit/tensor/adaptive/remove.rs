@@ -85,7 +85,7 @@ impl NetFitter<'_> {
         control: &mut Control,
     ) -> Result<Option<Net>, FitError> {
         let tolerance = self.problem.goal.tolerance;
-        let mut trial = memory::copied(&factors);
+        let mut trial = memory::copied(factors);
         for _ in 0..MOST_WEIGHED {
             *solves += 1;
             let equations = self.assemble(lines.clone(), Some(&trial), control)?;
