@@ -1,6 +1,6 @@
 //! Patches that somebody else made as one smooth model.
 //!
-//! Tensor surfaces that meet edge to edge within a tolerance are [joined](join) into layouts. Points of each, spread
+//! Tensor surfaces that meet edge to edge within a tolerance are joined into layouts. Points of each, spread
 //! evenly over its parameters, are then what the smooth space over the layout is fitted to, with foot-point steps in which the
 //! parameters slide (at vertices of other than four patches no smooth surface has the given ones) and cells that are split where
 //! the deviation is above the tolerance. Position and tangent plane across all edges are those of the space: equal to
