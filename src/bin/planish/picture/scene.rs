@@ -260,6 +260,7 @@ fn draw_control_net(surface: &dyn Surface, picture: &mut Picture) {
 mod tests {
     use super::*;
     use planish::Control;
+    use planish::fit::report::Tolerance;
     use planish::fit::tensor::{Knots, TensorOptions, fit_mesh};
     use planish::samples;
 
@@ -274,7 +275,8 @@ mod tests {
     fn each_part_is_drawn_when_asked_for_and_only_then() {
         let mesh = samples::fuselage_panel(1).unwrap();
         let mut control = Control::new(1);
-        let uniform = TensorOptions::default().with_knots(Knots::Uniform); // many lines
+        let fine = Tolerance { value: 1e-5, ..Tolerance::default() };
+        let uniform = TensorOptions::default().with_knots(Knots::Uniform).with_tolerance(fine); // many lines
         let surface = fit_mesh(&mesh, &uniform, &mut control).unwrap().surface;
         let small = RenderOptions { width: 400, height: 300, ..RenderOptions::default() };
         let draw = |options: &RenderOptions| render(&surface, options, control.pool()).unwrap();
