@@ -157,6 +157,21 @@ def solid_from_mesh(document):
     return solid
 
 
+def parts(document):
+    source = mesh_object(document, shapes.bar(), "Bar")
+    solid = made(document, "SolidFromMesh", Source=source, Tolerance=0.05)
+    kinds = sorted(face.Surface.TypeId for face in solid.Shape.Faces)
+    assert kinds == ["Part::GeomCylinder", "Part::GeomPlane", "Part::GeomPlane"], kinds
+    assert solid.Shape.isValid() and solid.Shape.ShapeType == "Solid", (solid.Shape.ShapeType, solid.State)
+    volume = math.pi * 10**2 * 30
+    assert abs(solid.Shape.Volume - volume) <= 1e-4 * volume, solid.Shape.Volume
+    solid.ExactFaces = False
+    document.recompute()
+    kinds = {face.Surface.TypeId for face in solid.Shape.Faces}
+    assert solid.Shape.isValid() and "Part::GeomCylinder" not in kinds, kinds
+    assert abs(solid.Shape.Volume - volume) <= 1e-2 * volume, solid.Shape.Volume
+
+
 def skin(document):
     sections = []
     for number in range(6):
@@ -215,6 +230,7 @@ def main():
         source, face = fit_surface(document)
         print("afterwards, failed:", afterwards(face) or "nothing")
         solid = solid_from_mesh(document)
+        parts(document)
         dome = smooth_borders(document)
         structured_points(document)
         said = fillets(face, solid, dome)

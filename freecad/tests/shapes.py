@@ -39,3 +39,8 @@ def open_box():
     points = 20.0 * np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)])
     faces = [(0, 2, 3), (0, 3, 1), (0, 1, 5), (0, 5, 4), (1, 3, 7), (1, 7, 5), (3, 2, 6), (3, 6, 7), (2, 0, 4), (2, 4, 6)]
     return of_arrays(points, faces)
+
+
+def bar():
+    """A round bar of radius 10 and length 30, 60 facets around."""
+    return Mesh.createCylinder(10.0, 30.0, True, 2.0, 60)

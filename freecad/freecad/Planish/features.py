@@ -182,10 +182,12 @@ class FitSurface(Fitted):
 
 
 class SolidFromMesh(Fitted):
-    """A solid of smooth patches that share their edges; an open mesh becomes a shell."""
+    """A solid of planes, cylinders and smooth patches that share their edges; an open mesh becomes a shell."""
 
     def add_properties(self, obj):
         add(obj, "Link", "Source", "Fit", "The mesh: closed for a solid")
+        add(obj, "Angle", "SharpAngle", "Fit", "Edges that turn by more stay sharp", 40.0)
+        add(obj, "Bool", "ExactFaces", "Fit", "Planes and cylinders are found, and are exact", True)
         add(obj, "Integer", "Patches", "Fit", "About how many patches; 0 chooses")
         super().add_properties(obj)
 
@@ -193,7 +195,9 @@ class SolidFromMesh(Fitted):
         if not obj.Source:
             return None
         points, triangles = convert.nodes_of(obj.Source)
-        keywords = _tolerance(obj)
+        keywords = dict(
+            _tolerance(obj), sharp_angle=math.radians(float(obj.SharpAngle)), exact=bool(obj.ExactFaces)
+        )
         if obj.Patches > 0:
             keywords["patches"] = int(obj.Patches)
 

@@ -92,7 +92,11 @@ class Panel:
                 ("SharpAngle", "Sharp angle", True),
                 ("Smoothing", "Smoothing", True),
             )
-        return (("Patches", "Patches", True),)
+        return (
+            ("SharpAngle", "Sharp angle", True),
+            ("ExactFaces", "Exact faces", True),
+            ("Patches", "Patches", True),
+        )
 
     # what the buttons do
 

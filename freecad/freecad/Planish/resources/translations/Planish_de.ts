@@ -96,6 +96,10 @@
    <translation>Glatte Flächen und Volumenkörper aus Netzen und Schnitten, innerhalb einer Toleranz</translation>
   </message>
   <message>
+   <source>Exact faces</source>
+   <translation>Ebenen und Zylinder genau</translation>
+  </message>
+  <message>
    <source>Smooth border</source>
    <translation>Rand glätten um</translation>
   </message>
