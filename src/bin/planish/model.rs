@@ -143,6 +143,7 @@ fn table(arguments: &FitArguments, mesh: &Mesh, repairs: &MeshRepairs, fit: &Mod
         parts.extend((component.fold_count > 0).then(|| format!("{} folds", component.fold_count)));
         parts.extend(component.void_in.map(|outer| format!("void in {outer}")));
         parts.extend(component.is_turned.then(|| "was inside out, turned".to_owned()));
+        parts.extend(component.rounds_edges.then(|| "its sharp edges are rounded off".to_owned()));
         table.row("component", parts.join(", "));
     }
     table.row(
@@ -208,6 +209,7 @@ fn json_report(
             "fold_count": component.fold_count,
             "void_in": component.void_in,
             "is_turned": component.is_turned,
+            "rounds_edges": component.rounds_edges,
             "patch_count": component.fit.patches.len(),
             "max_error": component.fit.max_error,
         })

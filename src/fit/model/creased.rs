@@ -154,6 +154,7 @@ impl CreasedFit {
             fold_count: made.report.folded_nodes,
             void_in: body.void_in,
             is_turned: body.is_turned,
+            rounds_edges: false,
             map_seconds: made.report.seconds,
             fit: report,
         };

@@ -96,6 +96,8 @@ pub struct ComponentReport {
     pub void_in: Option<usize>,
     /// Whether the mesh was inside out and has been turned.
     pub is_turned: bool,
+    /// Whether sharp edges were found that its patches round off, because what keeps them was no better.
+    pub rounds_edges: bool,
     /// Seconds for layout and map.
     pub map_seconds: f64,
     /// The fit.
@@ -413,6 +415,7 @@ fn exact_parts(
             fold_count: 0,
             void_in: body.void_in,
             is_turned: body.is_turned,
+            rounds_edges: false,
             map_seconds: 0.0,
             fit: fit.report.clone(),
         });
@@ -453,7 +456,10 @@ fn component(
         creased => match (creased, control.within(0.5, 1.0, |control| smooth(body, options, control))) {
             (Ok(Some(made)), Ok(rounded)) if is_better(&made.report.fit, &rounded.report.fit) => Ok(made),
             (Ok(Some(made)), Err(error)) if error.kind() != ErrorKind::Cancelled => Ok(made),
-            (_, rounded) => rounded,
+            (creased, rounded) => rounded.map(|mut rounded| {
+                rounded.report.rounds_edges = !matches!(creased, Ok(None));
+                rounded
+            }),
         },
     }
 }
@@ -509,6 +515,7 @@ fn over_cube(
         fold_count: sphere.report.folded_triangles,
         void_in: body.void_in,
         is_turned: body.is_turned,
+        rounds_edges: false,
         map_seconds: sphere.report.seconds,
         fit: fit.report.clone(),
     };
@@ -533,6 +540,7 @@ fn over_complex(
         fold_count: made.report.folded_nodes,
         void_in: body.void_in,
         is_turned: body.is_turned,
+        rounds_edges: false,
         map_seconds: made.report.seconds,
         fit: fit.report.clone(),
     };
@@ -637,6 +645,7 @@ fn chart(mesh: &Mesh, options: &MeshModelOptions, control: &mut Control) -> Resu
         fold_count: fit.report.flipped_count,
         void_in: None,
         is_turned: false,
+        rounds_edges: false,
         map_seconds: fit.report.parameterize_seconds,
         fit: report.clone(),
     };
