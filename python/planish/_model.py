@@ -15,7 +15,7 @@ from ._curve import Curve
 from ._library import OUT, Handle, array, call, indices, lib, made, path_of, pointer, read_only
 from ._mesh import Mesh, read_mesh
 from ._records import Report, by_reference, options, report_record
-from ._surface import Curvatures, Surface, _write_step, deviation_of
+from ._surface import Curvatures, Surface, _write_report, _write_step, deviation_of
 
 _NONE = _abi.NONE
 
@@ -285,12 +285,7 @@ class Model(Handle):
 
         report_options: ``title``, ``unit``, ``tolerance`` (default: that of the fit), ``remarks``.
         """
-        long = LongCall(progress)
-        if self.report is not None and "tolerance" not in report_options:
-            report_options.update(tolerance=self.report.tolerance, tolerance_scale="absolute")
-            report_options.setdefault("remarks", self.report.remarks)
-        record = options("report_options", report_options, **long.fields("report_options"))
-        long("planish_model_write_report", self, mesh, path_of(path), by_reference(record))
+        _write_report("planish_model_write_report", self, mesh, path, progress, report_options)
 
     def to_brep(self) -> str:
         """The model as BREP text of OpenCASCADE: FreeCAD, CadQuery and build123d take it from memory."""

@@ -358,12 +358,7 @@ class Surface(Handle):
 
         report_options: ``title``, ``unit``, ``tolerance`` (default: that of the fit), ``remarks``.
         """
-        long = LongCall(progress)
-        if self.report is not None and "tolerance" not in report_options:
-            report_options.update(tolerance=self.report.tolerance, tolerance_scale="absolute")
-            report_options.setdefault("remarks", self.report.remarks)
-        record = options("report_options", report_options, **long.fields("report_options"))
-        long("planish_surface_write_report", self, mesh, path_of(path), by_reference(record))
+        _write_report("planish_surface_write_report", self, mesh, path, progress, report_options)
 
     def save(self, path: str | os.PathLike) -> None:
         """Saves to a file in the library's own format; `load` reads it."""
@@ -448,6 +443,22 @@ def _pairs(u: Any, v: Any) -> np.ndarray:
 def expect(values: np.ndarray, shape: tuple[int, ...], what: str) -> None:
     if values.shape != shape:
         raise InvalidError(f"{what} needs the shape {shape}, it has {values.shape}")
+
+
+def _write_report(
+    function: str,
+    fitted: Any,
+    mesh: Mesh,
+    path: str | os.PathLike,
+    progress: ProgressCallback | None,
+    report_options: dict[str, Any],
+) -> None:
+    long = LongCall(progress)
+    if fitted.report is not None and "tolerance" not in report_options:
+        report_options.update(tolerance=fitted.report.tolerance, tolerance_scale="absolute")
+        report_options.setdefault("remarks", fitted.report.remarks)
+    record = options("report_options", report_options, **long.fields("report_options"))
+    long(function, fitted, mesh, path_of(path), by_reference(record))
 
 
 def _write_step(function: str, shape: Handle, path: Any, progress: Any, given: dict[str, Any]) -> Report:
