@@ -13,9 +13,14 @@ use super::status::query;
 use super::tensor::planish_tolerance_scale;
 use crate::control::Control;
 use crate::fit::common::FitError;
-use crate::fit::field::transfer::{Balance, Carry, FarRule, Transfer, TransferOptions, TransferReport};
+use crate::fit::field::transfer::{
+    Balance, Carry, FarRule, Transfer, TransferError, TransferOptions, TransferReport,
+};
+use crate::fit::field::{FieldError, FieldOptions};
+use crate::fit::found_grid::SampleField;
 use crate::fit::model::field::ModelFieldFitter;
 use crate::fit::model::field::transfer::ModelTransfer;
+use crate::mesh::Mesh;
 use glam::DVec3;
 
 /// Carries values from the nodes of a source mesh to target points, and forces on these back to the nodes. Made by
@@ -154,6 +159,41 @@ impl From<&Balance> for planish_balance_report {
     }
 }
 
+/// Makes a transfer: `make_fitter` says how fields on the source are fitted, `make` makes the transfer of that.
+///
+/// # Safety
+/// The pointers are NULL or as the header says.
+unsafe fn make_transfer<F: Send, T: Carry + Send + 'static>(
+    (targets, count): (*const f64, usize),
+    source: &Mesh,
+    options: *const planish_transfer_options,
+    (out_transfer, out_report): (*mut *mut planish_transfer, *mut planish_transfer_report),
+    make_fitter: impl FnOnce(&FieldOptions, Option<SampleField>, &mut Control) -> Result<F, FieldError> + Send,
+    make: impl FnOnce(F, &[DVec3], &TransferOptions, &mut Control) -> Result<(T, TransferReport), TransferError>
+    + Send,
+) -> Result<planish_status, Failure> {
+    // SAFETY: the caller's promises.
+    unsafe {
+        let targets = copy_rows(targets, count, 3, "targets", DVec3::from_array)?;
+        let given = self::options(options)?;
+        let (out_transfer, report) = (out(out_transfer, "out_transfer")?, ReportOut::new(out_report)?);
+        let distance_scale = tolerance_scale(given.distance_scale, "distance_scale")?;
+        let far = choice(given.far_rule, &[FarRule::Refuse, FarRule::Keep], "far_rule")?;
+        let field: planish_field_options = self::options(given.field)?;
+        let (transfer, made) =
+            with_field_options(field, source.points().len(), |field, sample, control| {
+                let max_distance = given.max_distance;
+                let core = TransferOptions { field: *field, max_distance, distance_scale, far };
+                core.check(&targets)?;
+                let fitter = control.within(0.0, 0.5, |control| make_fitter(field, sample, control))?;
+                control.within(0.5, 1.0, |control| make(fitter, &targets, &core, control))
+            })??;
+        report.store((&made).into());
+        out_transfer.write(Box::into_raw(Box::new(planish_transfer(Box::new(transfer)))));
+        Ok(if made.far_count > 0 { planish_status::PointsOutside } else { planish_status::Ok })
+    }
+}
+
 /// Makes a transfer from the nodes of a mesh to points near it. The points of the mesh are fitted by a surface over its
 /// parameters or, if it has none, over those it is given here; each target is projected onto that once, inside the
 /// mesh's boundary. It keeps what it needs; mesh and points may go.
@@ -181,26 +221,16 @@ pub unsafe extern "C" fn planish_transfer_new(
     // SAFETY: the caller's promises.
     guard(|| unsafe {
         let source = &deref(source, "source")?.0;
-        let targets = copy_rows(targets, count, 3, "targets", DVec3::from_array)?;
-        let given = self::options(options)?;
-        let (out_transfer, report) = (out(out_transfer, "out_transfer")?, ReportOut::new(out_report)?);
-        let distance_scale = tolerance_scale(given.distance_scale, "distance_scale")?;
-        let far = choice(given.far_rule, &[FarRule::Refuse, FarRule::Keep], "far_rule")?;
-        let field: planish_field_options = self::options(given.field)?;
-        let (transfer, made) =
-            with_field_options(field, source.points().len(), |field, sample, control| {
-                let (field, max_distance) = (*field, given.max_distance);
-                let core = TransferOptions { field, max_distance, distance_scale, far };
-                core.check(&targets)?;
-                let make = |control: &mut Control| fitter_on_mesh(source, &field, sample, control);
-                let fitter = control.within(0.0, 0.5, make)?;
-                let make =
-                    |control: &mut Control| Transfer::with_fitter(fitter, source, &targets, &core, control);
-                control.within(0.5, 1.0, make)
-            })??;
-        report.store((&made).into());
-        out_transfer.write(Box::into_raw(Box::new(planish_transfer(Box::new(transfer)))));
-        Ok(if made.far_count > 0 { planish_status::PointsOutside } else { planish_status::Ok })
+        make_transfer(
+            (targets, count),
+            source,
+            options,
+            (out_transfer, out_report),
+            |field, sample, control| fitter_on_mesh(source, field, sample, control),
+            |fitter, targets, options, control| {
+                Transfer::with_fitter(fitter, source, targets, options, control)
+            },
+        )
     })
 }
 
@@ -234,28 +264,16 @@ pub unsafe extern "C" fn planish_transfer_new_model(
     guard(|| unsafe {
         let model = deref(model, "model")?.core()?;
         let source = &deref(source, "source")?.0;
-        let targets = copy_rows(targets, count, 3, "targets", DVec3::from_array)?;
-        let given = self::options(options)?;
-        let (out_transfer, report) = (out(out_transfer, "out_transfer")?, ReportOut::new(out_report)?);
-        let distance_scale = tolerance_scale(given.distance_scale, "distance_scale")?;
-        let far = choice(given.far_rule, &[FarRule::Refuse, FarRule::Keep], "far_rule")?;
-        let field: planish_field_options = self::options(given.field)?;
-        let (transfer, made) =
-            with_field_options(field, source.points().len(), |field, sample, control| {
-                let (field, max_distance) = (*field, given.max_distance);
-                let core = TransferOptions { field, max_distance, distance_scale, far };
-                core.check(&targets)?;
-                let make =
-                    |control: &mut Control| ModelFieldFitter::new(model, source, &field, sample, control);
-                let fitter = control.within(0.0, 0.5, make)?;
-                let make = |control: &mut Control| {
-                    ModelTransfer::with_fitter(fitter, source, &targets, &core, control)
-                };
-                control.within(0.5, 1.0, make)
-            })??;
-        report.store((&made).into());
-        out_transfer.write(Box::into_raw(Box::new(planish_transfer(Box::new(transfer)))));
-        Ok(if made.far_count > 0 { planish_status::PointsOutside } else { planish_status::Ok })
+        make_transfer(
+            (targets, count),
+            source,
+            options,
+            (out_transfer, out_report),
+            |field, sample, control| ModelFieldFitter::new(model, source, field, sample, control),
+            |fitter, targets, options, control| {
+                ModelTransfer::with_fitter(fitter, source, targets, options, control)
+            },
+        )
     })
 }
 

@@ -490,7 +490,7 @@ fn table(arguments: &FitArguments, mesh: &Mesh, repairs: &MeshRepairs, report: &
     table.row("seconds", format!("{map:.2} map, {:.2} fit, {} passes", all - map, report.passes));
     table.row("result", verdict(report.remarks, report.stop));
     for remark in remarks(report.remarks) {
-        table.row("remark", remark.to_owned());
+        table.row("remark", remark);
     }
     for path in written(arguments) {
         table.row("written", path);
@@ -527,29 +527,12 @@ pub fn verdict(remarks: Remarks, stop: StopReason) -> String {
     }
 }
 
-pub fn remarks(remarks: Remarks) -> impl Iterator<Item = &'static str> {
-    [
-        (Remarks::FOLDED_PARAMETERS, "the map folds: the surface may overlap itself"),
-        (Remarks::PARAMETERIZED, "the mesh had no parameters and was parameterized"),
-        (Remarks::REGULARIZED, "the given parameters were uneven and have been regularized"),
-        (Remarks::TOLERANCE_RAISED, "the tolerance was below rounding and has been raised"),
-        (Remarks::EMPTY_CELLS, "some cells inside the boundary hold no nodes"),
-        (
-            Remarks::ROUGH_BETWEEN_NODES,
-            "between the nodes the surface leaves the facets by more than the tolerance: at sharp edges, which models \
-             and --family d1rc keep from their --sharp-angle on, or where it swings, which more --smoothing prevents",
-        ),
-        (Remarks::SEGMENTATION_ADVISED, "the map is very compressed: cut the mesh into several charts"),
-        (
-            Remarks::SELF_INTERSECTING,
-            "triangles of the mesh or of the model cross: repair the mesh there, or tighten the tolerance, below half of \
-             the thinnest wall at least",
-        ),
-        (Remarks::PLATE_ENERGY_USED, "the plate energy was used: the beam energy leaves the data free"),
-    ]
-    .into_iter()
-    .filter(move |(remark, _)| remarks.has(*remark))
-    .map(|(_, sentence)| sentence)
+/// What is worth knowing beside the verdict.
+pub fn remarks(remarks: Remarks) -> Vec<String> {
+    let mut rest = remarks;
+    rest.remove(Remarks::TOLERANCE_NOT_MET);
+    rest.remove(Remarks::STAGNATED);
+    rest.words().map(|words| format!("{}: {}", words.what, words.advice)).collect()
 }
 
 fn json_report(
@@ -588,7 +571,7 @@ fn json_report(
         "flipped_count": report.flipped_count,
         "parameterize_seconds": report.parameterize_seconds,
         "seconds": report.seconds,
-        "remarks": remarks(report.remarks).collect::<Vec<_>>(),
+        "remarks": remarks(report.remarks),
         "repaired": output::repairs(repairs),
         "written": written(arguments),
     })

@@ -185,7 +185,7 @@ fn table(arguments: &FitArguments, mesh: &Mesh, repairs: &MeshRepairs, fit: &Mod
     table.row("seconds", format!("{map:.2} map, {:.2} fit, {:.2} in all", report.fit_seconds, fit.seconds));
     table.row("result", crate::fit::verdict(report.remarks, report.stop));
     for remark in crate::fit::remarks(report.remarks) {
-        table.row("remark", remark.to_owned());
+        table.row("remark", remark);
     }
     for path in crate::fit::written(arguments) {
         table.row("written", path);
@@ -247,7 +247,7 @@ fn json_report(
         "seconds": fit.seconds,
         "mesh_crossings": report.mesh_crossings,
         "crossings": report.crossings,
-        "remarks": crate::fit::remarks(report.remarks).collect::<Vec<_>>(),
+        "remarks": crate::fit::remarks(report.remarks),
         "repaired": output::repairs(repairs),
         "written": crate::fit::written(arguments),
     })

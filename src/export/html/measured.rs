@@ -223,45 +223,11 @@ fn facts(surface: &dyn Surface) -> [(String, String); 2] {
 
 /// What each remark means, and what to do about it.
 fn words(remarks: Remarks) -> Vec<(String, String)> {
-    const WORDS: [(Remarks, &str, &str); 9] = [
-        (
-            Remarks::TOLERANCE_NOT_MET,
-            "The tolerance is missed.",
-            "Allow more control points, take another family, or loosen it if the worst place is noise.",
-        ),
-        (
-            Remarks::STAGNATED,
-            "Refining no longer helped.",
-            "The data contradict each other at this scale: noise, a sharp edge, or doubled layers.",
-        ),
-        (
-            Remarks::ROUGH_BETWEEN_NODES,
-            "Between the nodes the surface departs from the facets.",
-            "Loosen the tolerance, smooth more, or take a family that keeps sharp edges.",
-        ),
-        (
-            Remarks::FOLDED_PARAMETERS,
-            "The map folds, and the surface may.",
-            "Let the library make the parameters, or fit a model of several patches.",
-        ),
-        (
-            Remarks::SEGMENTATION_ADVISED,
-            "One chart stretches this shape too much.",
-            "Fit a model of several patches.",
-        ),
-        (
-            Remarks::SELF_INTERSECTING,
-            "Triangles of the mesh or of the model cross each other.",
-            "Repair the mesh there, or tighten the tolerance below half of the thinnest wall.",
-        ),
-        (Remarks::EMPTY_CELLS, "Some cells inside the border hold no nodes.", "Fill holes of the mesh."),
-        (
-            Remarks::TOLERANCE_RAISED,
-            "The tolerance was below rounding and was raised.",
-            "Ask for a looser one.",
-        ),
-        (Remarks::REGULARIZED, "Uneven parameters were evened out.", "Nothing needs to be done."),
-    ];
-    let held = WORDS.iter().filter(|(remark, ..)| remarks.has(*remark));
-    held.map(|(_, what, advice)| ((*what).to_owned(), (*advice).to_owned())).collect()
+    remarks.words().map(|words| (sentence(words.what), sentence(words.advice))).collect()
+}
+
+/// Words with a capital and a stop.
+fn sentence(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or(String::new(), |first| format!("{}{}.", first.to_uppercase(), letters.as_str()))
 }

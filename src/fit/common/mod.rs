@@ -16,6 +16,7 @@ pub(in crate::fit) mod outliers;
 mod parameters;
 pub(in crate::fit) mod partial;
 mod plane;
+mod remarks;
 pub mod report;
 pub(in crate::fit) mod rounds;
 pub(in crate::fit) mod samples;

@@ -18,7 +18,7 @@ use crate::control::{Control, Pool};
 use crate::geometry::Bounds;
 use crate::lists::Lists;
 use crate::mesh::Mesh;
-use crate::surface::Surface;
+use crate::surface::{Region, Surface};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -64,8 +64,9 @@ pub(in crate::fit) trait Fitted {
     fn surface(&self) -> &dyn Surface;
     fn report(&self) -> &FitReport;
     fn parameters(&self) -> &[DVec2];
-    /// The report, and the error of each datum.
-    fn parts_mut(&mut self) -> (&mut FitReport, &mut [f64]);
+    fn region_mut(&mut self) -> &mut Region;
+    /// The report, and the parameters and the error of each datum.
+    fn parts_mut(&mut self) -> (&mut FitReport, &mut Vec<DVec2>, &mut Vec<f64>);
 }
 
 /// Fits without gross errors. `fit` is handed the values, with those of gross errors replaced by what their neighbours
@@ -117,7 +118,7 @@ pub(in crate::fit) fn fit_without<F: Fitted>(
         fitted = control.within(from, from + 0.25, |control| fit_all_but(&left_out, control))?;
     }
     let errors = missed(&fitted, cloud, &left_out);
-    let (report, each) = fitted.parts_mut();
+    let (report, _, each) = fitted.parts_mut();
     report.left_out = left_out.iter().map(|&datum| datum as u32).collect();
     left_out.iter().zip(errors).for_each(|(&datum, error)| each[datum] = error);
     Ok(fitted)

@@ -5,10 +5,14 @@
 
 use super::checks::{check_count, check_weights};
 use super::error::FitError;
+use super::outliers::Fitted;
+use super::parameters::{NodeParameters, trims};
 use super::report::FitReport;
+use crate::control::Control;
 use crate::geometry::Domain;
 use crate::mesh::Mesh;
 use glam::DVec2;
+use std::time::Instant;
 
 /// What a value means that is NaN.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -20,9 +24,47 @@ pub enum Missing {
     Skipped,
 }
 
+/// Fits values that some nodes of a mesh do not have, or triangles have, `rows` in all, as scattered ones over all of the
+/// mesh: `map` gives the nodes their parameters, `fit` fits what has a place over a box.
+pub(in crate::fit) fn fit_on_mesh<F: Fitted>(
+    mesh: &Mesh,
+    rows: usize,
+    control: &mut Control,
+    map: impl FnOnce(&mut Control) -> Result<NodeParameters, FitError>,
+    fit: impl FnOnce(&[Option<DVec2>], Domain, &mut Control) -> Result<F, FitError>,
+) -> Result<F, FitError> {
+    let start = Instant::now();
+    control.set_stage(0.0, 0.3);
+    let map = map(control)?;
+    let parameterize_seconds = start.elapsed().as_secs_f64();
+    control.set_stage(0.3, 1.0);
+    let places = places_of_values(mesh, &map.uv, rows);
+    let mut fitted = fit(&places, box_of_nodes(mesh, &map.uv), control)?;
+    let domain = fitted.surface().domain();
+    fitted.region_mut().trims = trims(Some(mesh), &map.uv, &domain);
+    let (report, ..) = fitted.parts_mut();
+    report.parameterize_seconds = parameterize_seconds;
+    report.remarks.0 |= map.remarks.0;
+    report.measure_map(mesh, &map.uv);
+    report.seconds = start.elapsed().as_secs_f64();
+    Ok(fitted)
+}
+
+/// Fits values that some points do not have over the box of all.
+pub(in crate::fit) fn fit_at_points<F: Fitted>(
+    uv: &[DVec2],
+    fit: impl FnOnce(&[Option<DVec2>], Domain) -> Result<F, FitError>,
+) -> Result<F, FitError> {
+    let start = Instant::now();
+    let places: Vec<Option<DVec2>> = uv.iter().copied().map(Some).collect();
+    let mut fitted = fit(&places, Domain::around(uv.iter().copied()))?;
+    fitted.parts_mut().0.seconds = start.elapsed().as_secs_f64();
+    Ok(fitted)
+}
+
 /// The parameters at which the values of a field on a mesh are: those of its nodes, or, where there are as many rows as
 /// triangles and not as nodes, those of the triangles' centroids. Nodes that no triangle needs have no place.
-pub(in crate::fit) fn places_of_values(mesh: &Mesh, uv: &[DVec2], rows: usize) -> Vec<Option<DVec2>> {
+fn places_of_values(mesh: &Mesh, uv: &[DVec2], rows: usize) -> Vec<Option<DVec2>> {
     if is_on_triangles(mesh, rows) {
         let middle = |nodes: &[u32; 3]| nodes.iter().map(|&node| uv[node as usize]).sum::<DVec2>() / 3.0;
         return mesh.triangles().iter().map(|nodes| Some(middle(nodes))).collect();
@@ -31,7 +73,7 @@ pub(in crate::fit) fn places_of_values(mesh: &Mesh, uv: &[DVec2], rows: usize) -
 }
 
 /// The box of the parameters of a mesh: its border lies beyond the middles of its triangles.
-pub(in crate::fit) fn box_of_nodes(mesh: &Mesh, uv: &[DVec2]) -> Domain {
+fn box_of_nodes(mesh: &Mesh, uv: &[DVec2]) -> Domain {
     Domain::around((0..).zip(uv).filter(|&(node, _)| mesh.is_used(node)).map(|(_, &uv)| uv))
 }
 
@@ -95,8 +137,15 @@ impl Partial {
         self.weights.as_deref()
     }
 
+    /// Fits these data and tells of all.
+    pub fn fit<F: Fitted>(self, fit: impl FnOnce(&Self) -> Result<F, FitError>) -> Result<F, FitError> {
+        let mut fitted = fit(&self).map_err(|error| self.told(error))?;
+        self.spread(fitted.parts_mut());
+        Ok(fitted)
+    }
+
     /// An error of the fit in the numbers of all data.
-    pub fn told(&self, mut error: FitError) -> FitError {
+    fn told(&self, mut error: FitError) -> FitError {
         if let FitError::ParametersNotFinite { index }
         | FitError::ValuesNotFinite { index }
         | FitError::Weight { index, .. } = &mut error
@@ -107,7 +156,7 @@ impl Partial {
     }
 
     /// Gives what the fit found to all data: one without a value has no error.
-    pub fn spread(self, report: &mut FitReport, parameters: &mut Vec<DVec2>, errors: &mut Vec<f64>) {
+    fn spread(self, (report, parameters, errors): (&mut FitReport, &mut Vec<DVec2>, &mut Vec<f64>)) {
         let mut all_uv = self.all_uv;
         let mut all_errors = vec![f64::NAN; all_uv.len()];
         for (place, &datum) in self.given.iter().enumerate() {

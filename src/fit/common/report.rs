@@ -3,6 +3,7 @@
 use super::Plane;
 use super::errors::DataErrors;
 use super::interior::InteriorErrors;
+pub use super::remarks::{RemarkWords, Remarks};
 use crate::geometry::Bounds;
 use crate::mesh::Mesh;
 use crate::parameterize::{folds, stretch};
@@ -84,63 +85,6 @@ pub enum StopReason {
     DataExhausted,
     /// Refinement no longer lowers the error.
     Stagnated,
-}
-
-/// Things worth knowing about a fit; several may hold.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Remarks(pub u64);
-
-impl Remarks {
-    /// The surface misses the tolerance.
-    pub const TOLERANCE_NOT_MET: Self = Self(1);
-    /// The fit ended because refinement no longer lowered the error.
-    pub const STAGNATED: Self = Self(1 << 1);
-    /// Some parameter triangles are reversed or flat: the surface may fold there.
-    pub const FOLDED_PARAMETERS: Self = Self(1 << 2);
-    /// The mesh had no parameters and was parameterized first.
-    pub const PARAMETERIZED: Self = Self(1 << 3);
-    /// Given parameters were uneven and have been regularized.
-    pub const REGULARIZED: Self = Self(1 << 4);
-    /// The tolerance was below what double precision can keep and was raised.
-    pub const TOLERANCE_RAISED: Self = Self(1 << 5);
-    /// Some cells hold no data; the surface is extrapolated there.
-    pub const EMPTY_CELLS: Self = Self(1 << 6);
-    /// Between the nodes the surface departs from the facets by more than the tolerance and what the facets explain.
-    pub const ROUGH_BETWEEN_NODES: Self = Self(1 << 7);
-    /// The map is so compressed that one patch is the wrong tool: cut the mesh into charts, or use a
-    /// PHT-spline.
-    pub const SEGMENTATION_ADVISED: Self = Self(1 << 8);
-    /// The data do not determine the beam energy's null space; the plate energy was used instead.
-    pub const PLATE_ENERGY_USED: Self = Self(1 << 9);
-
-    /// Triangles of the mesh or of the finished model cross each other.
-    pub const SELF_INTERSECTING: Self = Self(1 << 10);
-
-    /// Points that lay on the one before them in their row have been merged with it.
-    pub const MERGED_POINTS: Self = Self(1 << 20);
-    /// A row looks reversed or shifted against the one before it.
-    pub const TWISTED_ROWS: Self = Self(1 << 21);
-    /// Some rows are much nearer to one another than to the next: control curves overshoot.
-    pub const CLUSTERED_ROWS: Self = Self(1 << 22);
-    /// The end points of rows lie too near to those of the next to say how far apart rows are; mean distances do.
-    pub const MEAN_STEPS: Self = Self(1 << 23);
-
-    /// Adds `other` when `holds`.
-    pub fn add_if(&mut self, holds: bool, other: Self) {
-        if holds {
-            self.0 |= other.0;
-        }
-    }
-
-    /// Takes `other` out.
-    pub fn remove(&mut self, other: Self) {
-        self.0 &= !other.0;
-    }
-
-    /// Whether all bits of `other` hold.
-    pub fn has(self, other: Self) -> bool {
-        self.0 & other.0 == other.0
-    }
 }
 
 /// What a fit did and how good it is. Errors are in model units and measured on the finished surface.

@@ -26,17 +26,16 @@ pub use options::{Estimator, PhtOptions};
 use super::common::checks::{check_parameters, check_unused, check_values};
 use super::common::neighbours::triangles_between;
 use super::common::outliers::{self, Cloud};
-use super::common::partial::{box_of_nodes, is_on_triangles, is_partial, places_of_values};
+use super::common::partial::{self, is_on_triangles, is_partial};
 use super::common::report::{FitReport, Remarks};
 use super::common::{
     Demands, FitError, NodeParameters, Outliers, Partial, Symmetry, Used, node_parameters, prefer_plane,
-    trims,
 };
 use crate::control::Control;
 use crate::mesh::Mesh;
 use crate::parameterize::{Border, ParameterizeOptions};
 use crate::surface::pht::PhtSurface;
-use crate::surface::{Domain, Surface};
+use crate::surface::{Domain, Region, Surface};
 use data::Data;
 use glam::DVec2;
 use refine::Refinement;
@@ -69,8 +68,12 @@ impl outliers::Fitted for PhtFit {
         &self.parameters
     }
 
-    fn parts_mut(&mut self) -> (&mut FitReport, &mut [f64]) {
-        (&mut self.report, &mut self.errors)
+    fn region_mut(&mut self) -> &mut Region {
+        self.surface.region_mut()
+    }
+
+    fn parts_mut(&mut self) -> (&mut FitReport, &mut Vec<DVec2>, &mut Vec<f64>) {
+        (&mut self.report, &mut self.parameters, &mut self.errors)
     }
 }
 
@@ -90,7 +93,11 @@ pub fn fit_field(
     control: &mut Control,
 ) -> Result<PhtFit, FitError> {
     if dim > 0 && (is_partial(values, options.missing) || is_on_triangles(mesh, values.len() / dim)) {
-        return fit_partial_field(mesh, values, dim, options, control);
+        options.check()?;
+        let map = |control: &mut Control| map(mesh, options, control);
+        return partial::fit_on_mesh(mesh, values.len() / dim, control, map, |places, data_box, control| {
+            fit_partial(places, data_box, values, dim, options, control)
+        });
     }
     fit_on_mesh(mesh, values, dim, false, options, control)
 }
@@ -107,11 +114,9 @@ pub fn fit_points(
     options.check()?;
     check_unused(options.demands.symmetry == Symmetry::None, "symmetry", "the fit of points")?;
     if dim > 0 && is_partial(values, options.missing) {
-        let places: Vec<Option<DVec2>> = uv.iter().copied().map(Some).collect();
-        let data_box = Domain::around(uv.iter().copied());
-        let mut fit = fit_partial(&places, data_box, values, dim, options, control)?;
-        fit.report.seconds = start.elapsed().as_secs_f64();
-        return Ok(fit);
+        return partial::fit_at_points(uv, |places, data_box| {
+            fit_partial(places, data_box, values, dim, options, control)
+        });
     }
     check_values(uv.len(), values, dim, options.weights)?;
     options.demands.check(uv.len())?;
@@ -133,31 +138,6 @@ pub fn fit_points(
     Ok(fit)
 }
 
-/// Fits values that some nodes do not have, or triangles have, as scattered ones over all of the mesh.
-fn fit_partial_field(
-    mesh: &Mesh,
-    values: &[f64],
-    dim: usize,
-    options: &PhtOptions,
-    control: &mut Control,
-) -> Result<PhtFit, FitError> {
-    let start = Instant::now();
-    options.check()?;
-    control.set_stage(0.0, 0.3);
-    let map = map(mesh, options, control)?;
-    let parameterize_seconds = start.elapsed().as_secs_f64();
-    let places = places_of_values(mesh, &map.uv, values.len() / dim);
-    control.set_stage(0.3, 1.0);
-    let data_box = box_of_nodes(mesh, &map.uv);
-    let mut fit = fit_partial(&places, data_box, values, dim, options, control)?;
-    fit.surface.region_mut().trims = trims(Some(mesh), &map.uv, &fit.surface.domain());
-    fit.report.parameterize_seconds = parameterize_seconds;
-    fit.report.remarks.0 |= map.remarks.0;
-    fit.report.measure_map(mesh, &map.uv);
-    fit.report.seconds = start.elapsed().as_secs_f64();
-    Ok(fit)
-}
-
 /// Fits those values that there are, over the box of all.
 fn fit_partial(
     places: &[Option<DVec2>],
@@ -170,17 +150,14 @@ fn fit_partial(
     const BY: &str = "the fit of data without values at some places";
     check_unused(options.demands == Demands::default(), "what single data demand", BY)?;
     let partial = Partial::of(places, data_box, values, dim, options.weights, options.missing)?;
-    let options = PhtOptions { weights: partial.weights(), ..*options };
-    let fit = check_values(partial.uv.len(), &partial.values, dim, options.weights)
-        .and_then(|()| check_parameters(&partial.uv))
-        .and_then(|()| {
-            let mut data = Data::of_points(&partial.uv, &partial.values, dim, options.weights);
-            data.data_box = partial.data_box;
-            Refinement::new(data, &options)?.run(control)
-        });
-    let mut fit = fit.map_err(|error| partial.told(error))?;
-    partial.spread(&mut fit.report, &mut fit.parameters, &mut fit.errors);
-    Ok(fit)
+    partial.fit(|partial| {
+        let options = PhtOptions { weights: partial.weights(), ..*options };
+        check_values(partial.uv.len(), &partial.values, dim, options.weights)?;
+        check_parameters(&partial.uv)?;
+        let mut data = Data::of_points(&partial.uv, &partial.values, dim, options.weights);
+        data.data_box = partial.data_box;
+        Refinement::new(data, &options)?.run(control)
+    })
 }
 
 fn fit_on_mesh(

@@ -28,11 +28,11 @@ use super::common::checks::{check_parameters, check_unused, check_values};
 use super::common::errors::{DataErrors, data_errors};
 use super::common::neighbours::triangles_between;
 use super::common::outliers::{self, Cloud};
-use super::common::partial::{box_of_nodes, is_on_triangles, is_partial, places_of_values};
+use super::common::partial::{self, is_on_triangles, is_partial};
 use super::common::report::{FitReport, Goal};
 use super::common::uniform::normal_equations::TensorBasis;
 use super::common::{
-    Demands, FitError, Frame, Outliers, Partial, Standards, Symmetry, Used, node_parameters, trims,
+    Demands, FitError, Frame, Outliers, Partial, Standards, Symmetry, Used, node_parameters,
 };
 use crate::control::{Control, Pool};
 use crate::geometry::Bounds;
@@ -73,8 +73,12 @@ impl outliers::Fitted for TensorFit {
         &self.parameters
     }
 
-    fn parts_mut(&mut self) -> (&mut FitReport, &mut [f64]) {
-        (&mut self.report, &mut self.errors)
+    fn region_mut(&mut self) -> &mut Region {
+        self.surface.region_mut()
+    }
+
+    fn parts_mut(&mut self) -> (&mut FitReport, &mut Vec<DVec2>, &mut Vec<f64>) {
+        (&mut self.report, &mut self.parameters, &mut self.errors)
     }
 }
 
@@ -94,7 +98,12 @@ pub fn fit_field(
     control: &mut Control,
 ) -> Result<TensorFit, FitError> {
     if dim > 0 && (is_partial(values, options.missing) || is_on_triangles(mesh, values.len() / dim)) {
-        return fit_partial_field(mesh, values, dim, options, control);
+        options.check()?;
+        let map =
+            |control: &mut Control| node_parameters(mesh, &options.parameterize, options.regularize, control);
+        return partial::fit_on_mesh(mesh, values.len() / dim, control, map, |places, data_box, control| {
+            fit_partial(places, data_box, values, dim, options, control)
+        });
     }
     fit_on_mesh(mesh, values, dim, false, options, control)
 }
@@ -109,11 +118,9 @@ pub fn fit_points(
 ) -> Result<TensorFit, FitError> {
     let start = Instant::now();
     if dim > 0 && is_partial(values, options.missing) {
-        let places: Vec<Option<DVec2>> = uv.iter().copied().map(Some).collect();
-        let data_box = Domain::around(uv.iter().copied());
-        let mut fit = fit_partial(&places, data_box, values, dim, options, control)?;
-        fit.report.seconds = start.elapsed().as_secs_f64();
-        return Ok(fit);
+        return partial::fit_at_points(uv, |places, data_box| {
+            fit_partial(places, data_box, values, dim, options, control)
+        });
     }
     check(uv, values, dim, options)?;
     if options.demands.outliers != Outliers::None {
@@ -133,31 +140,6 @@ pub fn fit_points(
     Ok(fit)
 }
 
-/// Fits values that some nodes do not have, or triangles have, as scattered ones over all of the mesh.
-fn fit_partial_field(
-    mesh: &Mesh,
-    values: &[f64],
-    dim: usize,
-    options: &TensorOptions,
-    control: &mut Control,
-) -> Result<TensorFit, FitError> {
-    let start = Instant::now();
-    options.check()?;
-    control.set_stage(0.0, 0.3);
-    let map = node_parameters(mesh, &options.parameterize, options.regularize, control)?;
-    let parameterize_seconds = start.elapsed().as_secs_f64();
-    let places = places_of_values(mesh, &map.uv, values.len() / dim);
-    control.set_stage(0.3, 1.0);
-    let data_box = box_of_nodes(mesh, &map.uv);
-    let mut fit = fit_partial(&places, data_box, values, dim, options, control)?;
-    fit.surface.region_mut().trims = trims(Some(mesh), &map.uv, &fit.surface.domain());
-    fit.report.parameterize_seconds = parameterize_seconds;
-    fit.report.remarks.0 |= map.remarks.0;
-    fit.report.measure_map(mesh, &map.uv);
-    fit.report.seconds = start.elapsed().as_secs_f64();
-    Ok(fit)
-}
-
 /// Fits those values that there are, over the box of all.
 fn fit_partial(
     places: &[Option<DVec2>],
@@ -171,14 +153,12 @@ fn fit_partial(
     check_unused(options.demands == Demands::default(), "what single data demand", BY)?;
     check_unused(options.sides.are_free(), "sides", BY)?;
     let partial = Partial::of(places, data_box, values, dim, options.weights, options.missing)?;
-    let options = TensorOptions { weights: partial.weights(), ..*options };
-    let fit = check(&partial.uv, &partial.values, dim, &options).and_then(|()| {
+    partial.fit(|partial| {
+        let options = TensorOptions { weights: partial.weights(), ..*options };
+        check(&partial.uv, &partial.values, dim, &options)?;
         let problem = Problem::new(partial.uv.clone(), &partial.values, dim, None, &options)?;
         Problem { data_box: partial.data_box, ..problem }.fit_any(control)
-    });
-    let mut fit = fit.map_err(|error| partial.told(error))?;
-    partial.spread(&mut fit.report, &mut fit.parameters, &mut fit.errors);
-    Ok(fit)
+    })
 }
 
 fn fit_on_mesh(

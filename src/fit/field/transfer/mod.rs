@@ -21,8 +21,8 @@ pub use balance::{Balance, Carry};
 pub use error::TransferError;
 
 use super::right_side::{Data, RightSide, Scratch};
-use super::{FieldFitter, FieldOptions};
-use crate::control::{Control, Stage};
+use super::{FieldError, FieldFitter, FieldOptions};
+use crate::control::{Control, Pool, Stage};
 use crate::fit::common::FitError;
 use crate::fit::common::checks::check_rows;
 use crate::fit::common::report::{FitReport, ToleranceScale};
@@ -150,34 +150,30 @@ impl Transfer {
         options: &TransferOptions,
         control: &mut Control,
     ) -> Result<(Self, TransferReport), TransferError> {
-        let start = Instant::now();
-        options.check(targets)?;
-        let positions: Vec<f64> = source.points().iter().flat_map(|p| p.to_array()).collect();
-        let shape = fitter.fit(&positions, 3)?;
-        let shape_report = fitter.measure(&shape, &positions, 3)?.fit;
-        let limit = limit_of(options, &shape_report);
-        let (parameters, distances) = project(&shape, targets, control)?;
-        let far_count = check_targets(options, &distances, limit)?;
+        let shape = Shape::fit(source, targets, options, |positions| {
+            let surface = fitter.fit(positions, 3)?;
+            let report = fitter.measure(&surface, positions, 3)?.fit;
+            Ok((surface, report))
+        })?;
+        let projector = Projector::new(&shape.surface)?;
+        let mut parameters = Vec::new();
+        let distances = project_in_pieces(targets, control, |points, pool| {
+            let rows: Vec<f64> = points.iter().flat_map(|p| p.to_array()).collect_vec();
+            let nearest = projector.project(&rows, &ProjectOptions::default(), pool)?;
+            parameters.extend(nearest.uv);
+            Ok(nearest.distances)
+        })?;
+        let (surface, distances, report) = shape.report(options, distances)?;
         let at_targets = Data::plain(&parameters);
         let targets_side = RightSide::new(&fitter.basis, at_targets, &fitter.pool);
-        let summary = summarize(distances);
         let transfer = Self {
             fitter,
-            shape,
+            shape: surface,
             source_points: memory::copied(source.points()),
             target_points: memory::copied(targets),
             parameters,
-            distances: summary.each,
+            distances,
             targets: targets_side,
-        };
-        let report = TransferReport {
-            shape: shape_report,
-            max_distance: summary.max,
-            rms_distance: summary.rms,
-            farthest_index: summary.worst_index,
-            limit,
-            far_count,
-            seconds: start.elapsed().as_secs_f64(),
         };
         Ok((transfer, report))
     }
@@ -259,47 +255,76 @@ impl Carry for Transfer {
     }
 }
 
-/// The places inside the shape's trims nearest to the targets, and how far they are.
-fn project(
-    shape: &TensorSurface,
+/// The shape of the source that targets are projected onto: the fit of its points by the fitter of its fields.
+pub(in crate::fit) struct Shape<S> {
+    pub surface: S,
+    report: FitReport,
+    /// How far targets may lie from it, in model units.
+    limit: f64,
+    start: Instant,
+}
+
+impl<S> Shape<S> {
+    /// `fit` fits and measures the points of the source, rows of three numbers.
+    pub fn fit(
+        source: &Mesh,
+        targets: &[DVec3],
+        options: &TransferOptions,
+        fit: impl FnOnce(&[f64]) -> Result<(S, FitReport), FieldError>,
+    ) -> Result<Self, TransferError> {
+        let start = Instant::now();
+        options.check(targets)?;
+        let positions: Vec<f64> = source.points().iter().flat_map(|p| p.to_array()).collect_vec();
+        let (surface, report) = fit(&positions)?;
+        let limit = match options.distance_scale {
+            ToleranceScale::Relative => options.max_distance * report.diagonal,
+            ToleranceScale::Absolute => options.max_distance,
+        };
+        Ok(Self { surface, report, limit, start })
+    }
+
+    /// The surface, and what there is to say of the distances of the targets to it if they are allowed.
+    pub fn report(
+        self,
+        options: &TransferOptions,
+        distances: Vec<f64>,
+    ) -> Result<(S, Vec<f64>, TransferReport), TransferError> {
+        let Self { surface, report, limit, start } = self;
+        let is_far = |&distance: &f64| distance > limit;
+        if options.far == FarRule::Refuse
+            && let Some(index) = distances.iter().position(is_far)
+        {
+            return Err(TransferError::Far { index, distance: distances[index], limit });
+        }
+        let far_count = distances.iter().filter(|distance| is_far(distance)).count();
+        let summary = summarize(distances);
+        let report = TransferReport {
+            shape: report,
+            max_distance: summary.max,
+            rms_distance: summary.rms,
+            farthest_index: summary.worst_index,
+            limit,
+            far_count,
+            seconds: start.elapsed().as_secs_f64(),
+        };
+        Ok((surface, summary.each, report))
+    }
+}
+
+/// The distances of targets, of which `project` finds those of some at a time.
+pub(in crate::fit) fn project_in_pieces(
     targets: &[DVec3],
     control: &mut Control,
-) -> Result<(Vec<DVec2>, Vec<f64>), TransferError> {
+    mut project: impl FnMut(&[DVec3], &Pool) -> Result<Vec<f64>, TransferError>,
+) -> Result<Vec<f64>, TransferError> {
     control.enter(Stage::Project);
-    let projector = Projector::new(shape)?;
-    let (mut parameters, mut distances) = (Vec::new(), Vec::new());
+    let mut distances = Vec::new();
     for points in targets.chunks(PROJECTED_AT_ONCE) {
-        control.report(parameters.len() as f64 / targets.len() as f64, f64::NAN)?;
-        let rows: Vec<f64> = points.iter().flat_map(|p| p.to_array()).collect_vec();
-        let nearest = projector.project(&rows, &ProjectOptions::default(), control.pool())?;
-        parameters.extend(nearest.uv);
-        distances.extend(nearest.distances);
+        control.report(distances.len() as f64 / targets.len() as f64, f64::NAN)?;
+        distances.extend(project(points, control.pool())?);
     }
     control.report(1.0, f64::NAN)?;
-    Ok((parameters, distances))
-}
-
-/// The limit of distances in model units.
-pub(in crate::fit) fn limit_of(options: &TransferOptions, shape: &FitReport) -> f64 {
-    match options.distance_scale {
-        ToleranceScale::Relative => options.max_distance * shape.diagonal,
-        ToleranceScale::Absolute => options.max_distance,
-    }
-}
-
-/// How many targets lie beyond the limit, if that is allowed.
-pub(in crate::fit) fn check_targets(
-    options: &TransferOptions,
-    distances: &[f64],
-    limit: f64,
-) -> Result<usize, TransferError> {
-    let is_far = |&distance: &f64| distance > limit;
-    if options.far == FarRule::Refuse
-        && let Some(index) = distances.iter().position(is_far)
-    {
-        return Err(TransferError::Far { index, distance: distances[index], limit });
-    }
-    Ok(distances.iter().filter(|distance| is_far(distance)).count())
+    Ok(distances)
 }
 
 pub(in crate::fit) fn check_room(

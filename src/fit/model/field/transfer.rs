@@ -9,19 +9,18 @@
 
 use super::piece::Readings;
 use super::{ModelFieldFitter, check};
-use crate::control::{Control, Stage};
+use crate::control::Control;
 use crate::fit::common::FitError;
 use crate::fit::field::FieldError;
 use crate::fit::field::transfer::{
-    Carry, TransferError, TransferOptions, TransferReport, check_room, check_targets, limit_of,
+    Carry, Shape, TransferError, TransferOptions, TransferReport, check_room, project_in_pieces,
 };
 use crate::layout::Place;
 use crate::mesh::Mesh;
 use crate::model::{ModelProjector, Patchwork, of_patches};
 use crate::query::project::ProjectOptions;
-use crate::summary::{sum, summarize};
+use crate::summary::sum;
 use glam::DVec3;
-use std::time::Instant;
 
 /// Carries values from the nodes of the mesh of a model to any points near it, and forces back.
 #[derive(Debug)]
@@ -34,8 +33,6 @@ pub struct ModelTransfer {
     targets: Vec<(Vec<u32>, Readings)>,
 }
 
-/// Targets projected between two looks at the listener.
-const PROJECTED_AT_ONCE: usize = 1 << 14;
 /// By how much the levels of cells in one face of the shape may differ.
 const LEVEL_SPREAD: u32 = 1;
 
@@ -49,35 +46,31 @@ impl ModelTransfer {
         options: &TransferOptions,
         control: &mut Control,
     ) -> Result<(Self, TransferReport), TransferError> {
-        let start = Instant::now();
-        options.check(targets)?;
-        let positions: Vec<f64> = source.points().iter().flat_map(|p| p.to_array()).collect();
-        let shape = fitter.fit(&positions, 3)?;
-        let shape_report = fitter.measure(&shape, &positions, 3)?.fit;
-        let limit = limit_of(options, &shape_report);
+        let shape = Shape::fit(source, targets, options, |positions| {
+            let field = fitter.fit(positions, 3)?;
+            let report = fitter.measure(&field, positions, 3)?.fit;
+            Ok((field, report))
+        })?;
         let mut first = 0;
         let patchworks: Vec<Patchwork> = fitter
             .pieces
             .iter()
             .map(|piece| {
-                let surfaces = &shape.patches()[first..first + piece.meshes.len()];
+                let surfaces = &shape.surface.patches()[first..first + piece.meshes.len()];
                 first += surfaces.len();
                 Patchwork { layout: &piece.layout, surfaces, planes: None, void_in: None }
             })
             .collect();
         let stitched = of_patches(&patchworks, LEVEL_SPREAD).map_err(FieldError::from)?;
         let patch_of_face = stitched.patch_of_face();
-        control.enter(Stage::Project);
         let projector = ModelProjector::new(&stitched.model)?;
-        let (mut faces, mut uv, mut distances) = (Vec::new(), Vec::new(), Vec::new());
-        for points in targets.chunks(PROJECTED_AT_ONCE) {
-            control.report(distances.len() as f64 / targets.len() as f64, f64::NAN)?;
-            let feet = projector.project(points, &ProjectOptions::default(), control.pool())?;
+        let (mut faces, mut uv) = (Vec::new(), Vec::new());
+        let distances = project_in_pieces(targets, control, |points, pool| {
+            let feet = projector.project(points, &ProjectOptions::default(), pool)?;
             faces.extend(feet.faces);
             uv.extend(feet.uv);
-            distances.extend(feet.distances);
-        }
-        let far_count = check_targets(options, &distances, limit)?;
+            Ok(feet.distances)
+        })?;
         let mut places = vec![(Vec::new(), Vec::new()); fitter.pieces.len()];
         for (target, (face, &uv)) in (0_u32..).zip(faces.iter().zip(&uv)) {
             let Some([piece, quad]) = face.and_then(|face| patch_of_face[face.index()]) else { continue };
@@ -89,23 +82,13 @@ impl ModelTransfer {
             Ok((numbers, piece.readings(places, &fitter.pool)?))
         };
         let at_targets: Result<Vec<_>, FieldError> = fitter.pieces.iter().zip(places).map(of_piece).collect();
-        control.report(1.0, f64::NAN)?;
-        let summary = summarize(distances);
-        let report = TransferReport {
-            shape: shape_report,
-            max_distance: summary.max,
-            rms_distance: summary.rms,
-            farthest_index: summary.worst_index,
-            limit,
-            far_count,
-            seconds: start.elapsed().as_secs_f64(),
-        };
+        let (_, distances, report) = shape.report(options, distances)?;
         let transfer = Self {
             targets: at_targets?,
             fitter,
             source_points: source.points().to_vec(),
             target_points: targets.to_vec(),
-            distances: summary.each,
+            distances,
         };
         Ok((transfer, report))
     }
