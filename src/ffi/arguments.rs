@@ -70,7 +70,7 @@ pub(super) enum ArgumentError {
 }
 
 impl ArgumentError {
-    pub fn status(&self) -> planish_status {
+    pub(super) fn status(&self) -> planish_status {
         match self {
             Self::Null { .. } => planish_status::NullPointer,
             Self::Overflow { .. } => planish_status::TooLarge,
@@ -88,7 +88,7 @@ impl ArgumentError {
         }
     }
 
-    pub fn index(&self) -> Option<usize> {
+    pub(super) fn index(&self) -> Option<usize> {
         match *self {
             Self::NoSuch { index, .. } | Self::NotUtf8 { byte: index, .. } => Some(index),
             _ => None,
@@ -494,7 +494,7 @@ impl<T: Record> ReportOut<T> {
     /// # Safety
     /// `at` is NULL or points to a record whose first field is its size in bytes, which nobody else uses
     /// until it is filled.
-    pub unsafe fn new(at: *mut T) -> Argument<Self> {
+    pub(super) unsafe fn new(at: *mut T) -> Argument<Self> {
         if at.is_null() {
             return Ok(Self { to: None });
         }
@@ -504,7 +504,7 @@ impl<T: Record> ReportOut<T> {
     }
 
     /// Fills the report as far as the caller's size goes.
-    pub fn store(self, report: T) {
+    pub(super) fn store(self, report: T) {
         if let Some((at, size)) = self.to {
             // SAFETY: the promise made to `new`.
             unsafe { write_record(report, at, size) }

@@ -32,7 +32,7 @@ pub(super) struct GivenDemands {
 impl GivenDemands {
     /// # Safety
     /// The pointers are NULL or as the header says, for `count` data, until the demands are no longer used.
-    pub unsafe fn to_core<'a>(self, count: usize) -> Result<Demands<'a>, ArgumentError> {
+    pub(super) unsafe fn to_core<'a>(self, count: usize) -> Result<Demands<'a>, ArgumentError> {
         let tolerances = match self.tolerances {
             at if at.is_null() => None,
             // SAFETY: the caller's promise.

@@ -256,7 +256,7 @@ impl MeshOutputs<'_> {
 
     /// # Safety
     /// The outputs are NULL or as the header says.
-    pub unsafe fn of_file(
+    pub(super) unsafe fn of_file(
         mesh: *mut *mut planish_mesh,
         options: &planish_mesh_options,
     ) -> Result<Self, ArgumentError> {
@@ -267,7 +267,7 @@ impl MeshOutputs<'_> {
         unsafe { Self::new(mesh, options, 0) }
     }
 
-    pub fn store(self, mesh: Mesh, repairs: &MeshRepairs) -> planish_status {
+    pub(super) fn store(self, mesh: Mesh, repairs: &MeshRepairs) -> planish_status {
         if let Some(node_map) = self.node_map {
             match &repairs.node_map {
                 Some(map) => node_map.copy_from_slice(map),

@@ -232,7 +232,7 @@ pub(super) struct FitOutputs<'a, T> {
 impl<T> FitOutputs<'_, T> {
     /// # Safety
     /// Each is NULL or as the header says, for `count` data.
-    pub unsafe fn new(
+    pub(super) unsafe fn new(
         handle: (*mut *mut T, &'static str),
         report: *mut planish_fit_report,
         parameters: *mut f64,
@@ -256,7 +256,7 @@ impl<T> FitOutputs<'_, T> {
     ///
     /// # Safety
     /// It is NULL or as the header says, for `count` data.
-    pub unsafe fn and_left_out(self, left_out: *mut u8, count: usize) -> Result<Self, ArgumentError> {
+    pub(super) unsafe fn and_left_out(self, left_out: *mut u8, count: usize) -> Result<Self, ArgumentError> {
         // SAFETY: the caller's promise.
         Ok(Self { left_out: unsafe { slice_mut_or_none(left_out, count, "out_left_out") }?, ..self })
     }
@@ -265,13 +265,19 @@ impl<T> FitOutputs<'_, T> {
     ///
     /// # Safety
     /// It is NULL or points to six numbers.
-    pub unsafe fn and_plane(self, plane: *mut f64) -> Result<Self, ArgumentError> {
+    pub(super) unsafe fn and_plane(self, plane: *mut f64) -> Result<Self, ArgumentError> {
         // SAFETY: the caller's promise.
         Ok(Self { plane: unsafe { slice_mut_or_none(plane, 6, "out_plane") }?, ..self })
     }
 
     /// Hands everything over.
-    pub fn store(self, handle: *mut T, uv: &[DVec2], errors: &[f64], report: &FitReport) -> planish_status {
+    pub(super) fn store(
+        self,
+        handle: *mut T,
+        uv: &[DVec2],
+        errors: &[f64],
+        report: &FitReport,
+    ) -> planish_status {
         if let Some(out) = self.parameters {
             write_pairs(uv, out);
         }

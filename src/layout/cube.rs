@@ -36,7 +36,7 @@ impl CubeFace {
 }
 
 /// The six faces; a corner has the number 4, 2, 1 for positive x, y, z added up.
-pub fn layout() -> Layout {
+pub(super) fn layout() -> Layout {
     let number = |p: DVec3| 4 * u32::from(p.x > 0.0) + 2 * u32::from(p.y > 0.0) + u32::from(p.z > 0.0);
     let corners = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
     let quads = CUBE_FACES.map(|face| corners.map(|uv| number(face.point(uv))));

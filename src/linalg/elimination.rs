@@ -30,7 +30,7 @@ pub(super) struct Supernode {
 
 impl Supernode {
     /// Order of the dense front: pivots and rows below.
-    pub fn front_size(&self) -> usize {
+    pub(super) fn front_size(&self) -> usize {
         self.columns.len() + self.rows.len()
     }
 }
@@ -54,7 +54,7 @@ const NONE: u32 = u32::MAX;
 
 impl EliminationTree {
     /// Analyses elimination in (nearly) the given order; equivalent orders fill the same.
-    pub fn new(graph: &Graph, order: &[u32]) -> Self {
+    pub(super) fn new(graph: &Graph, order: &[u32]) -> Self {
         let (order, parents) = postordered(graph, order);
         let position = inverse(&order);
         let (blocks, rows) = fundamental_supernodes(graph, &order, &position, &parents);

@@ -20,11 +20,11 @@ pub(super) struct Graph {
 }
 
 impl Graph {
-    pub fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         self.starts.len() - 1
     }
 
-    pub fn neighbours(&self, node: usize) -> &[u32] {
+    pub(super) fn neighbours(&self, node: usize) -> &[u32] {
         &self.neighbours[self.starts[node] as usize..self.starts[node + 1] as usize]
     }
 

@@ -128,14 +128,18 @@ pub(super) struct Draft {
 
 impl Draft {
     /// From nodes and triangles whose nodes exist.
-    pub fn new(points: Vec<DVec3>, triangles: Vec<[u32; 3]>, repair: Repair) -> Result<Self, MeshError> {
+    pub(super) fn new(
+        points: Vec<DVec3>,
+        triangles: Vec<[u32; 3]>,
+        repair: Repair,
+    ) -> Result<Self, MeshError> {
         check_sizes(&points, &triangles)?;
         let (origins, repairs) = (Origins::default(), MeshRepairs::default());
         Ok(Self { points, triangles, origins, repairs, repair })
     }
 
     /// `weld`: the distance, 0 for equal coordinates; none for no welding.
-    pub fn into_mesh(
+    pub(super) fn into_mesh(
         mut self,
         weld: Option<f64>,
         components: Components,

@@ -22,7 +22,7 @@ pub(crate) struct Rings {
 
 impl Rings {
     /// Of a mesh without boundary and pinched nodes; nodes without triangles have an empty ring.
-    pub fn new(mesh: &Mesh) -> Self {
+    pub(crate) fn new(mesh: &Mesh) -> Self {
         Self {
             rings: (0..mesh.points().len() as u32)
                 .map(|node| mesh.neighbours(node).collect_vec())
@@ -31,24 +31,24 @@ impl Rings {
     }
 
     /// The neighbours of a node; of a collapsed one those it had, the node it went to first.
-    pub fn of(&self, node: u32) -> &[u32] {
+    pub(crate) fn of(&self, node: u32) -> &[u32] {
         &self.rings[node as usize]
     }
 
     /// Edges at a node.
-    pub fn valence(&self, node: u32) -> usize {
+    pub(crate) fn valence(&self, node: u32) -> usize {
         self.rings[node as usize].len()
     }
 
     /// Where `neighbour` stands in the ring of `node`.
-    pub fn position(&self, node: u32, neighbour: u32) -> usize {
+    pub(crate) fn position(&self, node: u32, neighbour: u32) -> usize {
         let place = self.of(node).iter().position(|&other| other == neighbour);
         place.expect("only asked for neighbours")
     }
 
     /// Moves `from` on to its neighbour `to`. The link condition must hold: the two have exactly two common neighbours,
     /// each of more than three edges.
-    pub fn collapse(&mut self, from: u32, to: u32) {
+    pub(crate) fn collapse(&mut self, from: u32, to: u32) {
         let first = self.position(from, to);
         let mut ring = std::mem::take(&mut self.rings[from as usize]);
         ring.rotate_left(first);
@@ -67,7 +67,7 @@ impl Rings {
     }
 
     /// Undoes the collapse of `node`, the latest that is not undone.
-    pub fn expand(&mut self, node: u32) {
+    pub(crate) fn expand(&mut self, node: u32) {
         let ring = std::mem::take(&mut self.rings[node as usize]);
         let (to, last) = (ring[0], ring.len() - 1);
         let after = self.position(to, ring[1]) + 1;
@@ -88,7 +88,7 @@ impl Rings {
 
     /// Nodes in classes whose nodes are not neighbours of one another. First fit: few classes, on planar graphs no more
     /// than in proportion to the logarithm of the nodes (S. Irani, "Coloring inductive graphs on-line", 1994).
-    pub fn coloured(&self, nodes: &[u32]) -> Vec<Vec<u32>> {
+    pub(crate) fn coloured(&self, nodes: &[u32]) -> Vec<Vec<u32>> {
         const NONE: u8 = u8::MAX;
         let mut colours = memory::filled(NONE, self.rings.len());
         let mut classes: Vec<Vec<u32>> = Vec::new();
@@ -115,12 +115,12 @@ pub(crate) struct RingMarks {
 }
 
 impl RingMarks {
-    pub fn new(node_count: usize) -> Self {
+    pub(crate) fn new(node_count: usize) -> Self {
         Self { marks: memory::filled(0, node_count), tick: 0 }
     }
 
     /// Marks these nodes, and no other.
-    pub fn mark(&mut self, ring: &[u32]) {
+    pub(crate) fn mark(&mut self, ring: &[u32]) {
         if self.tick == u32::MAX {
             self.marks.fill(0);
             self.tick = 0;
@@ -130,7 +130,7 @@ impl RingMarks {
     }
 
     /// How many of these nodes are marked.
-    pub fn count(&self, ring: &[u32]) -> usize {
+    pub(crate) fn count(&self, ring: &[u32]) -> usize {
         ring.iter().filter(|&&node| self.marks[node as usize] == self.tick).count()
     }
 }

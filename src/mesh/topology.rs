@@ -289,7 +289,7 @@ pub(super) struct Pairing {
 }
 
 impl Pairing {
-    pub fn new(triangles: &[[u32; 3]], node_count: usize) -> Self {
+    pub(super) fn new(triangles: &[[u32; 3]], node_count: usize) -> Self {
         // counting sort by the smaller node: entries of node i end at ends[i]
         let mut ends = memory::filled(0u32, node_count + 1);
         for &[a, b, c] in triangles {
@@ -344,7 +344,7 @@ impl Pairing {
 
     /// The corners, 3 * triangle + corner, at each of some nodes, in groups of triangles that hang together by edges of
     /// two triangles; without the first group of each node, which is that of the smallest corner.
-    pub fn further_groups(&self, triangles: &[[u32; 3]], nodes: &[u32]) -> Vec<(u32, Vec<usize>)> {
+    pub(super) fn further_groups(&self, triangles: &[[u32; 3]], nodes: &[u32]) -> Vec<(u32, Vec<usize>)> {
         let mut has_group = memory::filled(false, nodes.len());
         let mut seen = memory::filled(false, self.mates.len());
         let mut groups = Vec::new();

@@ -89,7 +89,7 @@ pub(super) fn candidates(
 
 impl BorderLine {
     /// Writes the loop's (u,v); a kept border is there already.
-    pub fn place(&self, uv: &mut [DVec2]) {
+    pub(super) fn place(&self, uv: &mut [DVec2]) {
         match (self.kind, self.corners) {
             (Border::Kept, _) => {}
             (_, Some(corners)) => self.place_square(corners, uv),
@@ -122,7 +122,7 @@ impl BorderLine {
     }
 
     /// Lets the spacing follow the stretch `s` of the nodes (section 3, "sliding the border").
-    pub fn slid(&self, s: &[f64], eta: f64) -> Self {
+    pub(super) fn slid(&self, s: &[f64], eta: f64) -> Self {
         let mut line = self.clone();
         if self.slide > 0.0 {
             for (length, (a, b)) in line.lengths.iter_mut().zip(patch::edges(&self.nodes)) {

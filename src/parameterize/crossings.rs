@@ -18,7 +18,7 @@ pub(super) fn boundary_crosses(mesh: &Mesh, uv: &[DVec2]) -> bool {
 
 /// The nodes at the ends of pieces of the boundary that meet others elsewhere than at a common node; some several
 /// times.
-pub fn crossing_nodes(mesh: &Mesh, uv: &[DVec2]) -> Vec<u32> {
+pub(crate) fn crossing_nodes(mesh: &Mesh, uv: &[DVec2]) -> Vec<u32> {
     let mut nodes = Vec::new();
     let _ = visit_meetings(mesh, uv, |first, second| {
         memory::extend(&mut nodes, first);

@@ -45,7 +45,7 @@ pub(crate) struct Shape {
 
 impl Shape {
     /// `area_scale`: area of the image of all by area in space of all.
-    pub fn new([p, q, r]: [DVec3; 3], area_scale: f64) -> Self {
+    pub(crate) fn new([p, q, r]: [DVec3; 3], area_scale: f64) -> Self {
         let (pq, pr, qr) = (q - p, r - p, r - q);
         let longest_sq = pq.length_squared().max(pr.length_squared()).max(qr.length_squared());
         let double_area = pq.cross(pr).length();
@@ -56,7 +56,7 @@ impl Shape {
     }
 
     /// E of the triangle, infinite if its image is turned over.
-    pub fn energy(&self, [x, a, b]: [DVec3; 3]) -> f64 {
+    pub(crate) fn energy(&self, [x, a, b]: [DVec3; 3]) -> f64 {
         Image::new(self, a, b).energy(x)
     }
 }
@@ -129,32 +129,32 @@ pub(crate) struct Star {
 }
 
 impl Star {
-    pub fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.triangles.clear();
     }
 
     /// A triangle whose first corner is the node; `a` and `b` are the images of the others.
-    pub fn push(&mut self, shape: &Shape, a: DVec3, b: DVec3) {
+    pub(crate) fn push(&mut self, shape: &Shape, a: DVec3, b: DVec3) {
         memory::push(&mut self.triangles, Image::new(shape, a, b));
     }
 
     /// E with the node at `x`.
-    pub fn energy(&self, x: DVec3) -> f64 {
+    pub(crate) fn energy(&self, x: DVec3) -> f64 {
         self.triangles.iter().map(|triangle| triangle.energy(x)).sum()
     }
 
     /// The least det of the triangles.
-    pub fn least_det(&self, x: DVec3) -> f64 {
+    pub(crate) fn least_det(&self, x: DVec3) -> f64 {
         self.triangles.iter().map(|triangle| x.dot(triangle.normal)).fold(f64::INFINITY, f64::min)
     }
 
     /// The images around the node.
-    pub fn corners(&self) -> impl Iterator<Item = DVec3> + '_ {
+    pub(crate) fn corners(&self) -> impl Iterator<Item = DVec3> + '_ {
         self.triangles.iter().map(|triangle| triangle.a)
     }
 
     /// One guarded Newton step from `x`: a place that `accepts` takes and that has less energy; none if there is none.
-    pub fn step(&self, x: DVec3, target: Target, accepts: impl Fn(DVec3) -> bool) -> Option<DVec3> {
+    pub(crate) fn step(&self, x: DVec3, target: Target, accepts: impl Fn(DVec3) -> bool) -> Option<DVec3> {
         let before = self.energy(x);
         let directions = target.directions(x);
         let along = |step: DVec2| target.moved(x, step.x * directions[0] + step.y * directions[1]);

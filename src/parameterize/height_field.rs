@@ -11,7 +11,7 @@ use crate::mesh::Mesh;
 use glam::{DVec2, DVec3};
 
 /// A triangle that is steeper over the plane keeps too little of its area there: 84 degrees.
-pub const LEAST_COSINE: f64 = 0.1;
+pub(super) const LEAST_COSINE: f64 = 0.1;
 /// The same where what a fit costs decides: 89.4 degrees. What is steeper stands upright but for rounding of its places.
 const LEAST_COSINE_OF_CANDIDATES: f64 = 0.01;
 /// The middle of the cap is found to a few hundredths of its radius, near enough for a choice of a plane.
@@ -21,7 +21,7 @@ const SAME: f64 = 1e-9;
 
 /// The nodes in the plane across the best direction, turned and scaled as an unrolled map is; None if the mesh is no
 /// height field over it: a triangle is too steep or turned over, or the border covers itself.
-pub fn flatten(mesh: &Mesh, least_cosine: f64) -> Option<Vec<DVec2>> {
+pub(super) fn flatten(mesh: &Mesh, least_cosine: f64) -> Option<Vec<DVec2>> {
     let direction = best_direction(mesh)?;
     let is_steep = |t: &[u32; 3]| {
         let area = area_vector(mesh, t);

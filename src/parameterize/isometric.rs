@@ -30,7 +30,7 @@ const LEAST_AREA: f64 = 1e-12;
 
 /// A length-keeping map of the mesh, started from `start`; None if it folds or overlaps itself. It is turned so
 /// that its smallest bounding rectangle is upright, and lies in the unit square.
-pub fn unroll(mesh: &Mesh, start: &[DVec2], pool: &Pool) -> Option<Vec<DVec2>> {
+pub(super) fn unroll(mesh: &Mesh, start: &[DVec2], pool: &Pool) -> Option<Vec<DVec2>> {
     let sheet = Sheet::new(mesh);
     let matrix = sheet.laplacian(mesh);
     let symbolic = SymbolicCholesky::new(&matrix.view(), None);

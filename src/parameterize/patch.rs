@@ -27,21 +27,21 @@ impl Neighbours {
         Self(lists)
     }
 
-    pub fn slots(&self, node: usize) -> std::ops::Range<usize> {
+    pub(super) fn slots(&self, node: usize) -> std::ops::Range<usize> {
         self.0.range(node)
     }
 
-    pub fn of(&self, node: usize) -> &[u32] {
+    pub(super) fn of(&self, node: usize) -> &[u32] {
         self.0.of(node)
     }
 
     /// The neighbour in each slot.
-    pub fn nodes(&self) -> &[u32] {
+    pub(super) fn nodes(&self) -> &[u32] {
         self.0.items()
     }
 
     /// The slot of `to` in the list of `from`; they are neighbours.
-    pub fn slot(&self, from: u32, to: u32) -> usize {
+    pub(super) fn slot(&self, from: u32, to: u32) -> usize {
         let list = self.of(from as usize);
         let place = match list.len() {
             0..=16 => list.iter().position(|&node| node == to).unwrap_or(0),
@@ -80,7 +80,7 @@ pub(super) enum Holes {
 }
 
 impl Patch {
-    pub fn new(mesh: &Mesh, holes: Holes) -> Self {
+    pub(super) fn new(mesh: &Mesh, holes: Holes) -> Self {
         let (mut points, mut triangles) = (memory::copied(mesh.points()), memory::copied(mesh.triangles()));
         let loops = mesh.loops();
         let outer = outer_loop(mesh);
@@ -118,12 +118,12 @@ impl Patch {
         }
     }
 
-    pub fn is_fixed(&self, node: u32) -> bool {
+    pub(super) fn is_fixed(&self, node: u32) -> bool {
         self.unknown[node as usize] == FIXED
     }
 
     /// Whether a map can change the triangle's shape.
-    pub fn is_movable(&self, triangle: &[u32; 3]) -> bool {
+    pub(super) fn is_movable(&self, triangle: &[u32; 3]) -> bool {
         !triangle.iter().all(|&node| self.is_fixed(node))
     }
 }

@@ -43,7 +43,7 @@ pub(super) struct TriangleStretch {
 }
 
 impl TriangleStretch {
-    pub fn new(p: [DVec3; 3], q: [DVec2; 3]) -> Self {
+    pub(super) fn new(p: [DVec3; 3], q: [DVec2; 3]) -> Self {
         let (e1, e2) = (p[1] - p[0], p[2] - p[0]);
         let (d1, d2) = (q[1] - q[0], q[2] - q[0]);
         let (area, parameter_area) = (e1.cross(e2).length() / 2.0, d1.perp_dot(d2) / 2.0);
@@ -129,7 +129,7 @@ pub(super) struct PatchStretch {
 
 impl PatchStretch {
     /// `node_weights`: b of section 5; E is weighted by b^2.
-    pub fn new(patch: &Patch, uv: &[DVec2], node_weights: Option<&[f64]>, control: &Control) -> Self {
+    pub(super) fn new(patch: &Patch, uv: &[DVec2], node_weights: Option<&[f64]>, control: &Control) -> Self {
         let part = |triangle| triangle_stretch(&patch.points, uv, triangle);
         let parts: Vec<TriangleStretch> = control.run(|| patch.triangles.par_iter().map(part).collect_vec());
         let weight_sq = |triangle: &[u32; 3]| match node_weights {
@@ -151,7 +151,7 @@ impl PatchStretch {
     }
 
     /// The stretch of each node over its geometric mean, smoothed by `rings` sweeps.
-    pub fn of_nodes(&self, patch: &Patch, node_weights: Option<&[f64]>, rings: usize) -> Vec<f64> {
+    pub(super) fn of_nodes(&self, patch: &Patch, node_weights: Option<&[f64]>, rings: usize) -> Vec<f64> {
         let movable =
             patch.triangles.iter().zip(&self.parts).filter(|(triangle, _)| patch.is_movable(triangle));
         let floor = area_floor(movable.clone().map(|(_, part)| part));

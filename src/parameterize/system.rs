@@ -31,7 +31,11 @@ pub(super) struct MapSystem<'p> {
 
 impl<'p> MapSystem<'p> {
     /// Analyses the pattern and factors with the first weights.
-    pub fn new(patch: &'p Patch, weights: Vec<f64>, control: &Control) -> Result<Self, ParameterizeError> {
+    pub(super) fn new(
+        patch: &'p Patch,
+        weights: Vec<f64>,
+        control: &Control,
+    ) -> Result<Self, ParameterizeError> {
         let (mut matrix, slots) = pattern(patch);
         fill(&mut matrix, &slots, &weights);
         let (symbolic, numeric) = control
@@ -45,12 +49,16 @@ impl<'p> MapSystem<'p> {
     }
 
     /// The patch whose system this is.
-    pub fn patch(&self) -> &'p Patch {
+    pub(super) fn patch(&self) -> &'p Patch {
         self.patch
     }
 
     /// Factors with other weights; none is spared, callers change all of them.
-    pub fn set_weights(&mut self, weights: Vec<f64>, control: &Control) -> Result<(), ParameterizeError> {
+    pub(super) fn set_weights(
+        &mut self,
+        weights: Vec<f64>,
+        control: &Control,
+    ) -> Result<(), ParameterizeError> {
         let Self { matrix, symbolic, numeric, .. } = self;
         fill(matrix, &self.slots, &weights);
         control
@@ -62,7 +70,7 @@ impl<'p> MapSystem<'p> {
     }
 
     /// The map with the present weights; `uv` has the fixed nodes and receives the others.
-    pub fn solve(&self, uv: &mut [DVec2], control: &Control) {
+    pub(super) fn solve(&self, uv: &mut [DVec2], control: &Control) {
         let mut rhs = memory::filled([0.0; 2], self.patch.nodes.len());
         for (sum, &node) in rhs.iter_mut().zip(&self.patch.nodes) {
             for slot in self.patch.neighbours.slots(node as usize) {

@@ -14,7 +14,7 @@ use pulp::Simd;
 
 /// Basis functions of one span.
 #[derive(Debug, Clone)]
-pub struct CubicSpan {
+pub(crate) struct CubicSpan {
     /// Row `m` has the coefficients of `x^m`.
     pub coefficients: [[f64; 4]; 4],
     pub start: f64,
@@ -24,7 +24,7 @@ pub struct CubicSpan {
 }
 
 impl CubicSpan {
-    pub fn new(knots: &KnotVector, span: usize) -> Self {
+    pub(crate) fn new(knots: &KnotVector, span: usize) -> Self {
         let (t, e) = (knots.knots(), extraction(knots, span));
         let ordinate = |j: usize, r: usize| e[4 * j + r];
         let mut coefficients = [[0.0; 4]; 4];
@@ -39,12 +39,12 @@ impl CubicSpan {
     }
 
     /// All spans of positive length, in their order.
-    pub fn all(knots: &KnotVector) -> Vec<Self> {
+    pub(crate) fn all(knots: &KnotVector) -> Vec<Self> {
         knots.spans().map(|k| Self::new(knots, k)).collect_vec()
     }
 
     #[inline(always)]
-    pub fn basis<S: Simd>(&self, u: f64) -> [f64; 4] {
+    pub(crate) fn basis<S: Simd>(&self, u: f64) -> [f64; 4] {
         let x = (u - self.start) * self.inverse_length;
         let [c0, c1, c2, c3] = &self.coefficients;
         let mut n = [0.0; 4];
@@ -55,7 +55,7 @@ impl CubicSpan {
     }
 
     #[inline(always)]
-    pub fn slopes<S: Simd>(&self, u: f64) -> [f64; 4] {
+    pub(crate) fn slopes<S: Simd>(&self, u: f64) -> [f64; 4] {
         let x = (u - self.start) * self.inverse_length;
         let [_, c1, c2, c3] = &self.coefficients;
         let mut n = [0.0; 4];

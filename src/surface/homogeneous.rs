@@ -1,7 +1,7 @@
 //! Derivatives of rational surfaces from those of their homogeneous form.
 
 /// From derivatives of (w S, w) to those of S: Leibniz' rule solved for the highest derivative of S.
-pub fn divide(homogeneous: &[f64], dim: usize, max_derivative: usize, out: &mut [f64]) {
+pub(super) fn divide(homogeneous: &[f64], dim: usize, max_derivative: usize, out: &mut [f64]) {
     let width = dim + 1;
     let h = |row: usize, k: usize| homogeneous[row * width + k];
     let weight = |row: usize| h(row, dim);

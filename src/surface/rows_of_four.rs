@@ -6,7 +6,7 @@ use pulp::Simd;
 
 /// Four control points along v out of four lines of them.
 #[inline(always)]
-pub fn combine<S: Simd>(lines: [&[f64]; 4], n: [f64; 4]) -> [f64; 12] {
+pub(super) fn combine<S: Simd>(lines: [&[f64]; 4], n: [f64; 4]) -> [f64; 12] {
     let mut sums = [0.0; 12];
     for k in 0..12 {
         sums[k] = n[0] * lines[0][k];
@@ -21,7 +21,7 @@ pub fn combine<S: Simd>(lines: [&[f64]; 4], n: [f64; 4]) -> [f64; 12] {
 
 /// One point out of four.
 #[inline(always)]
-pub fn contract<S: Simd>(line: &[f64; 12], n: [f64; 4]) -> [f64; 3] {
+pub(super) fn contract<S: Simd>(line: &[f64; 12], n: [f64; 4]) -> [f64; 3] {
     let mut point = [0.0; 3];
     for k in 0..3 {
         let low = fma::<S>(n[1], line[3 + k], n[0] * line[k]);

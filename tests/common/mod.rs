@@ -9,7 +9,7 @@ use std::path::PathBuf;
 /// A file of the data folder beside the checkout; None, and a line that says so, where it is absent. The line goes
 /// round libtest, which swallows what passing tests print, and into the file that `PLANISH_SKIPPED` names: the last
 /// lines of scripts/test tell how many tests were skipped in whole or in part.
-pub fn shared_data(name: &str) -> Option<PathBuf> {
+pub(crate) fn shared_data(name: &str) -> Option<PathBuf> {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/data").join(name);
     if path.exists() {
         return Some(path);
@@ -26,7 +26,7 @@ pub fn shared_data(name: &str) -> Option<PathBuf> {
 }
 
 /// A mesh by its name: one of the samples, which are always there, or a file of the data folder.
-pub fn mesh(name: &str) -> Option<Mesh> {
+pub(crate) fn mesh(name: &str) -> Option<Mesh> {
     let sample = match name {
         "bust" => samples::bust(1),
         "bracket" => samples::bracket(),

@@ -14,7 +14,7 @@ use planish::surface::{AnySurface, Label};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
-pub struct ConvertArguments {
+pub(crate) struct ConvertArguments {
     /// What was saved (.planish): a surface, model or curve; or a mesh file (OFF, OBJ, PLY, STL).
     file: PathBuf,
     /// Files to write, each in the format that its name ends in: .step or .stp, .vtu, .obj, .off, .ply, .stl, .glb, .planish.
@@ -40,7 +40,7 @@ enum Source {
     Mesh(Mesh),
 }
 
-pub fn run(arguments: &ConvertArguments, given: &Given) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &ConvertArguments, given: &Given) -> Result<Outcome, Failure> {
     output::check_names(&arguments.out)?;
     if output::is_step(&arguments.file) {
         return Err(Failure::new("STEP files are written, not read: convert what was saved as .planish"));

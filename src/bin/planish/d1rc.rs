@@ -13,7 +13,7 @@ use planish::surface::d1rc::{Boundary, D1rcMode, D1rcOptions, D1rcSurface, Sharp
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
-pub struct D1rcArguments {
+pub(crate) struct D1rcArguments {
     /// Control mesh file (OFF, OBJ, PLY, STL): a disk, possibly with holes. Its parameters are computed if it has none.
     mesh: PathBuf,
     /// Degree, 1 to 3.
@@ -66,7 +66,7 @@ enum SharpName {
     Additive,
 }
 
-pub fn run(arguments: &D1rcArguments, given: &Given) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &D1rcArguments, given: &Given) -> Result<Outcome, Failure> {
     output::check_names(&arguments.out)?;
     given.refuse("sharp", arguments.sharp_angle.is_some(), "is used with --sharp-angle only")?;
     let (mut mesh, repairs) = arguments.input.read(&arguments.mesh)?;

@@ -9,7 +9,7 @@ use planish::mesh::DecimateOptions;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
-pub struct DecimateArguments {
+pub(crate) struct DecimateArguments {
     /// Mesh file: OFF, OBJ, PLY or STL.
     mesh: PathBuf,
     /// Where to write the coarser mesh: .obj, .off, .ply or .stl.
@@ -27,7 +27,7 @@ pub struct DecimateArguments {
     input: MeshInput,
 }
 
-pub fn run(arguments: &DecimateArguments) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &DecimateArguments) -> Result<Outcome, Failure> {
     output::check_name(&arguments.out, output::MESHES)?;
     let (mut mesh, repairs) = arguments.input.read(&arguments.mesh)?;
     if arguments.ignore_parameters {

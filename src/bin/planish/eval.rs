@@ -10,7 +10,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
-pub struct EvalArguments {
+pub(crate) struct EvalArguments {
     /// Saved surface (.planish).
     surface: PathBuf,
     /// Text file with u and v in each line; - reads standard input.
@@ -28,7 +28,7 @@ pub struct EvalArguments {
     extrapolate: bool,
 }
 
-pub fn run(arguments: &EvalArguments) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &EvalArguments) -> Result<Outcome, Failure> {
     let surface = native::load_file(&arguments.surface)?;
     let surface = surface.as_surface();
     let uv = match (&arguments.uv, &arguments.grid) {

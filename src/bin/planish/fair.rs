@@ -14,7 +14,7 @@ use planish::query::project::{ProjectOptions, Projector};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
-pub struct FairArguments {
+pub(crate) struct FairArguments {
     /// Saved surface (.planish): a tensor surface or a PHT-spline.
     surface: PathBuf,
     /// How far the surface may come to lie from itself, or from the mesh, as a fraction of the diagonal.
@@ -57,7 +57,7 @@ enum BorderName {
     Tangent,
 }
 
-pub fn run(arguments: &FairArguments, given: &Given) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &FairArguments, given: &Given) -> Result<Outcome, Failure> {
     output::check_names(&arguments.out)?;
     let writes_step = arguments.out.iter().any(|path| output::is_step(path));
     for option in StepArguments::OPTIONS {

@@ -23,7 +23,7 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
-pub struct FitArguments {
+pub(crate) struct FitArguments {
     /// Mesh file: OFF, OBJ, PLY or STL.
     pub mesh: PathBuf,
     /// Family of the surface.
@@ -151,7 +151,7 @@ enum FamilyName {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
-pub enum LayoutName {
+pub(crate) enum LayoutName {
     /// The cube where there is one and it serves, else a base complex.
     Auto,
     /// The six faces of a cube: for meshes without handles.
@@ -168,7 +168,7 @@ enum KnotsName {
     Uniform,
 }
 
-pub fn run(arguments: &FitArguments, given: &Given) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &FitArguments, given: &Given) -> Result<Outcome, Failure> {
     output::check_names(&arguments.out)?;
     arguments.picture.iter().try_for_each(|path| output::check_name(path, output::PICTURES))?;
     arguments.report.iter().try_for_each(|path| output::check_name(path, output::REPORTS))?;
@@ -283,7 +283,7 @@ fn fit_by_family(
     }
 }
 
-pub fn tolerance(arguments: &FitArguments) -> Tolerance {
+pub(crate) fn tolerance(arguments: &FitArguments) -> Tolerance {
     let scale = if arguments.absolute { ToleranceScale::Absolute } else { ToleranceScale::Relative };
     Tolerance { value: arguments.tolerance, scale }
 }
@@ -422,7 +422,7 @@ fn d1rc_options<'a>(arguments: &FitArguments, mesh: &'a Mesh) -> D1rcFitOptions<
 }
 
 /// Fits with a bar on a terminal, silently elsewhere.
-pub fn with_bar<R>(threads: usize, fit: impl FnOnce(&mut Control) -> R) -> R {
+pub(crate) fn with_bar<R>(threads: usize, fit: impl FnOnce(&mut Control) -> R) -> R {
     const STEPS: f64 = 1000.0;
     if !std::io::stderr().is_terminal() {
         return fit(&mut Control::new(threads));
@@ -506,11 +506,11 @@ fn numbers(all: &[u32]) -> String {
     format!("{} nodes: {}{rest}", all.len(), first.join(", "))
 }
 
-pub fn written(arguments: &FitArguments) -> Vec<String> {
+pub(crate) fn written(arguments: &FitArguments) -> Vec<String> {
     output::names(arguments.out.iter().chain(&arguments.picture).chain(&arguments.report))
 }
 
-pub fn verdict(remarks: Remarks, stop: StopReason) -> String {
+pub(crate) fn verdict(remarks: Remarks, stop: StopReason) -> String {
     let reason = match stop {
         StopReason::ToleranceMet => "tolerance met",
         StopReason::FixedGrid => "grid as asked",
@@ -528,7 +528,7 @@ pub fn verdict(remarks: Remarks, stop: StopReason) -> String {
 }
 
 /// What is worth knowing beside the verdict.
-pub fn remarks(remarks: Remarks) -> Vec<String> {
+pub(crate) fn remarks(remarks: Remarks) -> Vec<String> {
     let mut rest = remarks;
     rest.remove(Remarks::TOLERANCE_NOT_MET);
     rest.remove(Remarks::STAGNATED);

@@ -15,14 +15,14 @@ use planish::surface::{AnySurface, Surface};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
-pub struct InfoArguments {
+pub(crate) struct InfoArguments {
     /// Mesh file (OFF, OBJ, PLY, STL) or what was saved (.planish): a surface, model or curve.
     file: PathBuf,
     #[command(flatten)]
     input: MeshInput,
 }
 
-pub fn run(arguments: &InfoArguments) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &InfoArguments) -> Result<Outcome, Failure> {
     let is_saved = arguments.file.extension().is_some_and(|extension| extension == "planish");
     let table = if is_saved {
         match load_any_file(&arguments.file)? {

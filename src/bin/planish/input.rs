@@ -6,7 +6,7 @@ use planish::mesh::{Components, Mesh, MeshOptions, MeshRepairs, Repair, read};
 use std::path::Path;
 
 #[derive(Debug, Args)]
-pub struct MeshInput {
+pub(crate) struct MeshInput {
     /// Join nodes closer than this.
     #[arg(long, default_value_t = 0.0, value_name = "DISTANCE", allow_negative_numbers = true)]
     weld: f64,
@@ -65,9 +65,10 @@ fn component(text: &str) -> Result<Components, String> {
 
 impl MeshInput {
     /// The names of its options.
-    pub const OPTIONS: [&str; 6] = ["weld", "repair", "no-repair", "orient", "component", "max-memory"];
+    pub(crate) const OPTIONS: [&str; 6] =
+        ["weld", "repair", "no-repair", "orient", "component", "max-memory"];
 
-    pub fn options(&self) -> MeshOptions {
+    pub(crate) fn options(&self) -> MeshOptions {
         let base = if self.no_repair { Repair::NONE } else { Repair::SAFE };
         let orient = if self.orient { Repair::ORIENTATION } else { Repair::NONE };
         let named = self.repair.iter().fold(base.with(orient), |repair, name| repair.with(name.kind()));
@@ -80,13 +81,13 @@ impl MeshInput {
         }
     }
 
-    pub fn read(&self, path: &Path) -> Result<(Mesh, MeshRepairs), Failure> {
+    pub(crate) fn read(&self, path: &Path) -> Result<(Mesh, MeshRepairs), Failure> {
         Ok(read(path, &self.options())?)
     }
 }
 
 /// A number of threads.
-pub fn threads(text: &str) -> Result<usize, String> {
+pub(crate) fn threads(text: &str) -> Result<usize, String> {
     const MOST: usize = 1024;
     match text.parse() {
         Ok(count) if count <= MOST => Ok(count),

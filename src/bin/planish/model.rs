@@ -15,7 +15,7 @@ use planish::surface::Label;
 use serde_json::json;
 use std::path::Path;
 
-pub fn run(mesh: &Mesh, repairs: &MeshRepairs, arguments: &FitArguments) -> Result<Outcome, Failure> {
+pub(crate) fn run(mesh: &Mesh, repairs: &MeshRepairs, arguments: &FitArguments) -> Result<Outcome, Failure> {
     let labels = labels(mesh, arguments)?;
     let options = options(arguments, &labels);
     let fit = with_bar(arguments.threads, |control| fit_mesh(mesh, &options, control))?;

@@ -19,7 +19,7 @@ use planish::surface::{Surface, normal};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
-pub struct MorphArguments {
+pub(crate) struct MorphArguments {
     /// Mesh file with fields on its nodes (PLY).
     mesh: PathBuf,
     /// Fields of the mesh that are the displacement: three for its components, or one along the normals.
@@ -50,7 +50,7 @@ pub struct MorphArguments {
     save: Option<PathBuf>,
 }
 
-pub fn run(arguments: &MorphArguments) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &MorphArguments) -> Result<Outcome, Failure> {
     if let Some(path) = &arguments.save {
         output::check_names(&[path])?;
     }

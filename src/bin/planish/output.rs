@@ -25,10 +25,10 @@ use std::path::{Path, PathBuf};
 
 /// Names on the left, values on the right.
 #[derive(Debug, Default)]
-pub struct Table(Vec<(&'static str, String)>);
+pub(crate) struct Table(Vec<(&'static str, String)>);
 
 impl Table {
-    pub fn row(&mut self, name: &'static str, value: String) {
+    pub(crate) fn row(&mut self, name: &'static str, value: String) {
         self.0.push((name, value));
     }
 }
@@ -41,7 +41,7 @@ impl fmt::Display for Table {
 }
 
 /// Writes to standard output. Whoever reads may have heard enough: a closed pipe ends the output and is no failure.
-pub fn print(text: impl fmt::Display) -> Result<(), Failure> {
+pub(crate) fn print(text: impl fmt::Display) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     match write!(out, "{text}").and_then(|()| out.flush()) {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
@@ -51,12 +51,12 @@ pub fn print(text: impl fmt::Display) -> Result<(), Failure> {
 }
 
 /// The files that were written.
-pub fn names<'a>(paths: impl IntoIterator<Item = &'a PathBuf>) -> Vec<String> {
+pub(crate) fn names<'a>(paths: impl IntoIterator<Item = &'a PathBuf>) -> Vec<String> {
     paths.into_iter().map(|path| path.display().to_string()).collect()
 }
 
 /// What was repaired while reading.
-pub fn repairs(repairs: &MeshRepairs) -> String {
+pub(crate) fn repairs(repairs: &MeshRepairs) -> String {
     let counts = [
         (repairs.welded_nodes, "nodes welded"),
         (repairs.dropped_triangles, "triangles without area dropped"),
@@ -81,7 +81,7 @@ pub fn repairs(repairs: &MeshRepairs) -> String {
 }
 
 /// Tables that begin with a mesh say what was repaired, and what was left aside.
-pub fn repair_rows(table: &mut Table, made: &MeshRepairs) {
+pub(crate) fn repair_rows(table: &mut Table, made: &MeshRepairs) {
     if !made.is_empty() {
         table.row("repaired", repairs(made));
     }
@@ -91,21 +91,21 @@ pub fn repair_rows(table: &mut Table, made: &MeshRepairs) {
 }
 
 /// The formats of surfaces, by the ends of names.
-pub const SURFACES: &[&str] = &["step", "stp", "vtu", "obj", "off", "ply", "stl", "glb", "planish"];
+pub(crate) const SURFACES: &[&str] = &["step", "stp", "vtu", "obj", "off", "ply", "stl", "glb", "planish"];
 /// Those of meshes.
-pub const MESHES: &[&str] = &["obj", "off", "ply", "stl", "glb"];
+pub(crate) const MESHES: &[&str] = &["obj", "off", "ply", "stl", "glb"];
 /// Those of pictures.
-pub const PICTURES: &[&str] = &["png"];
+pub(crate) const PICTURES: &[&str] = &["png"];
 /// Those of reports.
-pub const REPORTS: &[&str] = &["html", "htm"];
+pub(crate) const REPORTS: &[&str] = &["html", "htm"];
 
 /// Refuses names whose format is not known before any work is done.
-pub fn check_names(paths: &[impl AsRef<Path>]) -> Result<(), Failure> {
+pub(crate) fn check_names(paths: &[impl AsRef<Path>]) -> Result<(), Failure> {
     paths.iter().try_for_each(|path| check_name(path.as_ref(), SURFACES))
 }
 
 /// Refuses a name that does not end in one of these.
-pub fn check_name(path: &Path, known: &[&str]) -> Result<(), Failure> {
+pub(crate) fn check_name(path: &Path, known: &[&str]) -> Result<(), Failure> {
     if known.contains(&extension(path).as_str()) {
         return Ok(());
     }
@@ -118,28 +118,28 @@ fn extension(path: &Path) -> String {
 }
 
 /// Whether a name asks for a STEP file.
-pub fn is_step(path: &Path) -> bool {
+pub(crate) fn is_step(path: &Path) -> bool {
     ["step", "stp"].contains(&extension(path).as_str())
 }
 
 /// Whether a name asks for a file of this program's own.
-pub fn is_saved(path: &Path) -> bool {
+pub(crate) fn is_saved(path: &Path) -> bool {
     extension(path) == "planish"
 }
 
 /// Whether a name asks for a file for ParaView.
-pub fn is_vtk(path: &Path) -> bool {
+pub(crate) fn is_vtk(path: &Path) -> bool {
     extension(path) == "vtu"
 }
 
 /// Whether what a fit writes under a name is the mesh with its deviation.
-pub fn shows_deviation(path: &Path) -> bool {
+pub(crate) fn shows_deviation(path: &Path) -> bool {
     ["vtu", "glb"].contains(&extension(path).as_str())
 }
 
 /// A fit by any method.
 #[derive(Debug)]
-pub struct Fit {
+pub(crate) struct Fit {
     pub surface: AnySurface,
     pub report: FitReport,
     /// The (u,v) of each node.
@@ -149,7 +149,7 @@ pub struct Fit {
 }
 
 /// Writes a fit in the format of the name.
-pub fn write_fit(mesh: &Mesh, fit: &Fit, path: &Path, step: &Step) -> Result<(), Failure> {
+pub(crate) fn write_fit(mesh: &Mesh, fit: &Fit, path: &Path, step: &Step) -> Result<(), Failure> {
     if shows_deviation(path) {
         let moved = vtk::on_surface(fit.surface.as_surface(), mesh, &fit.parameters)?;
         return write_deviation(&moved, &fit.errors, path);
@@ -158,7 +158,7 @@ pub fn write_fit(mesh: &Mesh, fit: &Fit, path: &Path, step: &Step) -> Result<(),
 }
 
 /// Writes a mesh that lies on what was fitted to it, with the errors of its nodes.
-pub fn write_deviation(moved: &Mesh, errors: &[f64], path: &Path) -> Result<(), Failure> {
+pub(crate) fn write_deviation(moved: &Mesh, errors: &[f64], path: &Path) -> Result<(), Failure> {
     if extension(path) == "glb" {
         let largest =
             errors.iter().copied().filter(|error| error.is_finite()).fold(f64::MIN_POSITIVE, f64::max);
@@ -169,7 +169,7 @@ pub fn write_deviation(moved: &Mesh, errors: &[f64], path: &Path) -> Result<(), 
 }
 
 /// Writes a surface in the format of the name.
-pub fn write_surface(surface: &AnySurface, path: &Path, step: &Step) -> Result<(), Failure> {
+pub(crate) fn write_surface(surface: &AnySurface, path: &Path, step: &Step) -> Result<(), Failure> {
     match extension(path).as_str() {
         "step" | "stp" => {
             step::write(
@@ -193,7 +193,7 @@ pub fn write_surface(surface: &AnySurface, path: &Path, step: &Step) -> Result<(
 }
 
 /// Writes a model in the format of the name.
-pub fn write_model(model: &Model, path: &Path, step: &Step) -> Result<(), Failure> {
+pub(crate) fn write_model(model: &Model, path: &Path, step: &Step) -> Result<(), Failure> {
     match extension(path).as_str() {
         "step" | "stp" => {
             step::write(model, &step.text, path, &Watch::default())?;
@@ -209,7 +209,7 @@ pub fn write_model(model: &Model, path: &Path, step: &Step) -> Result<(), Failur
 }
 
 /// Writes a report of the surface against the mesh that it was fitted to.
-pub fn write_report(
+pub(crate) fn write_report(
     mesh: &Mesh,
     fit: &Fit,
     title: &str,
@@ -227,7 +227,7 @@ pub fn write_report(
 }
 
 /// Writes the page of a model.
-pub fn write_model_report(
+pub(crate) fn write_model_report(
     mesh: &Mesh,
     fit: &ModelFit,
     title: &str,
@@ -245,7 +245,7 @@ pub fn write_model_report(
 }
 
 /// Writes a picture of the surface coloured by the error at the nodes.
-pub fn write_picture(mesh: &Mesh, fit: &Fit, path: &Path) -> Result<(), Failure> {
+pub(crate) fn write_picture(mesh: &Mesh, fit: &Fit, path: &Path) -> Result<(), Failure> {
     let moved = vtk::on_surface(fit.surface.as_surface(), mesh, &fit.parameters)?;
     let mut picture = Picture::new(1200, 900, &View::facing(&moved), &moved);
     let range = (0.0, fit.report.max_error);
@@ -255,7 +255,7 @@ pub fn write_picture(mesh: &Mesh, fit: &Fit, path: &Path) -> Result<(), Failure>
 }
 
 /// Writes a mesh in the format of the name.
-pub fn write_mesh(mesh: &Mesh, path: &Path) -> Result<(), Failure> {
+pub(crate) fn write_mesh(mesh: &Mesh, path: &Path) -> Result<(), Failure> {
     check_name(path, MESHES)?;
     if extension(path) == "glb" {
         return Ok(gltf::write(mesh, None, path)?);
@@ -265,7 +265,7 @@ pub fn write_mesh(mesh: &Mesh, path: &Path) -> Result<(), Failure> {
 }
 
 /// Writes a picture.
-pub fn write_png(picture: &Picture, path: &Path) -> Result<(), Failure> {
+pub(crate) fn write_png(picture: &Picture, path: &Path) -> Result<(), Failure> {
     check_name(path, PICTURES)?;
     let (width, height, pixels) = picture.finish();
     let mut bytes = Vec::new();
@@ -278,12 +278,12 @@ pub fn write_png(picture: &Picture, path: &Path) -> Result<(), Failure> {
 }
 
 /// Writes a text.
-pub fn write_text(text: &str, path: &Path) -> Result<(), Failure> {
+pub(crate) fn write_text(text: &str, path: &Path) -> Result<(), Failure> {
     Ok(file::write(path, text.as_bytes())?)
 }
 
 /// Reads a text.
-pub fn read_text(path: &Path) -> Result<String, Failure> {
+pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
     let bytes = file::read(path, memory::limit(0))?;
     String::from_utf8(bytes).map_err(|error| {
         Failure::new(format!(

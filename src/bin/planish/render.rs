@@ -11,7 +11,7 @@ use planish::mesh::{MeshOptions, read};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
-pub struct RenderArguments {
+pub(crate) struct RenderArguments {
     /// Saved surface or model (.planish).
     surface: PathBuf,
     /// The picture to write.
@@ -46,7 +46,7 @@ pub struct RenderArguments {
     from: Option<String>,
 }
 
-pub fn run(arguments: &RenderArguments, given: &Given) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &RenderArguments, given: &Given) -> Result<Outcome, Failure> {
     output::check_name(&arguments.out, output::PICTURES)?;
     let saved = native::load_any_file(&arguments.surface)?;
     let is_model = matches!(saved, Saved::Model(_));

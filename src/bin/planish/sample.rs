@@ -7,7 +7,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
-pub struct SampleArguments {
+pub(crate) struct SampleArguments {
     /// Which shape.
     #[arg(value_enum)]
     shape: Shape,
@@ -65,7 +65,7 @@ enum Shape {
 /// Nodes of machine parts, about.
 const PART_NODES: usize = 3000;
 
-pub fn run(arguments: &SampleArguments) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &SampleArguments) -> Result<Outcome, Failure> {
     let seed = arguments.seed;
     let mesh = match arguments.shape {
         Shape::FuselagePanel => samples::fuselage_panel(seed),

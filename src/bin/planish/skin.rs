@@ -15,7 +15,7 @@ use serde_json::json;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
-pub struct SkinArguments {
+pub(crate) struct SkinArguments {
     /// Text file: `rows N`, then for each row `row I COUNT` (and `closed`) and COUNT lines x y z; lines that begin with
     /// # are comments.
     rows: PathBuf,
@@ -82,7 +82,7 @@ enum FormName {
     Common,
 }
 
-pub fn run(arguments: &SkinArguments, given: &Given) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &SkinArguments, given: &Given) -> Result<Outcome, Failure> {
     output::check_names(&arguments.out)?;
     let writes_step = arguments.out.iter().any(|path| output::is_step(path));
     given.refuse("step-form", writes_step, "is not used: no STEP file is written")?;

@@ -8,7 +8,7 @@ use planish::query::tessellate::TessellateOptions;
 use planish::surface::Label;
 
 #[derive(Debug, Args)]
-pub struct StepArguments {
+pub(crate) struct StepArguments {
     /// What one model unit is, for STEP files; millimetres if neither this nor a saved surface says so.
     #[arg(long, value_enum)]
     unit: Option<UnitName>,
@@ -40,7 +40,7 @@ enum FormName {
 
 /// How shapes are written: what STEP files hold of a surface and say beside the shape, and how fine triangles are.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Step<'a> {
+pub(crate) struct Step<'a> {
     pub conversion: ConversionOptions,
     pub text: StepOptions<'a>,
     pub triangles: TessellateOptions,
@@ -48,14 +48,14 @@ pub struct Step<'a> {
 
 impl StepArguments {
     /// Their names.
-    pub const OPTIONS: [&str; 4] = ["unit", "product", "step-form", "level-spread"];
+    pub(crate) const OPTIONS: [&str; 4] = ["unit", "product", "step-form", "level-spread"];
 
-    pub fn is_patches(&self) -> bool {
+    pub(crate) fn is_patches(&self) -> bool {
         self.step_form == FormName::Patches
     }
 
     /// What was asked for; what was not comes from the label, then from the name of the file that was read.
-    pub fn step<'a>(&'a self, label: &'a Label, stem: &'a str) -> Step<'a> {
+    pub(crate) fn step<'a>(&'a self, label: &'a Label, stem: &'a str) -> Step<'a> {
         let named = if label.name.is_empty() { stem } else { &label.name };
         let text = StepOptions {
             unit: match self.unit {

@@ -4,7 +4,7 @@ use crate::{Failure, Outcome, output};
 use clap::{Args, ValueEnum};
 
 #[derive(Debug, Args)]
-pub struct TopicsArguments {
+pub(crate) struct TopicsArguments {
     /// The subject; all of them if it is left out.
     #[arg(value_enum)]
     topic: Option<Topic>,
@@ -104,7 +104,7 @@ EXIT CODES
     }
 }
 
-pub fn run(arguments: &TopicsArguments) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &TopicsArguments) -> Result<Outcome, Failure> {
     let all = Topic::value_variants().iter().filter(|topic| arguments.topic.is_none_or(|one| one == **topic));
     let texts: Vec<&str> = all.map(|topic| topic.text()).collect();
     output::print(texts.join("\n"))?;

@@ -44,7 +44,7 @@ const WORST: usize = 10;
 const BARS: usize = 41;
 
 /// The whole column as HTML.
-pub fn html(page: &Page) -> String {
+pub(super) fn html(page: &Page) -> String {
     let statistics = Statistics::of(page.distances, page.tolerance);
     let mut text = format!("<h1>{}</h1>\n", escaped(page.title));
     text.push_str(&verdict(page, &statistics));

@@ -22,7 +22,7 @@ pub(super) struct Net {
 
 impl Net {
     /// The net of a surface in space.
-    pub fn new(surface: &TensorSurface) -> Result<Self, TensorError> {
+    pub(super) fn new(surface: &TensorSurface) -> Result<Self, TensorError> {
         let whole = surface.restrict(surface.domain())?;
         let knots = [Axis::U, Axis::V].map(|axis| whole.knots(axis).clone());
         Ok(Self {

@@ -25,7 +25,7 @@ impl Part21 {
     const LINE: usize = 100;
 
     /// Adds an entity, such as `VERTEX_POINT('',#7)`.
-    pub fn add(&mut self, entity: impl Display) -> Id {
+    pub(super) fn add(&mut self, entity: impl Display) -> Id {
         self.count += 1;
         let id = Id(self.count);
         self.push_wrapped(&format!("{id}={entity};"));
@@ -49,7 +49,7 @@ impl Part21 {
     }
 
     /// The whole file. The header's entities are `FILE_DESCRIPTION`, `FILE_NAME` and `FILE_SCHEMA`.
-    pub fn finish(self, header: &[String]) -> String {
+    pub(super) fn finish(self, header: &[String]) -> String {
         let mut file = String::from("ISO-10303-21;\nHEADER;\n");
         for entity in header {
             // writing into a string cannot fail

@@ -92,7 +92,7 @@ fn bits(api: &Value, default: &str, of: &str) -> u64 {
 
 /// Compares a record's defaults with those that `planish.api.json`, and so the header, tells. Every record with an
 /// `_init` is tested so by its declaration.
-pub fn defaults_are_told<T: Record>() {
+pub(crate) fn defaults_are_told<T: Record>() {
     let api: Value = serde_json::from_str(include_str!("../../../bindings/planish.api.json")).unwrap();
     let defaults = T::default();
     // SAFETY: a record has no padding.

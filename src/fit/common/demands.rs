@@ -60,7 +60,7 @@ const MOST_FACTOR: f64 = 1e2;
 
 impl Standards {
     /// `uv` and `values`, rows of `dim` numbers, are the data.
-    pub fn new(
+    pub(crate) fn new(
         demands: &Demands,
         asked: &Tolerance,
         goal: &Goal,
@@ -113,28 +113,28 @@ impl Standards {
     }
 
     /// Whether all data demand alike.
-    pub fn are_alike(&self) -> bool {
+    pub(crate) fn are_alike(&self) -> bool {
         self.factors.is_empty()
     }
 
     /// The tolerance of the fit by that of a datum.
-    pub fn factor(&self, datum: usize) -> f64 {
+    pub(crate) fn factor(&self, datum: usize) -> f64 {
         self.factors.get(datum).copied().unwrap_or(1.0)
     }
 
     /// Whether a datum is not to be fitted.
-    pub fn is_left_out(&self, datum: usize) -> bool {
+    pub(crate) fn is_left_out(&self, datum: usize) -> bool {
         self.factor(datum) == 0.0
     }
 
     /// Whether any datum is.
-    pub fn leaves_out(&self) -> bool {
+    pub(crate) fn leaves_out(&self) -> bool {
         self.factors.contains(&0.0)
     }
 
     /// How much more a datum weighs for its own tolerance: by the square, as errors of that size would. What is fixed needs
     /// no weight.
-    pub fn weight(&self, datum: usize) -> f64 {
+    pub(crate) fn weight(&self, datum: usize) -> f64 {
         match self.factor(datum) {
             0.0 => 0.0,
             _ if self.fixed.binary_search(&datum).is_ok() => 1.0,
@@ -143,7 +143,7 @@ impl Standards {
     }
 
     /// The weights of data with what they demand.
-    pub fn weights(&self, given: Option<&[f64]>) -> Option<Vec<f64>> {
+    pub(crate) fn weights(&self, given: Option<&[f64]>) -> Option<Vec<f64>> {
         if self.are_alike() {
             return given.map(<[f64]>::to_vec);
         }
@@ -152,7 +152,7 @@ impl Standards {
     }
 
     /// Errors of data measured by what they demand; those that are left out count nowhere.
-    pub fn measure(&self, errors: DataErrors) -> DataErrors {
+    pub(crate) fn measure(&self, errors: DataErrors) -> DataErrors {
         if self.factors.is_empty() {
             return errors;
         }
@@ -169,7 +169,7 @@ impl Standards {
     }
 
     /// Tells how far the demands are met.
-    pub fn report(&self, each: &[f64], report: &mut FitReport) {
+    pub(crate) fn report(&self, each: &[f64], report: &mut FitReport) {
         report.max_fixed_error = self.fixed.iter().map(|&datum| each[datum]).fold(0.0, f64::max);
         let is_fixed = |datum: &usize| self.fixed.binary_search(datum).is_ok();
         let shares = (0..each.len()).filter(|datum| !self.is_left_out(*datum) && !is_fixed(datum));
@@ -179,7 +179,7 @@ impl Standards {
 
     /// The conditions under which a surface passes through the fixed data; `terms` are those of its value at some place,
     /// and `values` are rows of `dim` numbers, one for each datum, in the frame of the unknowns.
-    pub fn conditions(
+    pub(crate) fn conditions(
         &self,
         uv: &[DVec2],
         (values, dim): (&[f64], usize),

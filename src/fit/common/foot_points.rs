@@ -15,7 +15,7 @@ use rayon::prelude::*;
 /// Gauss-Newton steps a datum makes in one sweep.
 const STEPS: usize = 2;
 /// Longest step, in cells.
-pub const LONGEST_STEP: f64 = 0.3;
+pub(crate) const LONGEST_STEP: f64 = 0.3;
 /// How often a move is halved before it is given up.
 const HALVINGS: u32 = 8;
 
@@ -27,7 +27,7 @@ const PIECE: usize = 256;
 
 /// Where data go that move towards their foot points. From a place they move by no more than `longest` says, and they
 /// end where `settle` puts a datum that would go from the one place to the other.
-pub fn foot_points(
+pub(crate) fn foot_points(
     surface: &dyn Surface,
     values: &[f64],
     uv: &[DVec2],
@@ -80,7 +80,7 @@ fn gauss_newton_step(row: &[f64], value: &[f64]) -> DVec2 {
 ///
 /// `first` are the parameters whose areas count, of which a triangle keeps at least the share `least`. A map that is
 /// mirrored as a whole, as texture coordinates may be, is held as firmly: areas count with the sign that most have.
-pub fn hold_back(mesh: &Mesh, (first, least): (&[DVec2], f64), from: &[DVec2], to: &mut [DVec2]) {
+pub(crate) fn hold_back(mesh: &Mesh, (first, least): (&[DVec2], f64), from: &[DVec2], to: &mut [DVec2]) {
     let triangles = mesh.triangles();
     let area = |uv: &[DVec2], t: &[u32; 3]| {
         let [a, b, c] = t.map(|n| uv[n as usize]);

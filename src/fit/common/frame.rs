@@ -10,18 +10,18 @@ pub(in crate::fit) struct Frame {
 }
 
 impl Frame {
-    pub fn new(bounds: &Bounds) -> Self {
+    pub(crate) fn new(bounds: &Bounds) -> Self {
         let center = bounds.min.iter().zip(&bounds.max).map(|(a, b)| a + (b - a) / 2.0).collect_vec();
         let diagonal = bounds.diagonal();
         Self { center, scale: if diagonal > 0.0 { diagonal } else { 1.0 } }
     }
 
-    pub fn inward(&self, values: &[f64]) -> Vec<f64> {
+    pub(crate) fn inward(&self, values: &[f64]) -> Vec<f64> {
         let center = self.center.iter().cycle();
         values.iter().zip(center).map(|(x, c)| (x - c) / self.scale).collect_vec()
     }
 
-    pub fn outward(&self, values: &mut [f64]) {
+    pub(crate) fn outward(&self, values: &mut [f64]) {
         let center = self.center.iter().cycle();
         values.iter_mut().zip(center).for_each(|(x, c)| *x = *x * self.scale + c);
     }

@@ -8,14 +8,14 @@ use crate::memory;
 use std::sync::LazyLock;
 
 /// Unknowns of a cell.
-pub const COUNT: usize = 16;
+pub(crate) const COUNT: usize = 16;
 
 /// A matrix over the unknowns of a cell.
-pub type CellMatrix = [[f64; COUNT]; COUNT];
+pub(crate) type CellMatrix = [[f64; COUNT]; COUNT];
 
 /// Weights of the unknowns at the place `x`, `y` of the unit cell.
 #[inline(always)]
-pub fn weights(x: f64, y: f64) -> [f64; COUNT] {
+pub(crate) fn weights(x: f64, y: f64) -> [f64; COUNT] {
     let ([a, b, c, d], [e, f, g, h]) = (shape_functions(x), shape_functions(y));
     let (along_u, along_v) = ([[a, c], [b, d]], [[e, g], [f, h]]);
     let mut weights = [0.0; COUNT];
@@ -32,7 +32,7 @@ pub fn weights(x: f64, y: f64) -> [f64; COUNT] {
 }
 
 /// Normal equations of one cell.
-pub struct CellSums {
+pub(crate) struct CellSums {
     /// Products of the unknowns' weights.
     pub matrix: CellMatrix,
     /// A row of `dim` numbers for each unknown.
@@ -40,13 +40,13 @@ pub struct CellSums {
 }
 
 impl CellSums {
-    pub fn new(dim: usize) -> Self {
+    pub(crate) fn new(dim: usize) -> Self {
         Self { matrix: [[0.0; COUNT]; COUNT], right: memory::filled(0.0, COUNT * dim) }
     }
 
     /// Adds a sample.
     #[inline(always)]
-    pub fn add(&mut self, n: &[f64; COUNT], value: &[f64], weight: f64) {
+    pub(crate) fn add(&mut self, n: &[f64; COUNT], value: &[f64], weight: f64) {
         for i in 0..COUNT {
             let scaled = weight * n[i];
             for j in 0..COUNT {
@@ -59,7 +59,7 @@ impl CellSums {
     }
 
     /// The matrix with `plate` times the energy of a plate and `membrane` times that of a membrane.
-    pub fn with_energy(&self, plate: f64, membrane: f64) -> CellMatrix {
+    pub(crate) fn with_energy(&self, plate: f64, membrane: f64) -> CellMatrix {
         let mut matrix = self.matrix;
         for (weight, energy) in [(plate, &PLATE), (membrane, &MEMBRANE)] {
             for (row, energy) in matrix.iter_mut().zip(energy.iter()).filter(|_| weight > 0.0) {

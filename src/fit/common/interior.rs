@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 /// Errors at triangle centroids and edge middles.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct InteriorErrors {
+pub(crate) struct InteriorErrors {
     /// The largest error.
     pub max: f64,
     /// The largest part of an error that its own facet explains; 0 for a field, which has no facets in space.
@@ -26,7 +26,7 @@ pub struct InteriorErrors {
 
 /// Values on the nodes of a mesh over parameters.
 #[derive(Clone, Copy)]
-pub struct MeshData<'a> {
+pub(crate) struct MeshData<'a> {
     pub mesh: &'a Mesh,
     pub uv: &'a [DVec2],
     pub values: &'a [f64],
@@ -36,7 +36,7 @@ pub struct MeshData<'a> {
 
 impl MeshData<'_> {
     /// Measures a surface between the nodes.
-    pub fn interior_errors(
+    pub(crate) fn interior_errors(
         &self,
         surface: &dyn Surface,
         standards: &Standards,
@@ -47,7 +47,7 @@ impl MeshData<'_> {
 }
 
 /// Places between the nodes of a mesh, with what is known of the shape there: made once for many surfaces.
-pub struct Between {
+pub(crate) struct Between {
     /// Four places for each triangle: its centroid and the middles of its edges.
     pub uv: Vec<DVec2>,
     values: Vec<f64>,
@@ -60,7 +60,7 @@ pub struct Between {
 
 impl Between {
     /// Between the nodes of a mesh.
-    pub fn nodes(data: &MeshData, dim: usize, standards: &Standards) -> Self {
+    pub(crate) fn nodes(data: &MeshData, dim: usize, standards: &Standards) -> Self {
         let triangles = data.mesh.triangles();
         let (uv, values) = interior_samples(triangles, data.uv, data.values, dim);
         let explained = if data.is_shape {
@@ -72,7 +72,7 @@ impl Between {
     }
 
     /// Between scattered data, of which neighbours in (u,v) make triangles.
-    pub fn scattered(
+    pub(crate) fn scattered(
         uv: &[DVec2],
         values: &[f64],
         dim: usize,
@@ -96,7 +96,7 @@ impl Between {
     }
 
     /// What is known in one triangle of so many that at most `most` are left.
-    pub fn thinned(&self, most: usize) -> Self {
+    pub(crate) fn thinned(&self, most: usize) -> Self {
         let every = self.explained.heights.len().div_ceil(most).max(1);
         let width = self.values.len() / self.uv.len().max(1);
         let places = self.uv.chunks(4).step_by(every).flatten().copied().collect_vec();
@@ -123,7 +123,7 @@ impl Between {
     }
 
     /// Measures a surface.
-    pub fn measure(&self, surface: &dyn Surface, pool: &Pool) -> InteriorErrors {
+    pub(crate) fn measure(&self, surface: &dyn Surface, pool: &Pool) -> InteriorErrors {
         let errors = self.errors(surface, pool);
         let mut result = InteriorErrors::default();
         for (triangle, errors) in errors.chunks_exact(4).enumerate() {
@@ -147,7 +147,7 @@ impl Between {
     }
 
     /// The error at each place beyond what its triangle explains.
-    pub fn excess(&self, surface: &dyn Surface, pool: &Pool) -> Vec<f64> {
+    pub(crate) fn excess(&self, surface: &dyn Surface, pool: &Pool) -> Vec<f64> {
         let mut errors = self.errors(surface, pool);
         for (triangle, errors) in errors.chunks_exact_mut(4).enumerate() {
             let (explained, is_sharp) = (self.explained.of(triangle), self.explained.is_sharp[triangle]);
@@ -174,7 +174,7 @@ fn factors(triangles: &[[u32; 3]], standards: &Standards) -> Vec<f64> {
 /// Distances from places on facets to the tangent planes of the surface at their parameters. A map that
 /// stretches unevenly puts the mean of parameters beside the mean of places, along the surface: that is no
 /// error of the shape. Where the surface has no tangent plane the whole distance counts.
-pub fn heights_over(surface: &dyn Surface, uv: &[DVec2], values: &[f64], pool: &Pool) -> Vec<f64> {
+pub(crate) fn heights_over(surface: &dyn Surface, uv: &[DVec2], values: &[f64], pool: &Pool) -> Vec<f64> {
     const CHUNK: usize = 1024;
     let mut heights = memory::filled(0.0, uv.len());
     pool.run(|| {
@@ -222,7 +222,7 @@ fn interior_samples(
 }
 
 /// What the facets of a shape explain.
-pub struct Sagittas {
+pub(crate) struct Sagittas {
     /// The height of the shape above each facet.
     pub heights: Vec<f64>,
     /// Whether an edge of the facet is sharp: there the facets are the shape, and explain nothing.
@@ -236,7 +236,7 @@ impl Sagittas {
     }
 
     /// By how much a facet may be missed.
-    pub fn of(&self, triangle: usize) -> f64 {
+    pub(crate) fn of(&self, triangle: usize) -> f64 {
         if self.is_sharp[triangle] { 0.0 } else { self.heights[triangle] }
     }
 }
@@ -255,7 +255,7 @@ const SHARP_COSINE: f64 = 0.866_025_403_784_438_6;
 ///  ======n======
 ///    c  /|\  c           and a third, c
 /// ```
-pub fn triangle_sagittas(mesh: &Mesh) -> Sagittas {
+pub(crate) fn triangle_sagittas(mesh: &Mesh) -> Sagittas {
     let (mesh, scale) = mesh.at_safe_scale();
     let mesh = mesh.as_ref();
     let (points, triangles) = (mesh.points(), mesh.triangles());

@@ -25,7 +25,7 @@ const CHUNK: usize = 2048;
 
 /// The triangles between data in a box; none where all lie on a line, or the call is cancelled. Of data at one place one
 /// is taken.
-pub fn triangles_between(uv: &[DVec2], data: &Domain, watch: &Watch) -> Vec<[u32; 3]> {
+pub(crate) fn triangles_between(uv: &[DVec2], data: &Domain, watch: &Watch) -> Vec<[u32; 3]> {
     let site = |datum: u32| {
         let place = (uv[datum as usize] - data.min) / data.size();
         Site { place: mitigate_underflow(Point2::new(place.x, place.y)), datum }
@@ -57,7 +57,7 @@ fn one_by_one(
 
 /// Numbers of places along a Z curve (G. Morton, "A computer oriented geodetic data base", 1966) of 2^16 cells a
 /// side; equal cells in the order given.
-pub fn z_order(uv: &[DVec2]) -> Vec<u32> {
+pub(crate) fn z_order(uv: &[DVec2]) -> Vec<u32> {
     let domain = Domain::around(uv.iter().copied());
     let spread = |x: f64| {
         let mut bits = u64::from((x * 65535.0) as u32);

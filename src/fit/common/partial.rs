@@ -104,7 +104,7 @@ pub(in crate::fit) struct Partial {
 
 impl Partial {
     /// `values`: rows of `dim` numbers; a row with a NaN is missing if that is allowed.
-    pub fn of(
+    pub(crate) fn of(
         places: &[Option<DVec2>],
         data_box: Domain,
         values: &[f64],
@@ -133,12 +133,15 @@ impl Partial {
         })
     }
 
-    pub fn weights(&self) -> Option<&[f64]> {
+    pub(crate) fn weights(&self) -> Option<&[f64]> {
         self.weights.as_deref()
     }
 
     /// Fits these data and tells of all.
-    pub fn fit<F: Fitted>(self, fit: impl FnOnce(&Self) -> Result<F, FitError>) -> Result<F, FitError> {
+    pub(crate) fn fit<F: Fitted>(
+        self,
+        fit: impl FnOnce(&Self) -> Result<F, FitError>,
+    ) -> Result<F, FitError> {
         let mut fitted = fit(&self).map_err(|error| self.told(error))?;
         self.spread(fitted.parts_mut());
         Ok(fitted)

@@ -65,7 +65,7 @@ pub(in crate::fit) struct Goal {
 }
 
 impl Goal {
-    pub fn new(tolerance: &Tolerance, bounds: &Bounds) -> Self {
+    pub(crate) fn new(tolerance: &Tolerance, bounds: &Bounds) -> Self {
         let (tolerance, is_raised) = tolerance.absolute(bounds);
         Self { tolerance, is_raised, diagonal: bounds.diagonal() }
     }

@@ -11,7 +11,7 @@ use super::report::StopReason;
 use crate::control::{Cancelled, Control, Stage};
 
 /// A method that fits in rounds.
-pub trait Rounds {
+pub(crate) trait Rounds {
     /// What a round comes to: a surface or curve, measured.
     type Round;
     /// Why a round is not possible.
@@ -39,7 +39,7 @@ pub trait Rounds {
 }
 
 /// Where a fit stands after a round.
-pub struct Standing<'a, R> {
+pub(crate) struct Standing<'a, R> {
     /// The round; None where it was not possible.
     pub round: Option<&'a R>,
     /// Its error; infinite where it was not possible.
@@ -52,7 +52,7 @@ pub struct Standing<'a, R> {
 
 /// What follows a round.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Next {
+pub(crate) enum Next {
     /// A further one.
     Round,
     /// Nothing: this one is what was asked for.
@@ -64,7 +64,7 @@ pub enum Next {
 }
 
 /// The best round, and how it was come by.
-pub struct Outcome<R> {
+pub(crate) struct Outcome<R> {
     pub best: R,
     pub stop: StopReason,
     /// Rounds in all.
@@ -72,7 +72,7 @@ pub struct Outcome<R> {
 }
 
 /// Fits in rounds until the method stops.
-pub fn run<M: Rounds>(method: &mut M, control: &mut Control) -> Result<Outcome<M::Round>, M::Error> {
+pub(crate) fn run<M: Rounds>(method: &mut M, control: &mut Control) -> Result<Outcome<M::Round>, M::Error> {
     let (mut best, mut failure): (Option<M::Round>, _) = (None, None);
     let (mut passes, mut idle, mut course) = (0, 0, Course::towards(method.tolerance()));
     let stop = loop {

@@ -9,7 +9,7 @@ use crate::mesh::Mesh;
 use glam::{DVec2, DVec3};
 
 /// A place inside a triangle.
-pub struct InteriorPlace {
+pub(crate) struct InteriorPlace {
     pub nodes: [usize; 3],
     /// How it weighs the nodes.
     pub shares: [f64; 3],
@@ -21,7 +21,7 @@ pub struct InteriorPlace {
 const MOST_PARTS: usize = 256;
 
 /// The places inside triangles that are larger than the cells of a grid.
-pub fn interior_places<'a>(
+pub(crate) fn interior_places<'a>(
     mesh: &'a Mesh,
     uv: &'a [DVec2],
     grid: &[UniformGrid; 2],
@@ -31,13 +31,13 @@ pub fn interior_places<'a>(
 }
 
 /// Parameters of which one unit is a cell of a grid.
-pub fn in_cells(grid: &[UniformGrid; 2]) -> impl Fn(DVec2) -> DVec2 + use<> {
+pub(crate) fn in_cells(grid: &[UniformGrid; 2]) -> impl Fn(DVec2) -> DVec2 + use<> {
     let cell = DVec2::new(grid[0].step, grid[1].step);
     move |uv| uv / cell
 }
 
 /// The same with parameters of which one unit is a cell.
-pub fn places_in_cells<'a>(
+pub(crate) fn places_in_cells<'a>(
     mesh: &'a Mesh,
     uv: &'a [DVec2],
     in_cells: impl Fn(DVec2) -> DVec2 + 'a,
@@ -53,13 +53,13 @@ pub fn places_in_cells<'a>(
 }
 
 /// The mean weight of the corners of a triangle; 0 if one has none: the inside is known no better than that.
-pub fn mean_weight(corners: [f64; 3]) -> f64 {
+pub(crate) fn mean_weight(corners: [f64; 3]) -> f64 {
     if corners.contains(&0.0) { 0.0 } else { corners.iter().sum::<f64>() / 3.0 }
 }
 
 impl InteriorPlace {
     /// The mean of what the nodes have, weighed by the shares.
-    pub fn mean<T: std::iter::Sum<T>>(&self, at: impl Fn(usize) -> T) -> T
+    pub(crate) fn mean<T: std::iter::Sum<T>>(&self, at: impl Fn(usize) -> T) -> T
     where
         f64: std::ops::Mul<T, Output = T>,
     {
@@ -74,7 +74,7 @@ const INTERIOR_PER_SMOOTHING: f64 = 50.0;
 const INTERIOR_MOST: f64 = 0.05;
 
 /// Weight of places inside triangles against that of nodes.
-pub fn interior_weight(smoothing: f64) -> f64 {
+pub(crate) fn interior_weight(smoothing: f64) -> f64 {
     (INTERIOR_PER_SMOOTHING * smoothing).min(INTERIOR_MOST)
 }
 
@@ -104,7 +104,7 @@ fn part_middles(n: usize) -> impl Iterator<Item = [f64; 3]> {
 /// The place of a smooth shape over a flat facet: halfway from the facet to the tangent planes of its corners,
 /// which is exact for quadratic shapes (T. Boubekeur and M. Alexa, "Phong tessellation", ACM Trans. Graph.
 /// 27 (2008), with the factor 1/2).
-pub fn bulge(corners: [DVec3; 3], normals: [DVec3; 3], shares: [f64; 3]) -> DVec3 {
+pub(crate) fn bulge(corners: [DVec3; 3], normals: [DVec3; 3], shares: [f64; 3]) -> DVec3 {
     let flat: DVec3 = corners.iter().zip(shares).map(|(&p, share)| share * p).sum();
     let lift: DVec3 = (0..3).map(|k| shares[k] * (corners[k] - flat).dot(normals[k]) * normals[k]).sum();
     flat + 0.5 * lift

@@ -16,7 +16,7 @@ use crate::surface::{Region, Surface};
 use glam::DVec2;
 
 /// The half of a shape, and what is asked of it.
-pub struct Folded {
+pub(crate) struct Folded {
     pub half: Half,
     /// The tolerance in model units.
     pub tolerance: Tolerance,
@@ -26,7 +26,7 @@ pub struct Folded {
 }
 
 impl Folded {
-    pub fn new(
+    pub(crate) fn new(
         mesh: &Mesh,
         demands: &Demands,
         weights: Option<&[f64]>,
@@ -56,7 +56,7 @@ impl Folded {
 }
 
 /// Gives the surface its trims and measures it at the nodes of the mesh and between them. Returns the errors of the nodes.
-pub fn finish(
+pub(crate) fn finish(
     surface: &mut dyn Surface,
     report: &mut FitReport,
     parameters: &mut Vec<DVec2>,

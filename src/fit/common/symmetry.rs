@@ -84,7 +84,7 @@ pub(in crate::fit) struct Half {
 
 impl Half {
     /// Cuts and folds a mesh that is symmetric within the tolerance.
-    pub fn of(
+    pub(crate) fn of(
         mesh: &Mesh,
         symmetry: Symmetry,
         tolerance: f64,
@@ -118,19 +118,19 @@ impl Half {
     }
 
     /// Where a place in the folded frame lies in space.
-    pub fn unfold(&self, place: &mut [f64]) {
+    pub(crate) fn unfold(&self, place: &mut [f64]) {
         let out = self.plane.axes().transpose() * DVec3::from_slice(place) + self.plane.point;
         place.copy_from_slice(&out.to_array());
     }
 
     /// The same for a direction.
-    pub fn turn(&self, direction: &mut [f64]) {
+    pub(crate) fn turn(&self, direction: &mut [f64]) {
         let out = self.plane.axes().transpose() * DVec3::from_slice(direction);
         direction.copy_from_slice(&out.to_array());
     }
 
     /// The parameters of the nodes of the mesh on the whole surface.
-    pub fn parameters(&self) -> Vec<DVec2> {
+    pub(crate) fn parameters(&self) -> Vec<DVec2> {
         let unfolded = |(&uv, &folded): (&DVec2, &bool)| if folded { DVec2::new(-uv.x, uv.y) } else { uv };
         self.uv.iter().zip(&self.is_folded).map(unfolded).collect()
     }

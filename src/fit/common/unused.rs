@@ -22,7 +22,7 @@ pub(in crate::fit) struct Used {
 
 impl Used {
     /// None if all nodes are used. `values`: rows of `dim` numbers, one a node.
-    pub fn of(
+    pub(crate) fn of(
         mesh: &Mesh,
         values: &[f64],
         dim: usize,
@@ -53,26 +53,26 @@ impl Used {
         Ok(Some(used))
     }
 
-    pub fn mesh(&self) -> &Mesh {
+    pub(crate) fn mesh(&self) -> &Mesh {
         &self.piece.mesh
     }
 
-    pub fn weights(&self) -> Option<&[f64]> {
+    pub(crate) fn weights(&self) -> Option<&[f64]> {
         self.weights.as_deref()
     }
 
-    pub fn demands(&self) -> Demands<'_> {
+    pub(crate) fn demands(&self) -> Demands<'_> {
         let (outliers, symmetry) = (self.outliers, self.symmetry);
         Demands { fixed: &self.fixed, tolerances: self.tolerances.as_deref(), outliers, symmetry }
     }
 
     /// The number that a node of the whole mesh has here; one that does not exist for an unused node.
-    pub fn node(&self, node: u32) -> u32 {
+    pub(crate) fn node(&self, node: u32) -> u32 {
         self.piece.nodes.binary_search(&node).map_or(u32::MAX, |place| place as u32)
     }
 
     /// The same options for this mesh.
-    pub fn parameterize(&self, options: ParameterizeOptions) -> ParameterizeOptions {
+    pub(crate) fn parameterize(&self, options: ParameterizeOptions) -> ParameterizeOptions {
         match options.border {
             Border::Corners(nodes) => options.with_border(Border::Corners(nodes.map(|node| self.node(node)))),
             _ => options,
@@ -80,7 +80,7 @@ impl Used {
     }
 
     /// An error of the fit in the numbers of the whole mesh.
-    pub fn told(&self, mut error: FitError) -> FitError {
+    pub(crate) fn told(&self, mut error: FitError) -> FitError {
         let old = |index: &mut usize| {
             if let Some(&node) = self.piece.nodes.get(*index) {
                 *index = node as usize;
@@ -104,7 +104,7 @@ impl Used {
 
     /// Gives what the fit found to all nodes. An unused node has no error, and the parameters of some other node, so
     /// that it can be evaluated.
-    pub fn spread(&self, report: &mut FitReport, parameters: &mut Vec<DVec2>, errors: &mut Vec<f64>) {
+    pub(crate) fn spread(&self, report: &mut FitReport, parameters: &mut Vec<DVec2>, errors: &mut Vec<f64>) {
         *parameters = self.piece.spread(parameters, self.count, parameters[0]);
         *errors = self.piece.spread(errors, self.count, f64::NAN);
         report.left_out.iter_mut().for_each(|node| *node = self.piece.nodes[*node as usize]);

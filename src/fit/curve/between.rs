@@ -9,7 +9,7 @@ use crate::memory::{self, CollectVec};
 const SHARES: [f64; 3] = [0.25, 0.5, 0.75];
 
 /// Places between neighbours, with the values of the chords there.
-pub struct Between {
+pub(super) struct Between {
     u: Vec<f64>,
     values: Vec<f64>,
     /// For each pair of neighbours: the longest chord at either of them. What a curve does between its data is
@@ -18,7 +18,7 @@ pub struct Between {
 }
 
 impl Between {
-    pub fn new(u: &[f64], values: &[f64], dim: usize) -> Self {
+    pub(super) fn new(u: &[f64], values: &[f64], dim: usize) -> Self {
         let mut order: Vec<usize> = (0..u.len()).collect_vec();
         order.sort_by(|&a, &b| u[a].total_cmp(&u[b]));
         let value = |datum: usize| &values[datum * dim..][..dim];
@@ -45,7 +45,7 @@ impl Between {
     }
 
     /// Measures a curve.
-    pub fn measure(&self, curve: &Curve) -> InteriorErrors {
+    pub(super) fn measure(&self, curve: &Curve) -> InteriorErrors {
         let mut rows = memory::filled(0.0, self.values.len());
         curve.eval_rows(&self.u, 0, &mut rows);
         let dim = rows.len() / self.u.len().max(1);
@@ -60,13 +60,13 @@ impl Between {
     }
 }
 
-pub fn distance(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
 }
 
 impl Candidate {
     /// The largest error at the data and, beyond what these explain, between them.
-    pub fn merit(&self) -> f64 {
+    pub(super) fn merit(&self) -> f64 {
         self.errors.max.max(self.between.max_excess)
     }
 }

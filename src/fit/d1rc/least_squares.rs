@@ -18,7 +18,7 @@ use rayon::prelude::*;
 use sprs::CsMat;
 
 /// What is fitted: places in the domain, values of three components, and a weight for each.
-pub struct Samples<'a> {
+pub(super) struct Samples<'a> {
     pub uv: &'a [DVec2],
     pub values: &'a [f64],
     pub weights: &'a [f64],
@@ -61,13 +61,13 @@ impl Rows {
 }
 
 /// The energy's rows without its weight: the jumps times the areas, fewer across sharp edges.
-pub struct Energy {
+pub(super) struct Energy {
     rows: Vec<[(u32, f64); 4]>,
 }
 
 impl Energy {
     /// Of a control mesh over its parameters.
-    pub fn new(mesh: &Mesh, uv: &[DVec2], sharp_edges: &[[u32; 2]]) -> Self {
+    pub(super) fn new(mesh: &Mesh, uv: &[DVec2], sharp_edges: &[[u32; 2]]) -> Self {
         let (triangles, topology) = (mesh.triangles(), mesh.topology());
         let double_area = |t: usize| {
             let [a, b, c] = triangles[t].map(|node| uv[node as usize]);
@@ -112,7 +112,7 @@ fn jump([a, b]: [u32; 2], tips: [u32; 2], uv: &[DVec2]) -> [(u32, f64); 4] {
 
 /// The control points, three components each, with an energy and its weight mu W; none if samples and energy leave
 /// them undetermined.
-pub fn solve(
+pub(super) fn solve(
     surface: &D1rcSurface,
     samples: &Samples,
     energy: (&Energy, f64),

@@ -13,7 +13,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 /// The parameters of nodes over one control mesh, and the lines on which some of them stay.
-pub struct Placement {
+pub(super) struct Placement {
     pub uv: Vec<DVec2>,
     /// By node.
     lines: Vec<Line>,
@@ -31,7 +31,12 @@ enum Line {
 
 impl Placement {
     /// In the plane that a mesh shares with the control mesh made of it; `sharp` are the sharp edges of both.
-    pub fn in_plane(fine: &Mesh, coarse: &Mesh, sharp: (&[[u32; 2]], &[[u32; 2]]), pool: &Pool) -> Self {
+    pub(super) fn in_plane(
+        fine: &Mesh,
+        coarse: &Mesh,
+        sharp: (&[[u32; 2]], &[[u32; 2]]),
+        pool: &Pool,
+    ) -> Self {
         let uv = fine.parameters().unwrap_or_default().to_vec();
         let mut placement = Self::on_lines(uv, fine, coarse, sharp);
         let flat = flat(coarse);
@@ -49,7 +54,7 @@ impl Placement {
     }
 
     /// From nearest places in space.
-    pub fn in_space(mesh: &Mesh, coarse: &Mesh, pool: &Pool) -> Self {
+    pub(super) fn in_space(mesh: &Mesh, coarse: &Mesh, pool: &Pool) -> Self {
         let places = coarse.parameters().unwrap_or_default();
         let tree = TriangleTree::new(coarse);
         let place = |&point: &DVec3| {
@@ -78,7 +83,7 @@ impl Placement {
     }
 
     /// Where a node goes that is to move to a place: the nearest one on its line, if it has one.
-    pub fn settled(&self, node: usize, place: DVec2) -> DVec2 {
+    pub(super) fn settled(&self, node: usize, place: DVec2) -> DVec2 {
         match self.lines[node] {
             Line::None => place,
             Line::Crease => nearest(place, &self.creases),

@@ -32,7 +32,7 @@ const LEAST_AREA: f64 = 0.3;
 const MOST_STRESS: f64 = 4.0;
 
 /// Where control meshes come from.
-pub enum Source {
+pub(super) enum Source {
     /// One that was given, with its sharp edges.
     Given { coarse: Mesh, sharp_edges: Vec<[u32; 2]> },
     /// The mesh with its parameters and sharp edges, to be made coarser.
@@ -40,7 +40,11 @@ pub enum Source {
 }
 
 impl Source {
-    pub fn new(mesh: &Mesh, options: &D1rcFitOptions, control: &mut Control) -> Result<Self, D1rcFitError> {
+    pub(super) fn new(
+        mesh: &Mesh,
+        options: &D1rcFitOptions,
+        control: &mut Control,
+    ) -> Result<Self, D1rcFitError> {
         let sharp_edges_of = |mesh: &Mesh| {
             let mut known: Vec<[u32; 2]> =
                 options.sharp_edges.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect_vec();
@@ -102,7 +106,7 @@ impl Source {
 }
 
 /// Data, what they are fitted with, and how far the fit has come.
-pub struct Problem<'a> {
+pub(super) struct Problem<'a> {
     mesh: &'a Mesh,
     values: &'a [f64],
     /// Values in the frame.
@@ -127,7 +131,7 @@ fn stress(weights: &mut [f64], errors: &DataErrors) {
 }
 
 /// A surface, measured.
-pub struct Round {
+pub(super) struct Round {
     surface: D1rcSurface,
     coarse: Mesh,
     sharp_edges: Vec<[u32; 2]>,
@@ -169,7 +173,12 @@ impl Rounds for Problem<'_> {
 }
 
 impl<'a> Problem<'a> {
-    pub fn new(mesh: &'a Mesh, values: &'a [f64], source: Source, options: &'a D1rcFitOptions<'a>) -> Self {
+    pub(super) fn new(
+        mesh: &'a Mesh,
+        values: &'a [f64],
+        source: Source,
+        options: &'a D1rcFitOptions<'a>,
+    ) -> Self {
         let bounds = Bounds::of_rows(values, 3);
         let frame = Frame::new(&bounds);
         let weights = options.weights.map_or(memory::filled(1.0, mesh.points().len()), <[f64]>::to_vec);
@@ -179,7 +188,7 @@ impl<'a> Problem<'a> {
         Self { mesh, values, samples, weights, source, options, frame, goal, count }
     }
 
-    pub fn run(mut self, control: &mut Control) -> Result<D1rcFit, D1rcFitError> {
+    pub(super) fn run(mut self, control: &mut Control) -> Result<D1rcFit, D1rcFitError> {
         let outcome = rounds::run(&mut self, control)?;
         Ok(self.finish(outcome, control))
     }

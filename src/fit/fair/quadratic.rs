@@ -55,12 +55,12 @@ fn derivatives(energy: Fairness) -> &'static [(f64, [usize; 2])] {
 }
 
 /// Integrals of products of the derivatives of the functions of one cell.
-pub struct CellForms {
+pub(super) struct CellForms {
     grams: [Vec<Gram>; 2],
 }
 
 impl CellForms {
-    pub fn new(degree: [usize; 2]) -> Self {
+    pub(super) fn new(degree: [usize; 2]) -> Self {
         Self { grams: degree.map(|degree| (0..=3).map(|order| gram(degree, order)).collect()) }
     }
 
@@ -86,16 +86,16 @@ impl CellForms {
     }
 
     /// The integral of the square of a displacement.
-    pub fn mass(&self, cell: &Cell, lengths: DVec2) -> Vec<f64> {
+    pub(super) fn mass(&self, cell: &Cell, lengths: DVec2) -> Vec<f64> {
         self.over(cell, lengths, &[(1.0, [0, 0])])
     }
 
-    pub fn energy(&self, cell: &Cell, lengths: DVec2, energy: Fairness) -> Vec<f64> {
+    pub(super) fn energy(&self, cell: &Cell, lengths: DVec2, energy: Fairness) -> Vec<f64> {
         self.over(cell, lengths, derivatives(energy))
     }
 
     /// How long the units of the domain are on the surface: roots of the mean squares of its first derivatives.
-    pub fn lengths(&self, space: &Space) -> DVec2 {
+    pub(super) fn lengths(&self, space: &Space) -> DVec2 {
         let mut sums = [0.0; 3];
         for cell in &space.cells {
             let point = |k: u32| &space.control_points[k as usize * space.dim..][..space.dim];
@@ -140,13 +140,13 @@ fn congruence(matrix: &[f64], extraction: &[f64], count: usize, width: usize) ->
 }
 
 /// The entries that matrices over the control points have: their lower triangle in columns.
-pub struct Pattern {
+pub(super) struct Pattern {
     starts: Vec<usize>,
     rows: Vec<usize>,
 }
 
 impl Pattern {
-    pub fn of(space: &Space, watch: &Watch) -> Result<Self, Cancelled> {
+    pub(super) fn of(space: &Space, watch: &Watch) -> Result<Self, Cancelled> {
         let mut columns: Vec<Vec<u32>> = (0..space.count() as u32).map(|unknown| vec![unknown]).collect();
         for cell in &space.cells {
             for (k, &column) in cell.unknowns.iter().enumerate() {
@@ -166,12 +166,12 @@ impl Pattern {
         Ok(Self { starts, rows })
     }
 
-    pub fn zeros(&self) -> Vec<f64> {
+    pub(super) fn zeros(&self) -> Vec<f64> {
         vec![0.0; self.rows.len()]
     }
 
     /// Adds `weight` times a matrix over some unknowns, ascending.
-    pub fn add(&self, values: &mut [f64], unknowns: &[u32], matrix: &[f64], weight: f64) {
+    pub(super) fn add(&self, values: &mut [f64], unknowns: &[u32], matrix: &[f64], weight: f64) {
         for (k, (&column, entries)) in unknowns.iter().zip(matrix.chunks_exact(unknowns.len())).enumerate() {
             let (from, to) = (self.starts[column as usize], self.starts[column as usize + 1]);
             let (rows, mut place) = (&self.rows[from..to], 0);
@@ -183,7 +183,7 @@ impl Pattern {
     }
 
     /// The same for the square of one weighed sum of unknowns.
-    pub fn add_square(&self, values: &mut [f64], unknowns: &[u32], weights: &[f64], weight: f64) {
+    pub(super) fn add_square(&self, values: &mut [f64], unknowns: &[u32], weights: &[f64], weight: f64) {
         for (k, (&column, &a)) in unknowns.iter().zip(weights).enumerate().filter(|(_, (_, a))| **a != 0.0) {
             let (from, to) = (self.starts[column as usize], self.starts[column as usize + 1]);
             let (rows, mut place) = (&self.rows[from..to], 0);
@@ -195,7 +195,7 @@ impl Pattern {
     }
 
     /// Takes out what is kept: its rows and columns become those of the identity times `scale`.
-    pub fn keep(&self, values: &mut [f64], is_kept: &[bool], scale: f64) {
+    pub(super) fn keep(&self, values: &mut [f64], is_kept: &[bool], scale: f64) {
         for column in 0..is_kept.len() {
             for at in self.starts[column]..self.starts[column + 1] {
                 if is_kept[column] || is_kept[self.rows[at]] {
@@ -206,12 +206,12 @@ impl Pattern {
     }
 
     /// The diagonal's sum.
-    pub fn trace(&self, values: &[f64]) -> f64 {
+    pub(super) fn trace(&self, values: &[f64]) -> f64 {
         self.starts[..self.starts.len() - 1].iter().map(|&diagonal| values[diagonal]).sum()
     }
 
     /// The product of the symmetric matrix with rows of `dim` numbers.
-    pub fn product(&self, values: &[f64], points: &[f64], dim: usize) -> Vec<f64> {
+    pub(super) fn product(&self, values: &[f64], points: &[f64], dim: usize) -> Vec<f64> {
         let mut product = vec![0.0; points.len()];
         for column in 0..self.starts.len() - 1 {
             for at in self.starts[column]..self.starts[column + 1] {
@@ -227,7 +227,7 @@ impl Pattern {
         product
     }
 
-    pub fn matrix(&self, values: Vec<f64>) -> CsMat<f64> {
+    pub(super) fn matrix(&self, values: Vec<f64>) -> CsMat<f64> {
         let n = self.starts.len() - 1;
         CsMat::new_csc((n, n), self.starts.clone(), self.rows.clone(), values)
     }

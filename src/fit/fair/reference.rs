@@ -15,7 +15,7 @@ const MOST_WEIGHT: f64 = 1e8;
 const CELL_SHARE: f64 = 1e-6;
 
 /// What is near, and what near means.
-pub struct Reference<'a> {
+pub(super) struct Reference<'a> {
     space: &'a Space,
     tolerance: f64,
     /// The matrices of the displacements of the cells.
@@ -35,7 +35,7 @@ struct Data {
 }
 
 impl<'a> Reference<'a> {
-    pub fn new(
+    pub(super) fn new(
         space: &'a Space,
         data: Option<FairData>,
         tolerance: f64,
@@ -67,12 +67,12 @@ impl<'a> Reference<'a> {
     }
 
     /// A weight for each cell, or for each datum, to begin with.
-    pub fn weights(&self) -> Vec<f64> {
+    pub(super) fn weights(&self) -> Vec<f64> {
         vec![1.0; self.data.as_ref().map_or(self.masses.len(), |data| data.cells.len())]
     }
 
     /// The matrix of the weighed squares.
-    pub fn form(&self, pattern: &Pattern, weights: &[f64]) -> Vec<f64> {
+    pub(super) fn form(&self, pattern: &Pattern, weights: &[f64]) -> Vec<f64> {
         let mut matrix = pattern.zeros();
         let cell_weight = |k: usize| match &self.data {
             None => weights[k],
@@ -91,7 +91,7 @@ impl<'a> Reference<'a> {
     }
 
     /// The right-hand side of the weighed squares: rows of `dim` numbers; empty without data.
-    pub fn pull(&self, weights: &[f64]) -> Vec<f64> {
+    pub(super) fn pull(&self, weights: &[f64]) -> Vec<f64> {
         let Some(data) = &self.data else { return Vec::new() };
         let dim = self.space.dim;
         let mut pull = vec![0.0; self.space.control_points.len()];
@@ -106,7 +106,7 @@ impl<'a> Reference<'a> {
     }
 
     /// How far each cell moves at most, or by how much each datum is missed, after a displacement.
-    pub fn deviations(&self, d: &[f64]) -> Vec<f64> {
+    pub(super) fn deviations(&self, d: &[f64]) -> Vec<f64> {
         match &self.data {
             None => movements(self.space, d),
             Some(data) => data.misses_after(self.space, d, 1.0),
@@ -114,7 +114,7 @@ impl<'a> Reference<'a> {
     }
 
     /// The longest step along a displacement, at most 1, that stays within the tolerance.
-    pub fn longest_step(&self, d: &[f64]) -> f64 {
+    pub(super) fn longest_step(&self, d: &[f64]) -> f64 {
         let largest = |deviations: Vec<f64>| deviations.into_iter().fold(0.0, f64::max);
         let whole = largest(self.deviations(d));
         if whole <= self.tolerance {
@@ -132,7 +132,7 @@ impl<'a> Reference<'a> {
     }
 
     /// Gives more weight to what lies far off after a displacement.
-    pub fn weigh(&self, d: &[f64], weights: &mut [f64]) {
+    pub(super) fn weigh(&self, d: &[f64], weights: &mut [f64]) {
         for (weight, deviation) in weights.iter_mut().zip(self.deviations(d)) {
             let excess = deviation / (WEIGH_FROM * self.tolerance);
             *weight = (*weight * excess.clamp(1.0, MOST_AT_ONCE).powi(2)).min(MOST_WEIGHT);
@@ -177,7 +177,7 @@ fn add_point(space: &Space, cell: u32, shares: &[f64], points: &[f64], step: f64
 }
 
 /// The most that a place of each cell moves: that of the ordinates of the displacement, of which it is a mean.
-pub fn movements(space: &Space, d: &[f64]) -> Vec<f64> {
+pub(super) fn movements(space: &Space, d: &[f64]) -> Vec<f64> {
     let length = |row: &[f64]| row.iter().map(|x| x * x).sum::<f64>().sqrt();
     let most = |ordinates: Vec<f64>| ordinates.chunks_exact(space.dim).map(length).fold(0.0, f64::max);
     space.cells.iter().map(|cell| most(space.ordinates(cell, d))).collect()

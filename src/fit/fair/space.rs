@@ -12,7 +12,7 @@ use crate::surface::{AnySurface, Domain};
 use glam::DVec2;
 
 /// A rectangle on which the surface is one patch.
-pub struct Cell {
+pub(super) struct Cell {
     pub domain: Domain,
     /// The control points that act here, ascending.
     pub unknowns: Vec<u32>,
@@ -21,7 +21,7 @@ pub struct Cell {
 }
 
 /// The control points of a surface.
-pub struct Space {
+pub(super) struct Space {
     pub dim: usize,
     pub degree: [usize; 2],
     pub cells: Vec<Cell>,
@@ -40,7 +40,7 @@ enum Finder {
 }
 
 impl Space {
-    pub fn of(surface: &AnySurface, border: KeptBorder) -> Result<Self, FairError> {
+    pub(super) fn of(surface: &AnySurface, border: KeptBorder) -> Result<Self, FairError> {
         let mut space = match surface {
             AnySurface::Tensor(surface) if surface.weights().is_none() => Self::of_tensor(surface),
             AnySurface::Pht(surface) if !surface.is_rational() => Self::of_pht(surface),
@@ -136,12 +136,12 @@ impl Space {
     }
 
     /// Number of control points.
-    pub fn count(&self) -> usize {
+    pub(super) fn count(&self) -> usize {
         self.is_kept.len()
     }
 
     /// The cell over a parameter pair of the domain.
-    pub fn cell_at(&self, uv: DVec2) -> usize {
+    pub(super) fn cell_at(&self, uv: DVec2) -> usize {
         match &self.finder {
             Finder::Grid([u, v]) => {
                 let rank =
@@ -153,7 +153,7 @@ impl Space {
     }
 
     /// The weights of the control points of a cell at a parameter pair in it.
-    pub fn weights_at(&self, cell: &Cell, uv: DVec2) -> Vec<f64> {
+    pub(super) fn weights_at(&self, cell: &Cell, uv: DVec2) -> Vec<f64> {
         let at = (uv - cell.domain.min) / cell.domain.size();
         let (along_u, along_v) = (bernstein(self.degree[0], at.x), bernstein(self.degree[1], at.y));
         let mut weights = vec![0.0; cell.unknowns.len()];
@@ -165,7 +165,7 @@ impl Space {
     }
 
     /// The ordinates of a cell of the patch that control points make: rows of `dim` numbers.
-    pub fn ordinates(&self, cell: &Cell, control_points: &[f64]) -> Vec<f64> {
+    pub(super) fn ordinates(&self, cell: &Cell, control_points: &[f64]) -> Vec<f64> {
         let dim = self.dim;
         let mut ordinates = vec![0.0; cell.extraction.len() / cell.unknowns.len() * dim];
         let rows = cell.extraction.chunks_exact(cell.unknowns.len()).zip(ordinates.chunks_exact_mut(dim));
@@ -179,7 +179,7 @@ impl Space {
     }
 
     /// The surface with its control points displaced; trims and all else stay.
-    pub fn moved(&self, surface: &AnySurface, d: &[f64]) -> Result<AnySurface, FairError> {
+    pub(super) fn moved(&self, surface: &AnySurface, d: &[f64]) -> Result<AnySurface, FairError> {
         let mut moved = surface.clone();
         // an overflow is the one thing that can be wrong
         let add = |a: &[f64]| -> Vec<f64> { a.iter().zip(d).map(|(a, d)| a + d).collect() };

@@ -18,7 +18,7 @@ use std::fmt;
 const CHUNK: usize = 1024;
 
 /// Where the data of a fit lie and how much they weigh: nodes, then places inside triangles.
-pub struct Data {
+pub(super) struct Data {
     pub uv: Vec<DVec2>,
     pub weights: Vec<f64>,
     nodes: Vec<u32>,
@@ -26,7 +26,7 @@ pub struct Data {
 }
 
 impl Data {
-    pub fn new(
+    pub(super) fn new(
         uv: &[DVec2],
         known: Option<&[u32]>,
         weights: Option<&[f64]>,
@@ -53,7 +53,7 @@ impl Data {
     }
 
     /// One datum of weight 1 at each place.
-    pub fn plain(uv: &[DVec2]) -> Self {
+    pub(super) fn plain(uv: &[DVec2]) -> Self {
         Self {
             uv: memory::copied(uv),
             weights: memory::filled(1.0, uv.len()),
@@ -77,7 +77,7 @@ struct Row {
 }
 
 /// Everything about the right side but the values.
-pub struct RightSide {
+pub(super) struct RightSide {
     /// In the order of their cells.
     rows: Vec<Row>,
     /// Where the rows of each cell begin, and the end.
@@ -93,7 +93,7 @@ impl fmt::Debug for RightSide {
 }
 
 /// Memory of one fit.
-pub struct Scratch {
+pub(super) struct Scratch {
     pub dim: usize,
     /// Middle and half the size of the values' box.
     center: Vec<f64>,
@@ -117,7 +117,7 @@ impl fmt::Debug for Scratch {
 }
 
 impl Scratch {
-    pub fn new(basis: &TensorBasis, right_side: &RightSide, dim: usize, memory: SolveMemory) -> Self {
+    pub(super) fn new(basis: &TensorBasis, right_side: &RightSide, dim: usize, memory: SolveMemory) -> Self {
         let (count_u, count_v) = (basis.u.grid.count + 2, basis.v.grid.count + 2);
         let [cells_u, _] = basis.cells();
         Self {
@@ -135,18 +135,18 @@ impl Scratch {
     }
 
     /// Sets the frame: the values are taken less `center`, in their own size.
-    pub fn set_center(&mut self, center: impl Iterator<Item = f64>) {
+    pub(super) fn set_center(&mut self, center: impl Iterator<Item = f64>) {
         self.center.iter_mut().zip(center).for_each(|(c, x)| *c = x);
         self.scale = 1.0;
     }
 
     /// What the values are taken less of.
-    pub fn center(&self) -> &[f64] {
+    pub(super) fn center(&self) -> &[f64] {
         &self.center
     }
 
     /// From the columns of unknowns to control points in the frame of the values.
-    pub fn write_control_points(&mut self, basis: &TensorBasis, dim: usize) {
+    pub(super) fn write_control_points(&mut self, basis: &TensorBasis, dim: usize) {
         let n = basis.len();
         for (k, column) in self.columns.chunks_exact(n).enumerate() {
             self.rows[k..].iter_mut().step_by(dim).zip(column).for_each(|(row, x)| *row = *x);
@@ -162,7 +162,7 @@ impl Scratch {
 }
 
 impl RightSide {
-    pub fn new(basis: &TensorBasis, data: Data, pool: &Pool) -> Self {
+    pub(super) fn new(basis: &TensorBasis, data: Data, pool: &Pool) -> Self {
         let row = |&datum: &u32| {
             let (uv, weight) = (data.uv[datum as usize], data.weights[datum as usize]);
             let ((cell_u, s), (cell_v, t)) = (basis.u.grid.locate(uv.x), basis.v.grid.locate(uv.y));
@@ -189,12 +189,12 @@ impl RightSide {
     }
 
     /// The nodes with values, in order.
-    pub fn nodes(&self) -> &[u32] {
+    pub(super) fn nodes(&self) -> &[u32] {
         &self.nodes
     }
 
     /// Chooses the box in which sums of squares keep their digits.
-    pub fn frame(&self, values: &[f64], dim: usize, scratch: &mut Scratch) {
+    pub(super) fn frame(&self, values: &[f64], dim: usize, scratch: &mut Scratch) {
         let mut diagonal_sq = 0.0;
         for (k, center) in scratch.center.iter_mut().enumerate() {
             let component = self.nodes.iter().map(|&node| values[node as usize * dim + k]);
@@ -210,7 +210,7 @@ impl RightSide {
     }
 
     /// Adds up the values of all data. Rows of cells are independent pieces of work, added in their order.
-    pub fn assemble(
+    pub(super) fn assemble(
         &self,
         values: &[f64],
         dim: usize,
@@ -239,7 +239,7 @@ impl RightSide {
 
     /// The transpose of [`RightSide::assemble`]: what the columns of unknowns are at the data, times their weights,
     /// added up for the nodes that the data take their values from. Other nodes get 0.
-    pub fn transpose(&self, basis: &TensorBasis, scratch: &mut Scratch, out: &mut [f64], pool: &Pool) {
+    pub(super) fn transpose(&self, basis: &TensorBasis, scratch: &mut Scratch, out: &mut [f64], pool: &Pool) {
         let Scratch { columns, data, dim, .. } = scratch;
         let dim = *dim;
         data.resize(self.rows.len() * dim, 0.0);

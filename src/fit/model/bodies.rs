@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 
 /// A closed component, its fronts out of the material: of a solid outwards, of a void inwards.
 #[derive(Debug, Clone)]
-pub struct Body {
+pub(super) struct Body {
     /// Its triangles, with nodes of its own.
     pub mesh: Mesh,
     /// The node of the whole mesh that each of its nodes is.
@@ -23,12 +23,12 @@ pub struct Body {
 }
 
 /// Most components: each gets a fit of its own.
-pub const MAX_COMPONENTS: usize = 1000;
+pub(super) const MAX_COMPONENTS: usize = 1000;
 /// A volume below this part of the cube of the diagonal is none: rounding of coordinates.
 const LEAST_VOLUME: f64 = 1e-12;
 
 /// The bodies of a mesh without boundary, those around others first.
-pub fn bodies(mesh: &Mesh) -> Result<Vec<Body>, ModelFitError> {
+pub(super) fn bodies(mesh: &Mesh) -> Result<Vec<Body>, ModelFitError> {
     if let Some(first) = mesh.loops().first() {
         return Err(ModelFitError::Open { loops: mesh.loops().len(), node: first[0] as usize });
     }
@@ -78,7 +78,7 @@ pub fn bodies(mesh: &Mesh) -> Result<Vec<Body>, ModelFitError> {
 }
 
 /// The components of a mesh as they are: shells that may have borders.
-pub fn shells(mesh: &Mesh) -> Vec<Body> {
+pub(super) fn shells(mesh: &Mesh) -> Vec<Body> {
     let parts = mesh.split_components().expect("a component of a mesh is one");
     let triangles = triangles_of_components(mesh);
     let shell = |(part, triangles): (Piece, Vec<u32>)| Body {

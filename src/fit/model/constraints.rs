@@ -45,11 +45,11 @@ struct Held {
 
 /// The constraints of a space as they act on its unknowns.
 #[derive(Debug, Clone, Default)]
-pub struct Projector(Vec<Held>);
+pub(super) struct Projector(Vec<Held>);
 
 impl Projector {
     /// For the unknowns of a space.
-    pub fn new(space: &Space, constraints: &Constraints) -> Self {
+    pub(super) fn new(space: &Space, constraints: &Constraints) -> Self {
         // by unknown: whether it is a position, and its planes
         let mut planes_of: BTreeMap<u32, (bool, BTreeSet<u32>)> = BTreeMap::new();
         for crease in space.crease_unknowns() {
@@ -74,7 +74,7 @@ impl Projector {
 
     /// Moves the unknowns, three numbers each, on to their planes, and mends what that does to the enclosure equations
     /// of the space with the others.
-    pub fn apply(&self, space: &Space, unknowns: &mut [f64]) {
+    pub(super) fn apply(&self, space: &Space, unknowns: &mut [f64]) {
         if self.0.is_empty() {
             return;
         }
@@ -121,7 +121,7 @@ impl Projector {
 }
 
 /// The place in planes that is nearest to a point.
-pub fn nearest_in(planes: impl Iterator<Item = PlaneEquation>, point: DVec3) -> DVec3 {
+pub(super) fn nearest_in(planes: impl Iterator<Item = PlaneEquation>, point: DVec3) -> DVec3 {
     moved_into(&orthonormal(planes, true), point)
 }
 

@@ -38,7 +38,7 @@ const SMOOTHING: f64 = 1e-3;
 const PLANE_SHARE: f64 = 1.0 / 3.0;
 
 /// A body as patches and planes, which make a model; none if its features part nothing.
-pub fn over_features(
+pub(super) fn over_features(
     body: &Body,
     options: &MeshModelOptions,
     control: &mut Control,

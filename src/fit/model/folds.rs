@@ -18,7 +18,7 @@ const PLACES: usize = 4;
 /// The cells with a reversed normal, ascending. The normal of the mesh is that of the sample that lies nearest in the cell, where
 /// the mesh is cut along its sharp edges; where they are rounded (`is_cut` false) a normal is between those on both sides, and
 /// reversed if it is so against all samples of the cell. For a cell without samples `elsewhere` says the normal.
-pub fn folded_cells(
+pub(super) fn folded_cells(
     surfaces: &[PhtSurface],
     (quads, cells): (&[u32], &[CellPlace]),
     (samples, places): (&Samples, &[Place]),

@@ -18,7 +18,7 @@ const PIECE: usize = 512;
 
 /// What foot points move over.
 #[derive(Clone, Copy)]
-pub struct Ground<'a> {
+pub(super) struct Ground<'a> {
     pub layout: &'a Layout,
     pub surfaces: &'a [PhtSurface],
     /// By vertex of the layout: whether samples on creases stop there.
@@ -27,7 +27,7 @@ pub struct Ground<'a> {
 
 /// Moves each place by Gauss-Newton steps towards the foot of its point, if that brings it nearer and its lock lets
 /// it; returns the distances.
-pub fn foot_points(
+pub(super) fn foot_points(
     ground: Ground,
     places: &mut [Place],
     locks: &mut [Lock],

@@ -14,14 +14,14 @@ struct Region {
 
 /// The nearest place of the mesh.
 #[derive(Debug, Clone, Copy)]
-pub struct Near {
+pub(super) struct Near {
     pub point: DVec3,
     pub distance: f64,
     pub triangle: u32,
 }
 
 /// The pieces of a mesh cut along creases, by the quads that lie over them.
-pub struct Regions {
+pub(super) struct Regions {
     regions: Vec<Region>,
     /// By quad, its region; those of a piece of the layout without nodes search them all.
     of_quads: Vec<Option<u32>>,
@@ -29,7 +29,7 @@ pub struct Regions {
 
 impl Regions {
     /// The components of a mesh whose nodes have places on a layout. A layout in one smooth piece lies over all of them.
-    pub fn new(mesh: &Mesh, layout: &Layout, places: impl Iterator<Item = (u32, Place)>) -> Self {
+    pub(super) fn new(mesh: &Mesh, layout: &Layout, places: impl Iterator<Item = (u32, Place)>) -> Self {
         let piece_of = layout.smooth_pieces();
         let piece_count = piece_of.iter().max().map_or(0, |&piece| piece as usize + 1);
         let (labels, count) = mesh.topology().components();
@@ -74,7 +74,7 @@ impl Regions {
     }
 
     /// The place of a quad's piece of the mesh that is nearest to a point.
-    pub fn nearest(&self, quad: u32, point: DVec3) -> Option<Near> {
+    pub(super) fn nearest(&self, quad: u32, point: DVec3) -> Option<Near> {
         let of_quad = self.of_quads[quad as usize];
         let regions = match of_quad {
             Some(region) => &self.regions[region as usize..=region as usize],

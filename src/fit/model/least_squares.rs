@@ -36,7 +36,7 @@ const PIECES: usize = 16;
 
 /// Samples in any order: where they lie, what they should be, how much they count.
 #[derive(Debug, Clone, Default)]
-pub struct Targets {
+pub(super) struct Targets {
     /// Parameters on the patch of their cell.
     pub uv: Vec<DVec2>,
     pub points: Vec<DVec3>,
@@ -45,14 +45,14 @@ pub struct Targets {
 
 /// A cell of all patches together.
 #[derive(Debug, Clone, Copy)]
-pub struct CellPlace {
+pub(super) struct CellPlace {
     pub min: DVec2,
     pub size: f64,
 }
 
 /// What a space makes of the unknowns of each cell, and the pattern of its matrix.
 #[derive(Debug)]
-pub struct System {
+pub(super) struct System {
     free_count: usize,
     enclosures: Vec<Enclosure>,
     cells: Vec<CellPlace>,
@@ -72,7 +72,7 @@ struct CellMap {
 
 /// The factored matrix with all that a right-hand side needs.
 #[derive(Debug)]
-pub struct Solver {
+pub(super) struct Solver {
     factor: Cholesky,
     matrix: CsMat<f64>,
     /// What makes the diagonal one.
@@ -99,7 +99,7 @@ struct Sums {
 
 impl System {
     /// Prepares the space.
-    pub fn new(space: &Space, pool: &Pool) -> Self {
+    pub(super) fn new(space: &Space, pool: &Pool) -> Self {
         let places = cells_of(space);
         let maps: Vec<CellMap> = pool.run(|| {
             (0..space.meshes().len()).into_par_iter().flat_map_iter(|quad| cell_maps(space, quad)).collect()
@@ -112,12 +112,12 @@ impl System {
     }
 
     /// The cells of all patches, patch after patch.
-    pub fn cells(&self) -> &[CellPlace] {
+    pub(super) fn cells(&self) -> &[CellPlace] {
         &self.cells
     }
 
     /// The free unknowns of the best surface, a row of three numbers each; `smoothing` by cell.
-    pub fn solve(
+    pub(super) fn solve(
         &self,
         targets: &Targets,
         by_cell: &ByCell,
@@ -133,7 +133,7 @@ impl System {
     }
 
     /// The left side for samples of these places and weights, factored; their points are not looked at.
-    pub fn factor(
+    pub(super) fn factor(
         &self,
         targets: &Targets,
         by_cell: &ByCell,
@@ -146,7 +146,7 @@ impl System {
     }
 
     /// The right side of weighted rows of `dim` numbers at places: columns.
-    pub fn gather(
+    pub(super) fn gather(
         &self,
         places: &[Place],
         by_cell: &ByCell,
@@ -183,7 +183,7 @@ impl System {
     }
 
     /// What columns of free unknowns are at places: rows. The transpose of [`System::gather`].
-    pub fn read(
+    pub(super) fn read(
         &self,
         places: &[Place],
         by_cell: &ByCell,
@@ -343,7 +343,7 @@ struct Share {
 
 impl Solver {
     /// The free unknowns for columns of right sides: columns.
-    pub fn solve(&self, mut right: Vec<f64>) -> Vec<f64> {
+    pub(super) fn solve(&self, mut right: Vec<f64>) -> Vec<f64> {
         let n = self.matrix.cols();
         for column in right.chunks_exact_mut(n) {
             column.iter_mut().zip(&self.scale).for_each(|(x, d)| *x *= d);

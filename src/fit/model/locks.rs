@@ -11,7 +11,7 @@ use glam::DVec2;
 
 /// How a sample may move.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Lock {
+pub(super) enum Lock {
     /// Over all smooth patches.
     Free,
     /// Along this side of its quad.
@@ -21,15 +21,15 @@ pub enum Lock {
 }
 
 /// Weight of a sample at a corner: one node says where a patch ends.
-pub const CORNER_WEIGHT: f64 = 30.0;
+pub(super) const CORNER_WEIGHT: f64 = 30.0;
 /// Weight of a node on a crease: it is on the curve, while facets beside it only say where the surface is.
-pub const CREASE_WEIGHT: f64 = 3.0;
+pub(super) const CREASE_WEIGHT: f64 = 3.0;
 /// Parameters this near to a side are on it: rounding of maps.
 const ON_SIDE: f64 = 1e-9;
 
 impl Lock {
     /// What a sample counts beside one inside a patch.
-    pub fn weight(self) -> f64 {
+    pub(super) fn weight(self) -> f64 {
         match self {
             Self::Free => 1.0,
             Self::Along(_) => CREASE_WEIGHT,
@@ -40,22 +40,22 @@ impl Lock {
 
 /// A place on a sharp side.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct OnCrease {
+pub(super) struct OnCrease {
     side: Side,
     t: f64,
 }
 
 impl OnCrease {
-    pub fn place(self) -> Place {
+    pub(super) fn place(self) -> Place {
         self.side.place(self.t, 0.0)
     }
 
-    pub fn lock(self) -> Lock {
+    pub(super) fn lock(self) -> Lock {
         Lock::Along(self.side.side)
     }
 
     /// Moved along the crease, over ends of sides where it goes straight on.
-    pub fn slide(self, layout: &Layout, step: f64, is_corner: &[bool]) -> Self {
+    pub(super) fn slide(self, layout: &Layout, step: f64, is_corner: &[bool]) -> Self {
         let Self { side, t } = self;
         let t = t + step;
         let goes_on = |at: Side| {
@@ -74,14 +74,14 @@ impl OnCrease {
 }
 
 /// A sample on a side, for one step.
-pub fn on_side(place: Place, side: u8) -> OnCrease {
+pub(super) fn on_side(place: Place, side: u8) -> OnCrease {
     let side = Side { quad: place.quad, side };
     OnCrease { side, t: side.coordinates(place.uv)[0] }
 }
 
 /// Where a place lies on creases: a vertex is the begin of one side and the end of another.
 #[derive(Debug, Clone, Copy)]
-pub struct Feature {
+pub(super) struct Feature {
     /// As a place from which a side leads on.
     pub from: OnCrease,
     /// As a place to which a side leads.
@@ -99,7 +99,7 @@ fn corner_at(place: Place) -> Option<Side> {
 }
 
 /// Where a place lies on the creases of a layout; none inside.
-pub fn feature_at(layout: &Layout, place: Place) -> Option<Feature> {
+pub(super) fn feature_at(layout: &Layout, place: Place) -> Option<Feature> {
     if let Some(corner) = corner_at(place) {
         let sector = layout.sector_at(corner);
         let last = sector.corners[sector.valence() - 1].previous();
@@ -118,7 +118,7 @@ pub fn feature_at(layout: &Layout, place: Place) -> Option<Feature> {
 }
 
 /// The place halfway along a crease from one place to another further on: on one side, or on two that follow each other.
-pub fn halfway(layout: &Layout, a: Feature, b: Feature) -> Option<OnCrease> {
+pub(super) fn halfway(layout: &Layout, a: Feature, b: Feature) -> Option<OnCrease> {
     let (from, to) = (a.from, b.to);
     if from.side == to.side {
         return (from.t <= to.t).then_some(OnCrease { t: 0.5 * (from.t + to.t), ..from });
@@ -134,7 +134,7 @@ pub fn halfway(layout: &Layout, a: Feature, b: Feature) -> Option<OnCrease> {
 }
 
 /// All places that are the same: on either side of a smooth edge, and at every corner of a sector.
-pub fn same_places(layout: &Layout, place: Place) -> Vec<Place> {
+pub(super) fn same_places(layout: &Layout, place: Place) -> Vec<Place> {
     if let Some(corner) = corner_at(place) {
         let corners = &layout.sector_at(corner).corners;
         return corners.iter().map(|corner| corner.place(0.0, 0.0)).collect();
@@ -148,7 +148,7 @@ pub fn same_places(layout: &Layout, place: Place) -> Vec<Place> {
 }
 
 /// By vertex, whether samples there stay: corners given, and vertices where a crease turns.
-pub fn corners(layout: &Layout, given: &[u32]) -> Vec<bool> {
+pub(super) fn corners(layout: &Layout, given: &[u32]) -> Vec<bool> {
     let turns = |vertex: u32| {
         let mut open = layout.sectors_of(vertex).iter().filter(|sector| sector.is_open());
         given.contains(&vertex) || open.any(|sector| !sector.is_straight())
@@ -157,7 +157,7 @@ pub fn corners(layout: &Layout, given: &[u32]) -> Vec<bool> {
 }
 
 /// The lock of a place, and the place itself moved on to its crease to the last bit.
-pub fn lock(layout: &Layout, place: Place, is_corner: &[bool]) -> (Lock, Place) {
+pub(super) fn lock(layout: &Layout, place: Place, is_corner: &[bool]) -> (Lock, Place) {
     match feature_at(layout, place) {
         None => (Lock::Free, place),
         Some(Feature { from, vertex: Some(vertex), .. }) => {
@@ -169,7 +169,7 @@ pub fn lock(layout: &Layout, place: Place, is_corner: &[bool]) -> (Lock, Place) 
 }
 
 /// The derivative along a side of the derivatives along u and v.
-pub fn along(side: u8, along_u: glam::DVec3, along_v: glam::DVec3) -> glam::DVec3 {
+pub(super) fn along(side: u8, along_u: glam::DVec3, along_v: glam::DVec3) -> glam::DVec3 {
     let Place { uv, .. } = Side { quad: 0, side }.place(1.0, 0.0);
     let from = Side { quad: 0, side }.place(0.0, 0.0).uv;
     let DVec2 { x, y } = uv - from;

@@ -32,7 +32,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 /// A fit in progress.
-pub struct Refinement<'a> {
+pub(super) struct Refinement<'a> {
     pub layout: &'a Layout,
     pub options: &'a ModelOptions,
     pub samples: Samples,
@@ -65,7 +65,7 @@ pub struct Refinement<'a> {
 }
 
 /// One round: the surfaces and where the samples lie on them.
-pub struct Round {
+pub(super) struct Round {
     pub surfaces: Vec<PhtSurface>,
     pub places: Vec<Place>,
     pub locks: Vec<Lock>,
@@ -85,7 +85,7 @@ pub struct Round {
 
 /// A part of a patch that resists bending more than others.
 #[derive(Debug, Clone, Copy)]
-pub struct Stiff {
+pub(super) struct Stiff {
     quad: u32,
     domain: Domain,
     factor: f64,
@@ -116,7 +116,7 @@ impl Samples {
 /// Rounds that only move samples before cells with fewer of them are split, or a fit is given up.
 const MOST_STUCK: usize = 3;
 /// Rounds without gain before a fit is given up, while cells of no fewer samples are split.
-pub const MOST_IDLE: usize = 3;
+pub(super) const MOST_IDLE: usize = 3;
 
 impl Rounds for Refinement<'_> {
     type Round = Round;

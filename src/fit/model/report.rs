@@ -92,7 +92,7 @@ pub struct ModelReport {
 const BACK_PLACES: usize = 5;
 
 /// Measures the finished surfaces.
-pub fn measure(
+pub(super) fn measure(
     mesh: &Mesh,
     refinement: &Refinement,
     outcome: &Outcome<Round>,
@@ -208,7 +208,7 @@ fn back_distance(refinement: &Refinement, quad: u32, surface: &PhtSurface) -> f6
 }
 
 /// The volume that a closed mesh encloses.
-pub fn mesh_volume(mesh: &Mesh) -> f64 {
+pub(super) fn mesh_volume(mesh: &Mesh) -> f64 {
     let Some(&origin) = mesh.points().first() else { return 0.0 };
     sum(mesh.triangles().iter().map(|triangle| {
         let [a, b, c] = triangle.map(|node| mesh.points()[node as usize] - origin);

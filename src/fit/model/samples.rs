@@ -81,7 +81,7 @@ impl NodePlaces<'_> {
 
 /// Samples of a mesh; the nodes come first, in their order.
 #[derive(Debug, Clone)]
-pub struct Samples {
+pub(super) struct Samples {
     pub places: Vec<Place>,
     pub points: Vec<DVec3>,
     /// How each may move.
@@ -100,7 +100,7 @@ pub struct Samples {
 const BETWEEN: f64 = 0.3;
 /// What a place on a facet counts beside a node, by how far the shape may lie above it: less where that is more than
 /// `known`, the distance to which facets say where the shape is.
-pub fn weight_on_facet(sagitta: f64, known: f64) -> f64 {
+pub(super) fn weight_on_facet(sagitta: f64, known: f64) -> f64 {
     let share = (known / sagitta).min(1.0);
     BETWEEN * share * share
 }
@@ -112,7 +112,13 @@ const MOST_ROWS: usize = 16;
 
 impl Samples {
     /// Samples of all facets; `is_corner` by vertex of the layout.
-    pub fn new(mesh: &Mesh, map: NodePlaces, layout: &Layout, sagittas: &[f64], is_corner: &[bool]) -> Self {
+    pub(super) fn new(
+        mesh: &Mesh,
+        map: NodePlaces,
+        layout: &Layout,
+        sagittas: &[f64],
+        is_corner: &[bool],
+    ) -> Self {
         let (points, triangles) = (mesh.points(), mesh.triangles());
         let nodes = (0..points.len() as u32).filter(|&node| mesh.is_used(node));
         let (nodes, places): (Vec<u32>, Vec<Place>) =
@@ -178,7 +184,7 @@ impl Samples {
     }
 
     /// What a sample counts beside a node.
-    pub fn weight(&self, sample: usize, known: f64) -> f64 {
+    pub(super) fn weight(&self, sample: usize, known: f64) -> f64 {
         if sample < self.nodes.len() {
             self.locks[sample].weight()
         } else {
@@ -193,7 +199,7 @@ const THIRDS: [f64; 3] = [1.0 / 3.0; 3];
 const HALVES: [f64; 2] = [0.5; 2];
 
 /// The normal of each facet, of length 1.
-pub fn facet_normals(mesh: &Mesh) -> Vec<DVec3> {
+pub(super) fn facet_normals(mesh: &Mesh) -> Vec<DVec3> {
     areas(mesh).map(DVec3::normalize_or_zero).collect()
 }
 
@@ -238,11 +244,11 @@ fn grid_rows(mesh: &Mesh) -> Vec<usize> {
 
 /// Samples sorted by the cells of all patches.
 #[derive(Debug)]
-pub struct ByCell(Lists);
+pub(super) struct ByCell(Lists);
 
 impl ByCell {
     /// Sorts places by the cells of a space, patch after patch and leaf after leaf.
-    pub fn sort(space: &Space, places: &[Place], pool: &Pool) -> Self {
+    pub(super) fn sort(space: &Space, places: &[Place], pool: &Pool) -> Self {
         let mut first_cells = vec![0];
         for topology in space.topologies() {
             first_cells.push(first_cells[first_cells.len() - 1] + topology.leaves.len() as u32);
@@ -257,18 +263,18 @@ impl ByCell {
     }
 
     /// The samples of a cell.
-    pub fn of(&self, cell: usize) -> &[u32] {
+    pub(super) fn of(&self, cell: usize) -> &[u32] {
         self.0.of(cell)
     }
 
     /// Number of cells.
-    pub fn cell_count(&self) -> usize {
+    pub(super) fn cell_count(&self) -> usize {
         self.0.count()
     }
 }
 
 /// The quad of each cell, and where the cell lies on it.
-pub fn quads_of_cells(space: &Space) -> Vec<u32> {
+pub(super) fn quads_of_cells(space: &Space) -> Vec<u32> {
     let counts = space.topologies().iter().map(|topology| topology.leaves.len());
     (0..).zip(counts).flat_map(|(quad, count)| std::iter::repeat_n(quad, count)).collect()
 }
@@ -279,7 +285,7 @@ const ENOUGH: usize = 9;
 const GUARDS: usize = 3;
 
 /// Places in cells with too few samples, three times three a cell.
-pub fn guard_places(quads: &[u32], cells: &[CellPlace], by_cell: &ByCell) -> Vec<Place> {
+pub(super) fn guard_places(quads: &[u32], cells: &[CellPlace], by_cell: &ByCell) -> Vec<Place> {
     let mut places = Vec::new();
     for (number, (&quad, cell)) in quads.iter().zip(cells).enumerate() {
         if by_cell.of(number).len() < ENOUGH {

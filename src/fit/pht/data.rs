@@ -22,7 +22,7 @@ use std::borrow::Cow;
 const MIDDLE_WEIGHT: f64 = 0.3;
 
 /// The data of a fit.
-pub struct Data<'a> {
+pub(super) struct Data<'a> {
     pub mesh: Option<&'a Mesh>,
     /// Whether the values are the nodes' places in space.
     pub is_shape: bool,
@@ -53,7 +53,7 @@ pub struct Data<'a> {
 impl<'a> Data<'a> {
     /// Scattered data, in an order in which neighbours in the plane are neighbours in memory: later passes over
     /// the data of a cell find them together.
-    pub fn of_points(uv: &[DVec2], values: &[f64], dim: usize, weights: Option<&[f64]>) -> Self {
+    pub(super) fn of_points(uv: &[DVec2], values: &[f64], dim: usize, weights: Option<&[f64]>) -> Self {
         let order = z_order(uv);
         let at = |&k: &u32| k as usize;
         let sorted = order.iter().flat_map(|k| &values[at(k) * dim..][..dim]).copied().collect_vec();
@@ -86,13 +86,13 @@ impl<'a> Data<'a> {
     }
 
     /// Something of each datum in the order in which they were given.
-    pub fn as_given<T: Copy>(&self, sorted: Vec<T>) -> Vec<T> {
+    pub(super) fn as_given<T: Copy>(&self, sorted: Vec<T>) -> Vec<T> {
         let mut given = memory::copied(&sorted);
         self.order.iter().zip(sorted).for_each(|(&k, x)| given[k as usize] = x);
         given
     }
 
-    pub fn of_mesh(
+    pub(super) fn of_mesh(
         mesh: &'a Mesh,
         uv: Vec<DVec2>,
         values: &'a [f64],
@@ -122,7 +122,12 @@ impl<'a> Data<'a> {
     }
 
     /// Takes over what single data demand, in the order in which they were given.
-    pub fn demand(&mut self, demands: &Demands, asked: &Tolerance, goal: &Goal) -> Result<(), FitError> {
+    pub(super) fn demand(
+        &mut self,
+        demands: &Demands,
+        asked: &Tolerance,
+        goal: &Goal,
+    ) -> Result<(), FitError> {
         let at = |k: usize| self.order.get(k).map_or(k, |&given| given as usize);
         let count = self.uv.len();
         let sorted = |tolerances: &[f64]| (0..count).map(|k| tolerances[at(k)]).collect::<Vec<f64>>();
@@ -158,17 +163,17 @@ impl<'a> Data<'a> {
     }
 
     /// Measures a surface at the data.
-    pub fn errors(&self, surface: &dyn Surface, pool: &Pool) -> DataErrors {
+    pub(super) fn errors(&self, surface: &dyn Surface, pool: &Pool) -> DataErrors {
         self.standards.measure(data_errors(surface, &self.uv, &self.values, pool))
     }
 
     /// Measures a surface between the nodes of a mesh.
-    pub fn interior_errors(&self, surface: &dyn Surface, pool: &Pool) -> Option<InteriorErrors> {
+    pub(super) fn interior_errors(&self, surface: &dyn Surface, pool: &Pool) -> Option<InteriorErrors> {
         Some(self.on_mesh()?.interior_errors(surface, &self.standards, pool))
     }
 
     /// Parameters of all samples.
-    pub fn sample_uv(&self) -> Vec<DVec2> {
+    pub(super) fn sample_uv(&self) -> Vec<DVec2> {
         let triangles = self.mesh.map_or(&[][..], Mesh::triangles);
         let middle = |nodes: &[u32; 3]| nodes.iter().map(|&n| self.uv[n as usize]).sum::<DVec2>() / 3.0;
         self.uv.iter().copied().chain(triangles.iter().map(middle)).collect_vec()
@@ -176,7 +181,7 @@ impl<'a> Data<'a> {
 
     /// By how much the middle of each triangle of a shape misses the surface beyond its sagitta; `sample_uv` are
     /// the parameters of all samples.
-    pub fn excesses(&self, surface: &dyn Surface, sample_uv: &[DVec2], pool: &Pool) -> Vec<f64> {
+    pub(super) fn excesses(&self, surface: &dyn Surface, sample_uv: &[DVec2], pool: &Pool) -> Vec<f64> {
         let Some(mesh) = self.mesh.filter(|_| self.is_shape) else { return Vec::new() };
         let place = |n: u32| DVec3::from_slice(&self.values[3 * n as usize..]);
         let middle = |&[a, b, c]: &[u32; 3]| ((place(a) + place(b) + place(c)) / 3.0).to_array();

@@ -22,35 +22,35 @@ use sprs::CsMat;
 use std::collections::BTreeMap;
 
 /// Samples sorted by leaf.
-pub struct ByLeaf {
+pub(super) struct ByLeaf {
     /// Parameters of all samples.
     pub uv: Vec<DVec2>,
     by_leaf: Lists,
 }
 
 impl ByLeaf {
-    pub fn sort(mesh: &TMesh, topology: &Topology, data: &Data, pool: &Pool) -> Self {
+    pub(super) fn sort(mesh: &TMesh, topology: &Topology, data: &Data, pool: &Pool) -> Self {
         let uv = data.sample_uv();
         let leaf = |&uv: &DVec2| topology.leaf_of(mesh.locate(uv)) as u32;
         let leaves: Vec<u32> = pool.run(|| uv.par_iter().with_min_len(4096).map(leaf).collect_vec());
         Self { uv, by_leaf: Lists::by_key(topology.leaves.len(), &leaves) }
     }
 
-    pub fn of(&self, leaf: usize) -> &[u32] {
+    pub(super) fn of(&self, leaf: usize) -> &[u32] {
         self.by_leaf.of(leaf)
     }
 }
 
 /// Sums of cells that the next mesh may have too. They hold as long as no sample moves.
 #[derive(Default)]
-pub struct KnownSums {
+pub(super) struct KnownSums {
     keeps: bool,
     sums: BTreeMap<Cell, CellSums>,
 }
 
 impl KnownSums {
     /// None yet; later ones are kept if samples stay where they are.
-    pub fn new(keeps: bool) -> Self {
+    pub(super) fn new(keeps: bool) -> Self {
         Self { keeps, sums: BTreeMap::new() }
     }
 }
@@ -63,7 +63,7 @@ const PIECE: usize = 64;
 
 /// What weighs against the data.
 #[derive(Default)]
-pub struct Energy {
+pub(super) struct Energy {
     /// Of the plate in every cell.
     pub plate: f64,
     /// Of the membrane in each leaf; empty for none.
@@ -73,7 +73,7 @@ pub struct Energy {
 type Block = [[f64; 4]; 4];
 
 /// The matrix of one mesh: what stays when samples move.
-pub struct System<'a> {
+pub(super) struct System<'a> {
     mesh: &'a TMesh,
     topology: &'a Topology,
     expansions: Vec<Vec<(u32, Matrix)>>,
@@ -92,7 +92,7 @@ struct Share {
 }
 
 impl<'a> System<'a> {
-    pub fn new(mesh: &'a TMesh, topology: &'a Topology) -> Self {
+    pub(super) fn new(mesh: &'a TMesh, topology: &'a Topology) -> Self {
         let expansions = expansions(topology, mesh);
         let mut sizes = vec![DVec2::ZERO; topology.basis.len()];
         let mut pairs: Vec<(u32, u32)> = Vec::new();
@@ -116,7 +116,7 @@ impl<'a> System<'a> {
     }
 
     /// The jets in the frame of the data: for each basis vertex four rows of `dim` numbers.
-    pub fn solve(
+    pub(super) fn solve(
         &self,
         data: &Data,
         by_leaf: &ByLeaf,

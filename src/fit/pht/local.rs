@@ -25,7 +25,7 @@ const CUBIC_RADIUS: f64 = 0.75;
 const CUBIC_DECAY: f64 = 3.0;
 
 /// Jets of weighted cubics around the basis vertices, in the frame of the data.
-pub fn cubic(data: &Data, mesh: &TMesh, topology: &Topology, pool: &Pool) -> Vec<f64> {
+pub(super) fn cubic(data: &Data, mesh: &TMesh, topology: &Topology, pool: &Pool) -> Vec<f64> {
     let buckets = Buckets::new(data);
     let mut widths = vec![(0.0, 0.0); topology.basis.len()];
     for (&node, corners) in topology.leaves.iter().zip(&topology.corners) {
@@ -48,7 +48,12 @@ pub fn cubic(data: &Data, mesh: &TMesh, topology: &Topology, pool: &Pool) -> Vec
 }
 
 /// Jets of quadratics around the data, interpolated linearly over their Delaunay triangles.
-pub fn quadratic(data: &Data, mesh: &TMesh, topology: &Topology, pool: &Pool) -> Result<Vec<f64>, FitError> {
+pub(super) fn quadratic(
+    data: &Data,
+    mesh: &TMesh,
+    topology: &Topology,
+    pool: &Pool,
+) -> Result<Vec<f64>, FitError> {
     let buckets = Buckets::new(data);
     let length = 4 * data.dim;
     let at_datum = |&center: &DVec2| {

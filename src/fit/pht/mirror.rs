@@ -15,7 +15,11 @@ use crate::tmesh::{Cell, TMesh, Topology, Vertex};
 use std::collections::BTreeMap;
 
 /// Fits the shape of a mesh that is its own mirror image by a surface that is.
-pub fn fit_symmetric(mesh: &Mesh, options: &PhtOptions, control: &mut Control) -> Result<PhtFit, FitError> {
+pub(super) fn fit_symmetric(
+    mesh: &Mesh,
+    options: &PhtOptions,
+    control: &mut Control,
+) -> Result<PhtFit, FitError> {
     const BY: &str = "the fit of a symmetric shape";
     options.check()?;
     options.demands.check(mesh.points().len())?;

@@ -18,7 +18,7 @@ use crate::tmesh::{Cell, MAX_LEVEL, NodeId, TMesh, Topology};
 use glam::DVec2;
 
 /// A fit on its way.
-pub struct Refinement<'a> {
+pub(super) struct Refinement<'a> {
     pub(super) data: Data<'a>,
     pub(super) options: &'a PhtOptions<'a>,
     pub(super) mesh: TMesh,
@@ -30,7 +30,7 @@ pub struct Refinement<'a> {
 }
 
 /// A surface, measured, with the parameters it was made for.
-pub struct Round {
+pub(super) struct Round {
     pub surface: PhtSurface,
     pub errors: DataErrors,
     pub uv: Vec<DVec2>,
@@ -40,7 +40,7 @@ pub struct Round {
 }
 
 /// A leaf that misses the tolerance.
-pub struct Rough {
+pub(super) struct Rough {
     cell: Cell,
     samples: usize,
     /// The largest error in it.
@@ -118,7 +118,7 @@ impl Rounds for Refinement<'_> {
 }
 
 impl<'a> Refinement<'a> {
-    pub fn new(mut data: Data<'a>, options: &'a PhtOptions<'a>) -> Result<Self, FitError> {
+    pub(super) fn new(mut data: Data<'a>, options: &'a PhtOptions<'a>) -> Result<Self, FitError> {
         if FreeFunctions::of(&data.uv, &data.data_box) == FreeFunctions::Linear {
             return Err(FitError::Singular);
         }
@@ -139,7 +139,7 @@ impl<'a> Refinement<'a> {
         Ok(Self { data, options, mesh, known, smoothing, goal, noise })
     }
 
-    pub fn run(mut self, control: &mut Control) -> Result<PhtFit, FitError> {
+    pub(super) fn run(mut self, control: &mut Control) -> Result<PhtFit, FitError> {
         let mut outcome = rounds::run(&mut self, control)?;
         outcome.best = self.tamed(outcome.best, control)?;
         outcome.best.rough.retain(|rough| !(rough.error <= self.goal.tolerance));

@@ -20,7 +20,7 @@ const PARTS: usize = 4;
 
 impl Refinement<'_> {
     /// A round, or one over the same cells or more that stays nearer to the box of the data where there are none.
-    pub fn tamed(&mut self, round: Round, control: &mut Control) -> Result<Round, FitError> {
+    pub(super) fn tamed(&mut self, round: Round, control: &mut Control) -> Result<Round, FitError> {
         if self.options.estimator != Estimator::Global {
             return Ok(round);
         }

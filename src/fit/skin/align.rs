@@ -23,7 +23,7 @@ pub(super) struct Alignment {
 }
 
 impl Alignment {
-    pub fn changed_count(&self) -> usize {
+    pub(super) fn changed_count(&self) -> usize {
         self.orders.iter().filter(|&&order| order != Order::default()).count()
     }
 }

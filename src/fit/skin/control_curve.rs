@@ -56,7 +56,7 @@ pub(super) fn row_values(row: usize, loft: &Loft, sources: &Sources) -> Vec<(usi
 
 impl Target {
     /// Curve `curve` of the loft; `of_rows` are [`row_values`] of all rows.
-    pub fn new(
+    pub(super) fn new(
         curve: usize,
         loft: &Loft,
         sources: &Sources,
@@ -91,7 +91,7 @@ impl Target {
     }
 
     /// Inserts knots until the tolerance is kept, then takes out what is not needed.
-    pub fn approximate(&self, rules: &Rules) -> Result<Approximation, SkinError> {
+    pub(super) fn approximate(&self, rules: &Rules) -> Result<Approximation, SkinError> {
         let tolerance_sq = rules.tolerance * rules.tolerance;
         let mut chosen = vec![0, self.u.len() - 1];
         let mut errors_sq = memory::filled(0.0, self.u.len());

@@ -12,12 +12,12 @@ pub(super) struct Order {
 
 impl Order {
     /// The place number `k` of the row as it was given comes at this position.
-    pub fn place(&self, k: usize, count: usize) -> usize {
+    pub(super) fn place(&self, k: usize, count: usize) -> usize {
         if self.is_reversed { (self.first + count - k) % count } else { (k + count - self.first) % count }
     }
 
     /// The places in this order, the first once more at the end if asked for.
-    pub fn places(&self, count: usize, repeats_first: bool) -> impl Iterator<Item = usize> + use<> {
+    pub(super) fn places(&self, count: usize, repeats_first: bool) -> impl Iterator<Item = usize> + use<> {
         let Self { first, is_reversed } = *self;
         (0..count + usize::from(repeats_first))
             .map(move |k| if is_reversed { (first + 2 * count - k) % count } else { (first + k) % count })
@@ -37,7 +37,7 @@ pub(super) struct Distinct<'a> {
 }
 
 impl<'a> Distinct<'a> {
-    pub fn new(points: &'a [f64], dim: usize, merge_distance: f64, is_closed: bool) -> Self {
+    pub(super) fn new(points: &'a [f64], dim: usize, merge_distance: f64, is_closed: bool) -> Self {
         let mut row =
             Self { points, dim, kept: vec![0], owner: memory::filled(0, points.len() / dim), is_closed };
         for k in 1..row.owner.len() {
@@ -62,21 +62,21 @@ impl<'a> Distinct<'a> {
     }
 
     /// Places.
-    pub fn count(&self) -> usize {
+    pub(super) fn count(&self) -> usize {
         self.kept.len()
     }
 
-    pub fn merged_count(&self) -> usize {
+    pub(super) fn merged_count(&self) -> usize {
         self.owner.len() - self.kept.len()
     }
 
     /// The points in another order, the first one once more at the end of a closed row, and of a row of one place.
-    pub fn ordered(&self, order: &Order) -> Vec<f64> {
+    pub(super) fn ordered(&self, order: &Order) -> Vec<f64> {
         self.ordered_of(self.points, order)
     }
 
     /// The same of other vectors than the points.
-    pub fn ordered_of(&self, vectors: &[f64], order: &Order) -> Vec<f64> {
+    pub(super) fn ordered_of(&self, vectors: &[f64], order: &Order) -> Vec<f64> {
         let places = order.places(self.count(), self.is_closed || self.count() == 1);
         places
             .flat_map(|place| vectors[self.kept[place] * self.dim..][..self.dim].iter().copied())
@@ -84,7 +84,7 @@ impl<'a> Distinct<'a> {
     }
 
     /// Shares of the chord length at the points of [`Distinct::ordered`], and the length.
-    pub fn chord_parameters(&self, order: &Order) -> (Vec<f64>, f64) {
+    pub(super) fn chord_parameters(&self, order: &Order) -> (Vec<f64>, f64) {
         if self.count() == 1 {
             return (vec![0.0, 1.0], 0.0);
         }

@@ -42,7 +42,7 @@ impl Loft {
     /// One knot for each row, at rising `parameters`. With tangents the source after all rows, and the one after
     /// that, are the derivatives across the first and the last row, with respect to a length of which the whole range
     /// of `parameters` has `length`.
-    pub fn interpolating(
+    pub(super) fn interpolating(
         parameters: Vec<f64>,
         has_tangents: [bool; 2],
         length: f64,
@@ -95,7 +95,7 @@ impl Loft {
     /// R_l - (v_l - v_{l-1}) / 3 T_l,    R_l + (v_{l+1} - v_l) / 3 T_l
     /// ```
     /// where the slopes `T_l` are the sources after all rows ([`super::monotone`]).
-    pub fn monotone(parameters: Vec<f64>) -> Result<Self, SkinError> {
+    pub(super) fn monotone(parameters: Vec<f64>) -> Result<Self, SkinError> {
         let (v, n) = (&parameters, parameters.len() - 1);
         let ends = |at: usize| [v[at]; 4];
         let inner = v[1..n].iter().flat_map(|&t| [t, t]);
@@ -119,7 +119,7 @@ impl Loft {
     }
 
     /// The last row is followed by the first: `period` is where it comes again. Needs three rows.
-    pub fn closed(parameters: Vec<f64>, period: f64) -> Result<Self, SkinError> {
+    pub(super) fn closed(parameters: Vec<f64>, period: f64) -> Result<Self, SkinError> {
         let count = parameters.len();
         let wrapped = |k: usize| {
             // t_{3+l} = v_l
@@ -144,7 +144,7 @@ impl Loft {
     }
 
     /// Control curves that differ: the surface repeats the first of them at its end if it has more.
-    pub fn curve_count(&self) -> usize {
+    pub(super) fn curve_count(&self) -> usize {
         self.weights.len()
     }
 }

@@ -42,7 +42,7 @@ pub(super) struct Data {
 }
 
 impl Data {
-    pub fn of_rows(rows: &Rows, options: &SkinOptions) -> Result<Self, SkinError> {
+    pub(super) fn of_rows(rows: &Rows, options: &SkinOptions) -> Result<Self, SkinError> {
         check(rows)?;
         let Rows { points, counts, dim } = *rows;
         let bounds = Bounds::of_rows(points, dim);
@@ -97,7 +97,7 @@ impl Data {
     }
 
     /// Sections that are curves already; their data are their values at the ends of their pieces.
-    pub fn of_curves(curves: &[Curve], options: &SkinOptions) -> Result<Self, SkinError> {
+    pub(super) fn of_curves(curves: &[Curve], options: &SkinOptions) -> Result<Self, SkinError> {
         let Some(first) = curves.first() else { return Err(SkinError::TooFewRows { count: 0, least: 2 }) };
         let dim = first.dim();
         if let Some(row) = curves.iter().position(|curve| curve.dim() != dim) {

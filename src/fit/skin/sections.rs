@@ -16,7 +16,7 @@ pub(super) enum Section {
 
 impl Section {
     /// A curve over whatever domain, moved to [0, 1].
-    pub fn of_curve(curve: &Curve) -> Result<Self, CurveError> {
+    pub(super) fn of_curve(curve: &Curve) -> Result<Self, CurveError> {
         let (from, to) = curve.knots().domain();
         let (degree, dim) = (curve.knots().degree(), curve.dim());
         let moved = curve.knots().knots().iter().map(|t| (t - from) / (to - from)).collect_vec();
@@ -36,7 +36,7 @@ impl Section {
     }
 
     /// Where its pieces meet; for a row these are the data.
-    pub fn breaks(&self) -> &[f64] {
+    pub(super) fn breaks(&self) -> &[f64] {
         match self {
             Self::Cubic(cubic) => cubic.parameters(),
             Self::Other { breaks, .. } => breaks,
@@ -44,7 +44,7 @@ impl Section {
     }
 
     /// Components of a value.
-    pub fn dim(&self) -> usize {
+    pub(super) fn dim(&self) -> usize {
         match self {
             Self::Cubic(cubic) => cubic.dim(),
             Self::Other { curve, .. } => curve.dim(),
@@ -52,7 +52,7 @@ impl Section {
     }
 
     /// Values at rising parameters.
-    pub fn eval_rising(&self, u: &[f64], out: &mut [f64]) {
+    pub(super) fn eval_rising(&self, u: &[f64], out: &mut [f64]) {
         match self {
             Self::Cubic(cubic) => cubic.eval_rising(u, out),
             Self::Other { curve, .. } => curve.eval_rows(u, 0, out),
@@ -60,7 +60,7 @@ impl Section {
     }
 
     /// First derivatives at rising parameters.
-    pub fn slopes_rising(&self, u: &[f64], out: &mut [f64]) {
+    pub(super) fn slopes_rising(&self, u: &[f64], out: &mut [f64]) {
         match self {
             Self::Cubic(cubic) => cubic.slopes_rising(u, out),
             Self::Other { curve, .. } => {
@@ -84,17 +84,17 @@ pub(super) struct Sources {
 }
 
 impl Sources {
-    pub fn rows(&self) -> &[Section] {
+    pub(super) fn rows(&self) -> &[Section] {
         &self.sections[..self.row_count]
     }
 
     /// Values of several sums at rising parameters. Each source is evaluated once.
-    pub fn combine(&self, sums: &[&Combination], u: &[f64]) -> Vec<Vec<f64>> {
+    pub(super) fn combine(&self, sums: &[&Combination], u: &[f64]) -> Vec<Vec<f64>> {
         self.combine_by(sums, u, Section::eval_rising)
     }
 
     /// First derivatives of a sum at rising parameters.
-    pub fn slopes(&self, sum: &Combination, u: &[f64]) -> Vec<f64> {
+    pub(super) fn slopes(&self, sum: &Combination, u: &[f64]) -> Vec<f64> {
         self.combine_by(&[sum], u, Section::slopes_rising).swap_remove(0)
     }
 

@@ -10,7 +10,7 @@ use crate::surface::cubic::CubicSpan;
 
 /// Knot lines in one direction.
 #[derive(Debug, Clone)]
-pub struct Lines {
+pub(super) struct Lines {
     breaks: Vec<f64>,
     knots: KnotVector,
     cells: Vec<CubicSpan>,
@@ -18,28 +18,28 @@ pub struct Lines {
 
 impl Lines {
     /// Over increasing breaks.
-    pub fn new(breaks: Vec<f64>) -> Result<Self, KnotError> {
+    pub(super) fn new(breaks: Vec<f64>) -> Result<Self, KnotError> {
         let knots = KnotVector::clamped(&breaks, 3)?;
         let cells = CubicSpan::all(&knots);
         Ok(Self { breaks, knots, cells })
     }
 
     /// `count` equal cells.
-    pub fn uniform(min: f64, max: f64, count: usize) -> Result<Self, KnotError> {
+    pub(super) fn uniform(min: f64, max: f64, count: usize) -> Result<Self, KnotError> {
         let inner = (1..count).map(|k| min + (max - min) * (k as f64 / count as f64));
         Self::new([min].into_iter().chain(inner).chain([max]).collect())
     }
 
-    pub fn breaks(&self) -> &[f64] {
+    pub(super) fn breaks(&self) -> &[f64] {
         &self.breaks
     }
 
-    pub fn knots(&self) -> &KnotVector {
+    pub(super) fn knots(&self) -> &KnotVector {
         &self.knots
     }
 
     /// The matrix of the integrals of `x^(order) x^(order)` over the whole range, taken as 1.
-    pub fn gram(&self, order: usize) -> Banded4 {
+    pub(super) fn gram(&self, order: usize) -> Banded4 {
         let mut gram = Banded4::zeros(self.len());
         for cell in 0..self.cell_count() {
             let scale = self.length(cell).powi(1 - 2 * order as i32);

@@ -10,12 +10,12 @@ use glam::{DVec2, DVec3};
 
 impl Problem<'_> {
     /// Measures a surface between the nodes.
-    pub fn interior_errors(&self, surface: &TensorSurface, pool: &Pool) -> InteriorErrors {
+    pub(super) fn interior_errors(&self, surface: &TensorSurface, pool: &Pool) -> InteriorErrors {
         self.between(pool.watch()).measure(surface, pool)
     }
 
     /// What is known between the data.
-    pub fn between(&self, watch: &Watch) -> Between {
+    pub(super) fn between(&self, watch: &Watch) -> Between {
         match self.mesh_data() {
             Some(data) => Between::nodes(&data, self.dim, &self.standards),
             None => {
@@ -25,7 +25,7 @@ impl Problem<'_> {
     }
 
     /// The mesh with its values and present parameters.
-    pub fn mesh_data(&self) -> Option<MeshData<'_>> {
+    pub(super) fn mesh_data(&self) -> Option<MeshData<'_>> {
         let data = |mesh| MeshData { mesh, uv: &self.uv, values: self.values, is_shape: self.is_shape };
         self.mesh.map(data)
     }
@@ -34,7 +34,7 @@ impl Problem<'_> {
 impl Problem<'_> {
     /// Cells without data inside the loops of the mesh, or inside the box of scattered data: there the surface
     /// is smooth guesswork.
-    pub fn empty_cell_count(&self, surface: &TensorSurface, trims: &Trims) -> usize {
+    pub(super) fn empty_cell_count(&self, surface: &TensorSurface, trims: &Trims) -> usize {
         let [u, v] = [Axis::U, Axis::V].map(|axis| surface.knots(axis));
         let (breaks_u, breaks_v) = (u.breaks(), v.breaks());
         let cells_v = breaks_v.len() - 1;
@@ -53,7 +53,7 @@ impl Problem<'_> {
 
 /// Places inside triangles, in the frame, with the weights of their triangles.
 #[derive(Default)]
-pub struct InteriorData {
+pub(super) struct InteriorData {
     pub uv: Vec<DVec2>,
     pub values: Vec<f64>,
     pub weights: Vec<f64>,
@@ -62,7 +62,7 @@ pub struct InteriorData {
 impl Problem<'_> {
     /// The places inside triangles that are larger than cells, which are one unit of `in_cells`; `values` are
     /// those of the nodes.
-    pub fn interior_data(&self, in_cells: impl Fn(DVec2) -> DVec2, values: &[f64]) -> InteriorData {
+    pub(super) fn interior_data(&self, in_cells: impl Fn(DVec2) -> DVec2, values: &[f64]) -> InteriorData {
         let mut data = InteriorData::default();
         let Some(mesh) = self.mesh else { return data };
         let mut shape_normals = None;

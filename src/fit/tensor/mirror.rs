@@ -24,7 +24,7 @@ use crate::mesh::Mesh;
 use crate::surface::tensor::{Axis, TensorSurface};
 
 /// The conditions of a mirror along the end of u; `across` is the plane's place in the frame of the unknowns.
-pub fn conditions(basis: &TensorBasis<Lines>, dim: usize, across: f64) -> Vec<Conditions> {
+pub(super) fn conditions(basis: &TensorBasis<Lines>, dim: usize, across: f64) -> Vec<Conditions> {
     let last = basis.u.cell_count() - 1;
     let vanish = |order: usize, value: f64, columns: usize| {
         let window = basis.u.window(last, 1.0, order);
@@ -42,7 +42,7 @@ pub fn conditions(basis: &TensorBasis<Lines>, dim: usize, across: f64) -> Vec<Co
 }
 
 /// Fits the shape of a mesh that is its own mirror image by a surface that is.
-pub fn fit_symmetric(
+pub(super) fn fit_symmetric(
     mesh: &Mesh,
     options: &TensorOptions,
     control: &mut Control,

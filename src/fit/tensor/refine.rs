@@ -29,7 +29,7 @@ const SAME_ERROR: f64 = 1e-9;
 const LEAST_AREA: f64 = 1e-3;
 
 /// A fit with the parameters it was made for.
-pub struct Round {
+pub(super) struct Round {
     candidate: Candidate,
     uv: Vec<DVec2>,
     /// The largest error between the data beyond what they explain; not measured where the error at the data is worse
@@ -93,7 +93,7 @@ impl Rounds for Problem<'_> {
 }
 
 impl Problem<'_> {
-    pub fn run(mut self, control: &mut Control) -> Result<TensorFit, FitError> {
+    pub(super) fn run(mut self, control: &mut Control) -> Result<TensorFit, FitError> {
         let outcome = rounds::run(&mut self, control)?;
         self.uv = outcome.best.uv;
         let tame = self.tamed(outcome.best.candidate, control)?;
@@ -122,7 +122,7 @@ impl Problem<'_> {
     }
 
     /// Whether a grid is within the limits and has no more unknowns than there are data.
-    pub fn allows(&self, counts: [usize; 2]) -> bool {
+    pub(super) fn allows(&self, counts: [usize; 2]) -> bool {
         self.is_within_limits(counts) && self.coefficient_count(counts) <= self.uv.len()
     }
 
@@ -213,7 +213,13 @@ impl Problem<'_> {
     }
 
     /// The surface with what is known of it.
-    pub fn finish(self, mut best: Fitted, stop: StopReason, passes: usize, control: &Control) -> TensorFit {
+    pub(super) fn finish(
+        self,
+        mut best: Fitted,
+        stop: StopReason,
+        passes: usize,
+        control: &Control,
+    ) -> TensorFit {
         let trims = trims(self.mesh, &self.uv, &best.surface.domain());
         let empty_cell_count = self.empty_cell_count(&best.surface, &trims);
         best.surface.region_mut().trims = trims;

@@ -51,7 +51,7 @@ const TOO_NEAR: f64 = 0.3;
 const NEAR_SIDE: f64 = 0.15;
 
 /// A side that is given, in model units, over the range of the data.
-pub struct GivenSide {
+pub(super) struct GivenSide {
     side: usize,
     curve: Curve,
     /// The derivative across, into the surface.
@@ -60,7 +60,7 @@ pub struct GivenSide {
 
 impl GivenSide {
     /// The sides that are given, made ready for the data.
-    pub fn all(
+    pub(super) fn all(
         sides: &Sides,
         data_box: &Domain,
         uv: &[DVec2],
@@ -324,12 +324,12 @@ fn check_corners(all: &[GivenSide], dim: usize, exact: f64) -> Result<(), FitErr
 
 impl Problem<'_> {
     /// The conditions of all sides that are given.
-    pub fn side_conditions(&self, basis: &TensorBasis<Lines>) -> Vec<Condition> {
+    pub(super) fn side_conditions(&self, basis: &TensorBasis<Lines>) -> Vec<Condition> {
         self.sides.iter().flat_map(|side| side.conditions(basis, self)).collect()
     }
 
     /// The lines that sides need along u and v.
-    pub fn side_lines(&self) -> [Vec<f64>; 2] {
+    pub(super) fn side_lines(&self) -> [Vec<f64>; 2] {
         [0, 1].map(|axis| {
             let sides = self.sides.iter().filter(|side| side.across_axis() != axis);
             let mut lines: Vec<f64> = sides.flat_map(|side| side.curve.knots().breaks()).collect();
@@ -340,7 +340,7 @@ impl Problem<'_> {
     }
 
     /// Lines to start from, with those that sides need.
-    pub fn with_side_lines(&self, start: Vec<f64>, axis: usize) -> Vec<f64> {
+    pub(super) fn with_side_lines(&self, start: Vec<f64>, axis: usize) -> Vec<f64> {
         let needed = &self.side_lines()[axis];
         if needed.is_empty() {
             return start;
@@ -353,7 +353,7 @@ impl Problem<'_> {
     }
 
     /// Largest distance of the surface to the curves of its sides, and largest angle to the planes of its neighbours.
-    pub fn side_deviation(&self, surface: &TensorSurface) -> [f64; 2] {
+    pub(super) fn side_deviation(&self, surface: &TensorSurface) -> [f64; 2] {
         const SAMPLES: usize = 200;
         let (mut distance, mut angle) = (0.0_f64, 0.0_f64);
         for side in &self.sides {

@@ -17,7 +17,7 @@ use crate::surface::tensor::TensorSurface;
 use std::borrow::Cow;
 
 /// A surface on some grid, measured.
-pub struct Candidate {
+pub(super) struct Candidate {
     pub grid: [UniformGrid; 2],
     pub surface: TensorSurface,
     pub errors: DataErrors,
@@ -26,7 +26,7 @@ pub struct Candidate {
 }
 
 /// A surface over any knots, measured at the data.
-pub struct Fitted {
+pub(super) struct Fitted {
     pub surface: TensorSurface,
     pub errors: DataErrors,
     pub smoothing: f64,
@@ -42,14 +42,14 @@ impl From<Candidate> for Fitted {
 
 impl Candidate {
     /// Knots along u and v.
-    pub fn counts(&self) -> [usize; 2] {
+    pub(super) fn counts(&self) -> [usize; 2] {
         self.grid.map(|grid| grid.count)
     }
 }
 
 impl Problem<'_> {
     /// The grid over the data with this many knots.
-    pub fn grid(&self, counts: [usize; 2]) -> [UniformGrid; 2] {
+    pub(super) fn grid(&self, counts: [usize; 2]) -> [UniformGrid; 2] {
         let (min, max) = (self.data_box.min, self.data_box.max);
         [
             UniformGrid::over(min.x, max.x, self.options.buffer, counts[0]),
@@ -58,13 +58,18 @@ impl Problem<'_> {
     }
 
     /// The unknowns of a grid.
-    pub fn coefficient_count(&self, counts: [usize; 2]) -> usize {
+    pub(super) fn coefficient_count(&self, counts: [usize; 2]) -> usize {
         let extra = if self.options.ends == Ends::Free { 2 } else { 0 };
         counts.iter().map(|count| count + extra).product()
     }
 
     /// Fits and measures on one grid. `watch` may end it early.
-    pub fn fit_grid(&self, counts: [usize; 2], pool: &Pool, watch: &Watch) -> Result<Candidate, FitError> {
+    pub(super) fn fit_grid(
+        &self,
+        counts: [usize; 2],
+        pool: &Pool,
+        watch: &Watch,
+    ) -> Result<Candidate, FitError> {
         match self.options.method {
             Method::LeastSquares => LeastSquares::new(self, counts, pool, watch)?.fit_ladder(),
             Method::Ferguson => self.fit_ferguson(counts, pool, watch),
@@ -73,7 +78,7 @@ impl Problem<'_> {
 
     /// The fit on one grid with a smoothing once more, with so many times the tension that makes a membrane of the
     /// cells without data.
-    pub fn fit_tense(
+    pub(super) fn fit_tense(
         &self,
         counts: [usize; 2],
         cut: CutCells,

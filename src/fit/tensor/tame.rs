@@ -16,11 +16,11 @@ const BUFFER_HALVINGS: i32 = 4;
 /// How often the cells of a grid are halved along u and v that are too large for their emptiness, in turn.
 const FINER: [[u32; 2]; 4] = [[1, 0], [0, 1], [1, 1], [2, 2]];
 /// How often cells between free knots are halved that are too large for their emptiness.
-pub const HALVINGS: usize = 2;
+pub(super) const HALVINGS: usize = 2;
 
 impl Problem<'_> {
     /// The loops of the mesh at the present parameters.
-    pub fn trims(&self) -> Trims {
+    pub(super) fn trims(&self) -> Trims {
         trims(self.mesh, &self.uv, &self.data_box)
     }
 
@@ -45,7 +45,7 @@ impl Problem<'_> {
 
     /// The cells between breaks, or parts of them, and which of their products are empty. Cells are cut only where a mesh says
     /// what is between its nodes.
-    pub fn emptiness(&self, breaks: [&[f64]; 2], cut: CutCells, trims: &Trims) -> Emptiness {
+    pub(super) fn emptiness(&self, breaks: [&[f64]; 2], cut: CutCells, trims: &Trims) -> Emptiness {
         if cut == CutCells::No || trims.is_empty() {
             let whole = |breaks: &[f64]| {
                 (0..breaks.len() - 1).map(|cell| Part { cell, from: 0.0, to: 1.0 }).collect()
@@ -67,7 +67,7 @@ impl Problem<'_> {
     /// its cells are too large for that, over a finer one.
     ///
     /// A field over a grid that was asked for is left as it is: what a field fitter makes of it on that grid.
-    pub fn tamed(&self, candidate: Candidate, control: &mut Control) -> Result<Candidate, FitError> {
+    pub(super) fn tamed(&self, candidate: Candidate, control: &mut Control) -> Result<Candidate, FitError> {
         let is_left = self.options.fixed_grid.is_some() && !self.is_shape;
         if is_left || !is_wild(self.excursion(&candidate.surface, control.pool())) {
             return Ok(candidate);
@@ -102,7 +102,7 @@ impl Problem<'_> {
     }
 
     /// How far a surface leaves the box of the data, as a share of its diagonal.
-    pub fn excursion(&self, surface: &TensorSurface, pool: &Pool) -> f64 {
+    pub(super) fn excursion(&self, surface: &TensorSurface, pool: &Pool) -> f64 {
         excursion(surface, &cells(surface), &Bounds::of_rows(self.values, self.dim), pool)
     }
 
@@ -121,13 +121,13 @@ impl Problem<'_> {
 
 /// Whether cells count as empty only as wholes, or in parts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum CutCells {
+pub(super) enum CutCells {
     No,
     Yes,
 }
 
 /// Cells or parts of them, and which of their products are empty, row by row.
-pub struct Emptiness {
+pub(super) struct Emptiness {
     pub parts: [Vec<Part>; 2],
     pub is_empty: Vec<bool>,
 }

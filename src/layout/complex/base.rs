@@ -496,7 +496,7 @@ impl<'a> Decimation<'a> {
 impl Base {
     /// Splits the edge between two vertices in its middle, which becomes a vertex, on the border if the edge is;
     /// `lengths` are those of the loops.
-    pub fn split(&mut self, [a, b]: [u32; 2], lengths: &[f64]) {
+    pub(super) fn split(&mut self, [a, b]: [u32; 2], lengths: &[f64]) {
         let middle = self.points.len() as u32;
         self.points.push(self.points[a as usize].midpoint(self.points[b as usize]));
         self.nodes.push(None);

@@ -55,7 +55,7 @@ pub(super) struct Border {
 }
 
 impl Border {
-    pub fn new(mesh: &Mesh) -> Result<Self, MeshError> {
+    pub(super) fn new(mesh: &Mesh) -> Result<Self, MeshError> {
         let mut border = Self::closed(mesh)?;
         for (index, nodes) in mesh.loops().iter().enumerate() {
             border.add_loop(mesh, index, nodes);
@@ -64,7 +64,7 @@ impl Border {
     }
 
     /// With these nodes as corners and no others, and the quads that each of them needs.
-    pub fn with_corners(mesh: &Mesh, needs: &BTreeMap<u32, u32>) -> Result<Self, MeshError> {
+    pub(super) fn with_corners(mesh: &Mesh, needs: &BTreeMap<u32, u32>) -> Result<Self, MeshError> {
         let mut border = Self::new(mesh)?;
         for (node, found) in (0..).zip(&mut border.nodes) {
             if let Some(found) = found {
@@ -94,7 +94,7 @@ impl Border {
     }
 
     /// Nodes that collapses keep on every loop: its corners, and three at least.
-    pub fn least_nodes(&self) -> usize {
+    pub(super) fn least_nodes(&self) -> usize {
         let corners = |index: usize| {
             let of_loop = self.nodes.iter().flatten().filter(|node| node.along.index == index);
             of_loop.filter(|node| node.is_corner).count()
@@ -103,7 +103,7 @@ impl Border {
     }
 
     /// The area of the mesh.
-    pub fn area(&self) -> f64 {
+    pub(super) fn area(&self) -> f64 {
         let surface = self.closed.triangles().iter().filter(|t| !t.iter().any(|&node| self.is_tip(node)));
         let area = |t: &[u32; 3]| {
             let [a, b, c] = t.map(|node| self.closed.points()[node as usize]);
@@ -112,11 +112,11 @@ impl Border {
         surface.map(area).sum()
     }
 
-    pub fn is_tip(&self, node: u32) -> bool {
+    pub(super) fn is_tip(&self, node: u32) -> bool {
         node >= self.first_tip
     }
 
-    pub fn node(&self, node: u32) -> Option<&BorderNode> {
+    pub(super) fn node(&self, node: u32) -> Option<&BorderNode> {
         self.nodes[node as usize].as_ref()
     }
 

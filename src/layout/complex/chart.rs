@@ -28,7 +28,7 @@ pub(super) enum Chart<'a> {
 
 impl<'a> Chart<'a> {
     /// A picture with `place` and the places in these quads; none if the quads are too far apart.
-    pub fn around(layout: &'a Layout, place: Place, quads: impl Iterator<Item = u32> + Clone) -> Self {
+    pub(super) fn around(layout: &'a Layout, place: Place, quads: impl Iterator<Item = u32> + Clone) -> Self {
         let others = quads.filter(|&quad| quad != place.quad);
         let Some(other) = others.clone().next() else { return Self::Quad(place.quad) };
         if others.clone().all(|quad| quad == other) {
@@ -48,7 +48,7 @@ impl<'a> Chart<'a> {
     }
 
     /// The pictures of the vertices of the quad of a place, the nearest first.
-    pub fn of_vertices(layout: &'a Layout, place: Place) -> [Self; 4] {
+    pub(super) fn of_vertices(layout: &'a Layout, place: Place) -> [Self; 4] {
         nearest_corners(place).map(|corner| Self::Vertex(layout.sector_at(corner)))
     }
 
@@ -60,7 +60,7 @@ impl<'a> Chart<'a> {
     }
 
     /// Where a place is in the picture; none if it is not in it.
-    pub fn picture(&self, place: Place) -> Option<DVec2> {
+    pub(super) fn picture(&self, place: Place) -> Option<DVec2> {
         match *self {
             Self::Quad(quad) => (place.quad == quad).then_some(place.uv),
             Self::Edge { sides: [near, far], shear } => {
@@ -82,7 +82,7 @@ impl<'a> Chart<'a> {
     }
 
     /// The place at a point of the picture; none if nothing is there.
-    pub fn place(&self, layout: &Layout, point: DVec2) -> Option<Place> {
+    pub(super) fn place(&self, layout: &Layout, point: DVec2) -> Option<Place> {
         match *self {
             Self::Quad(quad) => inside(Place { quad, uv: point }).or_else(|| across(layout, quad, point)),
             Self::Edge { sides: [near, far], shear } => {

@@ -52,7 +52,7 @@ pub(super) struct Pairing {
 
 impl Pairing {
     /// Triangles without a partner.
-    pub fn single_count(&self) -> usize {
+    pub(super) fn single_count(&self) -> usize {
         self.quad_of.iter().filter(|quad| quad.is_none()).count()
     }
 

@@ -56,7 +56,7 @@ pub(super) enum Stop {
 
 impl Stop {
     /// Whether it is the middle of an edge that was halved.
-    pub fn is_middle(self) -> bool {
+    pub(super) fn is_middle(self) -> bool {
         matches!(self, Self::OnChain { rank, .. } if rank % 2 == 1)
     }
 }
@@ -71,13 +71,13 @@ pub(super) struct Division {
 
 impl Division {
     /// Edges of the layout along a chain.
-    pub fn edge_count(&self, chain: u32, line: &Line) -> usize {
+    pub(super) fn edge_count(&self, chain: u32, line: &Line) -> usize {
         let count = self.lengths[chain as usize].len();
         if line.is_closed { count } else { count.saturating_sub(1) }
     }
 
     /// With a vertex in the middle of every edge.
-    pub fn halved(&self, lines: &[Line]) -> Self {
+    pub(super) fn halved(&self, lines: &[Line]) -> Self {
         let halved = |(chain, line): (u32, &Line)| {
             let count = self.edge_count(chain, line);
             let ends = |edge: usize| {
@@ -91,14 +91,14 @@ impl Division {
     }
 
     /// The lengths at which an edge begins and ends; the last of a closed chain ends beyond its length.
-    pub fn span(&self, chain: u32, edge: usize, line: &Line) -> [f64; 2] {
+    pub(super) fn span(&self, chain: u32, edge: usize, line: &Line) -> [f64; 2] {
         let lengths = &self.lengths[chain as usize];
         let end = lengths.get(edge + 1).copied().unwrap_or_else(|| lengths[0] + line.length());
         [lengths[edge], end]
     }
 
     /// The vertex of some rank on a chain.
-    pub fn stop(&self, chain: u32, rank: usize, line: &Line) -> Stop {
+    pub(super) fn stop(&self, chain: u32, rank: usize, line: &Line) -> Stop {
         let count = self.lengths[chain as usize].len();
         match line.is_closed {
             false if rank == 0 => Stop::Corner(line.nodes[0]),

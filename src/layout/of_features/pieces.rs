@@ -14,7 +14,7 @@ pub(super) struct Line {
 }
 
 impl Line {
-    pub fn new(mesh: &Mesh, chain: &Chain) -> Self {
+    pub(super) fn new(mesh: &Mesh, chain: &Chain) -> Self {
         let mut starts = vec![0.0];
         let place = |k: usize| mesh.points()[chain.nodes[k % chain.nodes.len()] as usize];
         for k in 1..chain.nodes.len() + usize::from(chain.is_closed) {
@@ -23,12 +23,12 @@ impl Line {
         Self { nodes: chain.nodes.clone(), is_closed: chain.is_closed, starts }
     }
 
-    pub fn length(&self) -> f64 {
+    pub(super) fn length(&self) -> f64 {
         self.starts[self.starts.len() - 1]
     }
 
     /// Edges of the mesh along it.
-    pub fn edge_count(&self) -> usize {
+    pub(super) fn edge_count(&self) -> usize {
         self.starts.len() - 1
     }
 }

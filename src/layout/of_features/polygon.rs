@@ -54,7 +54,7 @@ const MOST_MORE_QUADS: usize = 4;
 
 impl Polygon {
     /// The best filling after so many quads were tried at most; none if there is none, or none was found.
-    pub fn filled(&self, most_steps: usize) -> Option<Filling> {
+    pub(super) fn filled(&self, most_steps: usize) -> Option<Filling> {
         let count = self.groups.len();
         if count < 4 || count % 2 == 1 {
             return None;

@@ -39,7 +39,7 @@ const LENGTH_SHARE: f64 = 1e-5;
 const HUB: u32 = 64;
 
 /// The mesh in its present state.
-pub struct Collapsing<'a> {
+pub(super) struct Collapsing<'a> {
     /// Around the middle of the box, where quadrics keep their digits.
     points: Vec<DVec3>,
     /// The parameters, and the side that triangles show there.
@@ -57,7 +57,7 @@ pub struct Collapsing<'a> {
 }
 
 impl<'a> Collapsing<'a> {
-    pub fn new(
+    pub(super) fn new(
         points: Vec<DVec3>,
         triangles: &[[u32; 3]],
         map: Option<(&'a [DVec2], Orientation)>,
@@ -92,27 +92,27 @@ impl<'a> Collapsing<'a> {
     }
 
     /// The triangles that are left, with their numbers.
-    pub fn triangles(&self) -> impl Iterator<Item = (u32, [u32; 3])> + '_ {
+    pub(super) fn triangles(&self) -> impl Iterator<Item = (u32, [u32; 3])> + '_ {
         (0..).zip(&self.triangles).filter_map(|(number, triangle)| Some((number, (*triangle)?)))
     }
 
     /// The feature edges that are left, each once.
-    pub fn feature_edges(&self) -> impl Iterator<Item = [u32; 2]> + '_ {
+    pub(super) fn feature_edges(&self) -> impl Iterator<Item = [u32; 2]> + '_ {
         let chains = self.features.neighbours.iter().zip(0..);
         chains.flat_map(|(ends, from)| ends.iter().filter(move |&&to| from < to).map(move |&to| [from, to]))
     }
 
-    pub fn is_present(&self, node: u32) -> bool {
+    pub(super) fn is_present(&self, node: u32) -> bool {
         self.live[node as usize] > 0
     }
 
     /// Whether a node has so many triangles that going through them again and again would take too long.
-    pub fn is_hub(&self, node: u32) -> bool {
+    pub(super) fn is_hub(&self, node: u32) -> bool {
         self.live[node as usize] > HUB
     }
 
     /// Nodes joined to a node by edges, in increasing order.
-    pub fn neighbours(&self, node: u32) -> Vec<u32> {
+    pub(super) fn neighbours(&self, node: u32) -> Vec<u32> {
         let mut nodes: Vec<u32> =
             self.fan(node).flat_map(|(_, triangle)| triangle).filter(|&n| n != node).collect_vec();
         nodes.sort_unstable();
@@ -121,7 +121,7 @@ impl<'a> Collapsing<'a> {
     }
 
     /// The nodes that a node may be collapsed onto, as far as features have a say.
-    pub fn targets(&self, node: u32) -> Vec<u32> {
+    pub(super) fn targets(&self, node: u32) -> Vec<u32> {
         match self.features.roles[node as usize] {
             _ if self.is_hub(node) => Vec::new(),
             Role::Corner => Vec::new(),
@@ -131,14 +131,14 @@ impl<'a> Collapsing<'a> {
     }
 
     /// What it costs to collapse `from` onto `to`.
-    pub fn cost(&self, from: u32, to: u32) -> f64 {
+    pub(super) fn cost(&self, from: u32, to: u32) -> f64 {
         let [u, v] = [from as usize, to as usize];
         let height = (self.quadrics[u] + self.quadrics[v]).at(self.points[v]).max(0.0);
         height + LENGTH_SHARE * self.areas[u] * self.points[u].distance_squared(self.points[v])
     }
 
     /// Whether the collapse keeps topology, features and well-shaped triangles.
-    pub fn may_collapse(&self, from: u32, to: u32) -> bool {
+    pub(super) fn may_collapse(&self, from: u32, to: u32) -> bool {
         self.keeps_topology(from, to) && self.keeps_shapes(from, to)
     }
 
@@ -193,7 +193,7 @@ impl<'a> Collapsing<'a> {
     }
 
     /// Moves `from` onto `to`.
-    pub fn collapse(&mut self, from: u32, to: u32) {
+    pub(super) fn collapse(&mut self, from: u32, to: u32) {
         let [u, v] = [from as usize, to as usize];
         for t in std::mem::take(&mut self.around[u]) {
             let Some(triangle) = &mut self.triangles[t as usize] else { continue };

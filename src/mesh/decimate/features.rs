@@ -14,7 +14,7 @@ use glam::{DVec2, DVec3};
 
 /// What may happen to a node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Role {
+pub(super) enum Role {
     /// It stays.
     Corner,
     /// It may be collapsed onto a neighbour in its chain.
@@ -24,7 +24,7 @@ pub enum Role {
 }
 
 /// Boundary and sharp edges, and what they make of nodes.
-pub struct Features {
+pub(super) struct Features {
     /// By node: the other ends of its feature edges.
     pub neighbours: Vec<Vec<u32>>,
     /// By node.
@@ -32,7 +32,7 @@ pub struct Features {
 }
 
 impl Features {
-    pub fn of(mesh: &Mesh, options: &DecimateOptions) -> Result<Self, DecimateError> {
+    pub(super) fn of(mesh: &Mesh, options: &DecimateOptions) -> Result<Self, DecimateError> {
         let is_sharp = sharp_edges(mesh, options)?;
         let mut neighbours = memory::filled(Vec::new(), mesh.points().len());
         for (edge, &is_sharp) in half_edges(mesh).zip(&is_sharp) {
@@ -57,7 +57,7 @@ impl Features {
     }
 }
 
-pub fn half_edges(mesh: &Mesh) -> impl Iterator<Item = HalfEdge> {
+pub(crate) fn half_edges(mesh: &Mesh) -> impl Iterator<Item = HalfEdge> {
     (0..mesh.triangles().len()).flat_map(|t| (0..3).map(move |corner| HalfEdge::new(t, corner)))
 }
 
@@ -102,7 +102,7 @@ impl Mesh {
 }
 
 /// Normal times twice the area.
-pub fn normal(points: &[DVec3], triangle: &[u32; 3]) -> DVec3 {
+pub(crate) fn normal(points: &[DVec3], triangle: &[u32; 3]) -> DVec3 {
     let [a, b, c] = triangle.map(|node| points[node as usize]);
     (b - a).cross(c - a)
 }

@@ -11,7 +11,7 @@ use std::ops::Add;
 
 /// The weighted squared distance to some planes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Quadric {
+pub(crate) struct Quadric {
     square: DMat3,
     linear: DVec3,
     constant: f64,
@@ -19,10 +19,10 @@ pub struct Quadric {
 
 impl Quadric {
     /// No plane.
-    pub const ZERO: Self = Self { square: DMat3::ZERO, linear: DVec3::ZERO, constant: 0.0 };
+    pub(crate) const ZERO: Self = Self { square: DMat3::ZERO, linear: DVec3::ZERO, constant: 0.0 };
 
     /// The plane through `point` across the unit vector `normal`.
-    pub fn plane(point: DVec3, normal: DVec3, weight: f64) -> Self {
+    pub(crate) fn plane(point: DVec3, normal: DVec3, weight: f64) -> Self {
         let offset = -normal.dot(point);
         let weighted = weight * normal;
         let square = DMat3::from_cols(weighted * normal.x, weighted * normal.y, weighted * normal.z);
@@ -30,7 +30,7 @@ impl Quadric {
     }
 
     /// The sum at a point; rounding may leave it slightly below zero.
-    pub fn at(&self, x: DVec3) -> f64 {
+    pub(crate) fn at(&self, x: DVec3) -> f64 {
         x.dot(self.square * x) + 2.0 * self.linear.dot(x) + self.constant
     }
 }

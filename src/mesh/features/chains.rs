@@ -19,7 +19,7 @@ pub(super) struct Net<'a> {
 }
 
 impl<'a> Net<'a> {
-    pub fn new(mesh: &'a Mesh, is_sharp: impl Fn(HalfEdge) -> bool, kept: Vec<bool>) -> Self {
+    pub(super) fn new(mesh: &'a Mesh, is_sharp: impl Fn(HalfEdge) -> bool, kept: Vec<bool>) -> Self {
         let mut net = Self { mesh, ends: memory::filled(BTreeSet::new(), mesh.points().len()), kept };
         for edge in half_edges(mesh) {
             if net.kept[edge.index()] || is_sharp(edge) {
@@ -64,7 +64,7 @@ impl<'a> Net<'a> {
     }
 
     /// Lets chains that end go on along edges that turn by more than an angle; returns how many edges were added.
-    pub fn prolong(&mut self, turns: &[f64], least_turn: f64) -> usize {
+    pub(super) fn prolong(&mut self, turns: &[f64], least_turn: f64) -> usize {
         let mut added = 0;
         loop {
             let before = added;
@@ -89,7 +89,7 @@ impl<'a> Net<'a> {
     }
 
     /// Drops bits that end in nothing and are shorter than a length; returns how many edges went.
-    pub fn drop_bits(&mut self, least_length: f64) -> usize {
+    pub(super) fn drop_bits(&mut self, least_length: f64) -> usize {
         let mut dropped = 0;
         loop {
             let before = dropped;
@@ -126,7 +126,7 @@ impl<'a> Net<'a> {
     }
 
     /// Drops triangles of edges that touch no other edge: slivers, whose normals say nothing; returns how many edges went.
-    pub fn drop_slivers(&mut self) -> usize {
+    pub(super) fn drop_slivers(&mut self) -> usize {
         let mut dropped = 0;
         for a in 0..self.ends.len() as u32 {
             let ends: Vec<u32> = self.ends[a as usize].iter().copied().collect_vec();
@@ -143,7 +143,7 @@ impl<'a> Net<'a> {
 
     /// Nodes with another number of feature edges than two, or with a turn, seen over so many edges on both sides, and
     /// pinched ones.
-    pub fn corners(&self, most_turn: f64, reach: usize) -> Vec<u32> {
+    pub(super) fn corners(&self, most_turn: f64, reach: usize) -> Vec<u32> {
         let turns: Vec<Option<f64>> =
             (0..self.ends.len() as u32).map(|node| self.turn(node, reach)).collect_vec();
         // a chain through a pinched node would leave its fan of triangles, and its regions
@@ -184,7 +184,7 @@ impl<'a> Net<'a> {
     }
 
     /// All edges, the smaller node first.
-    pub fn edges(&self) -> Vec<[u32; 2]> {
+    pub(super) fn edges(&self) -> Vec<[u32; 2]> {
         let of_node = |(node, ends): (u32, &'_ BTreeSet<u32>)| -> Vec<[u32; 2]> {
             ends.range(node..).map(|&end| [node, end]).collect_vec()
         };
@@ -192,7 +192,7 @@ impl<'a> Net<'a> {
     }
 
     /// The edges between corners, and closed chains without one.
-    pub fn chains(&self, corners: &[u32]) -> Vec<Chain> {
+    pub(super) fn chains(&self, corners: &[u32]) -> Vec<Chain> {
         let mut seen: BTreeSet<[u32; 2]> = BTreeSet::new();
         let mut chains = Vec::new();
         let is_corner = |node: u32| corners.binary_search(&node).is_ok();

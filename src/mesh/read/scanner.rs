@@ -20,22 +20,22 @@ pub(super) struct Scanner<'a> {
 }
 
 impl<'a> Scanner<'a> {
-    pub fn new(bytes: &'a [u8], comment: Option<u8>) -> Self {
+    pub(super) fn new(bytes: &'a [u8], comment: Option<u8>) -> Self {
         Self { bytes, position: 0, line: 1, comment }
     }
 
     /// Bytes not yet read.
-    pub fn rest(&self) -> &'a [u8] {
+    pub(super) fn rest(&self) -> &'a [u8] {
         &self.bytes[self.position..]
     }
 
     /// How many bytes were read.
-    pub fn position(&self) -> usize {
+    pub(super) fn position(&self) -> usize {
         self.position
     }
 
     /// The next word of this line.
-    pub fn word_in_line(&mut self) -> Option<&'a [u8]> {
+    pub(super) fn word_in_line(&mut self) -> Option<&'a [u8]> {
         loop {
             match self.bytes.get(self.position)? {
                 b'\n' | b'\r' => return None,
@@ -64,7 +64,7 @@ impl<'a> Scanner<'a> {
     }
 
     /// The next word on this or a later line.
-    pub fn word(&mut self) -> Option<&'a [u8]> {
+    pub(super) fn word(&mut self) -> Option<&'a [u8]> {
         loop {
             match self.word_in_line() {
                 Some(word) => return Some(word),
@@ -75,7 +75,7 @@ impl<'a> Scanner<'a> {
     }
 
     /// Goes to the beginning of the next line; false if there is none.
-    pub fn next_line(&mut self) -> bool {
+    pub(super) fn next_line(&mut self) -> bool {
         while self.word_in_line().is_some() {}
         self.end_line()
     }
@@ -89,13 +89,13 @@ impl<'a> Scanner<'a> {
     }
 
     /// Goes to the byte after this line's end, whatever stands in between.
-    pub fn skip_line(&mut self) {
+    pub(super) fn skip_line(&mut self) {
         self.position += line_length(self.rest());
         self.end_line();
     }
 
     /// The same where it is known whether lines end with CR alone.
-    pub fn skip_line_as(&mut self, ends_in_cr: bool) {
+    pub(super) fn skip_line_as(&mut self, ends_in_cr: bool) {
         self.position += line_length(self.rest());
         let end = if ends_in_cr { usize::from(!self.rest().is_empty()) } else { line_end_size(self.rest()) };
         self.position += end;
@@ -103,18 +103,18 @@ impl<'a> Scanner<'a> {
     }
 
     /// Goes back over the last bytes of the word read last.
-    pub fn step_back(&mut self, count: usize) {
+    pub(super) fn step_back(&mut self, count: usize) {
         self.position -= count;
     }
 
     /// The next word as a number, wherever it stands.
-    pub fn number(&mut self, what: &str) -> Result<f64, ReadError> {
+    pub(super) fn number(&mut self, what: &str) -> Result<f64, ReadError> {
         let word = self.word();
         self.coordinate(word, what)
     }
 
     /// The next word of this line as a number.
-    pub fn number_in_line(&mut self, what: &str) -> Result<f64, ReadError> {
+    pub(super) fn number_in_line(&mut self, what: &str) -> Result<f64, ReadError> {
         let word = self.word_in_line();
         self.coordinate(word, what)
     }
@@ -127,7 +127,7 @@ impl<'a> Scanner<'a> {
     }
 
     /// The next word as a count or index, wherever it stands.
-    pub fn count(&mut self, what: &str) -> Result<usize, ReadError> {
+    pub(super) fn count(&mut self, what: &str) -> Result<usize, ReadError> {
         let word = self.word();
         self.parsed(word, what, "a whole number")
     }
@@ -146,7 +146,7 @@ impl<'a> Scanner<'a> {
     }
 
     /// Whether `count` things of at least `size` bytes can still follow, the last without a separator.
-    pub fn check_room(&self, count: usize, size: usize, what: &str) -> Result<(), ReadError> {
+    pub(super) fn check_room(&self, count: usize, size: usize, what: &str) -> Result<(), ReadError> {
         let rest = self.rest().len();
         if count > (rest + 1) / size {
             return Err(self.error(format!("{count} {what} cannot stand in the {rest} bytes left")));
@@ -154,7 +154,7 @@ impl<'a> Scanner<'a> {
         Ok(())
     }
 
-    pub fn error(&self, problem: impl Into<String>) -> ReadError {
+    pub(super) fn error(&self, problem: impl Into<String>) -> ReadError {
         ReadError::Text { line: self.line, problem: problem.into() }
     }
 }

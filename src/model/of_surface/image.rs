@@ -24,7 +24,7 @@ pub(super) struct Image {
 
 impl Image {
     /// The first and the last point in space.
-    pub fn ends(&self) -> [DVec3; 2] {
+    pub(super) fn ends(&self) -> [DVec3; 2] {
         let points = self.curve.control_points();
         [&points[..3], &points[points.len() - 3..]].map(DVec3::from_slice)
     }

@@ -89,7 +89,7 @@ fn left_of(tiling: &Tiling, a: DVec2, b: DVec2) -> usize {
 
 impl Layout {
     /// Trims as [`cut`] makes them; `starts` are the points of each at which edges have to begin.
-    pub fn new(tiling: &Tiling, trims: &[Trim], starts: &[Vec<usize>]) -> Self {
+    pub(super) fn new(tiling: &Tiling, trims: &[Trim], starts: &[Vec<usize>]) -> Self {
         let mut nodes = Nodes::default();
         let sides = side_edges(tiling, trims, &mut nodes);
         let ends: BTreeSet<usize> = sides.iter().flat_map(|edge| edge.ends).collect();

@@ -34,7 +34,7 @@ pub(super) struct Line {
 
 impl Line {
     /// Whether two rectangles meet on the line at, or within `margin` of, a place along it.
-    pub fn holds(&self, along: f64, margin: f64) -> bool {
+    pub(super) fn holds(&self, along: f64, margin: f64) -> bool {
         let next = self.spans.partition_point(|span| span[0] <= along + margin);
         next > 0 && along <= self.spans[next - 1][1] + margin
     }
@@ -46,7 +46,7 @@ impl Tiling {
     const SNAP: f64 = super::CURVE_TOLERANCE;
 
     /// `rectangles` fill their common box.
-    pub fn new(rectangles: Vec<Domain>) -> Self {
+    pub(super) fn new(rectangles: Vec<Domain>) -> Self {
         let domain = Domain::around(rectangles.iter().flat_map(|tile| [tile.min, tile.max]));
         let lines = [0, 1].map(|axis| lines(&rectangles, &domain, axis));
         let buckets = Buckets::new(&rectangles, domain);
@@ -54,24 +54,24 @@ impl Tiling {
     }
 
     /// The box of all rectangles.
-    pub fn domain(&self) -> &Domain {
+    pub(super) fn domain(&self) -> &Domain {
         &self.domain
     }
 
     /// The lines of constant u (0) or v (1).
-    pub fn lines(&self, axis: usize) -> &[Line] {
+    pub(super) fn lines(&self, axis: usize) -> &[Line] {
         &self.lines[axis]
     }
 
     /// The line of constant u (0) or v (1) on which a point lies.
-    pub fn line_through(&self, axis: usize, p: DVec2) -> Option<usize> {
+    pub(super) fn line_through(&self, axis: usize, p: DVec2) -> Option<usize> {
         let index = self.lines[axis].partition_point(|line| line.at < p[axis]);
         let line = self.lines[axis].get(index)?;
         (line.at == p[axis] && line.holds(p[1 - axis], 0.0)).then_some(index)
     }
 
     /// The rectangle that has `p` in it or on its border, and what lies from `p` towards `inward`.
-    pub fn beside(&self, p: DVec2, inward: DVec2) -> Option<usize> {
+    pub(super) fn beside(&self, p: DVec2, inward: DVec2) -> Option<usize> {
         let reaches = |&k: &usize| {
             let tile = &self.rectangles[k];
             let enters = |axis| {
@@ -85,7 +85,7 @@ impl Tiling {
 
     /// A closed polyline with its points moved on to the lines that are very near, and with points where it
     /// crosses lines.
-    pub fn cut(&self, polyline: &[DVec2]) -> Vec<DVec2> {
+    pub(super) fn cut(&self, polyline: &[DVec2]) -> Vec<DVec2> {
         let snapped: Vec<DVec2> = polyline.iter().map(|&p| self.snap(p)).collect();
         let mut points = Vec::with_capacity(2 * snapped.len());
         for (k, &a) in snapped.iter().enumerate() {

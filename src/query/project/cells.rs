@@ -19,12 +19,12 @@ const CELL_BUDGET: usize = 1 << 14;
 const MAX_HALVINGS: u32 = 8;
 
 /// The cells of a surface.
-pub fn surface_cells(surface: &dyn Patches) -> Vec<(BezierPatch, Place)> {
+pub(super) fn surface_cells(surface: &dyn Patches) -> Vec<(BezierPatch, Place)> {
     halved(uniform(surface))
 }
 
 /// The cells of a curve: patches over its spans and the unit interval of v, along which they are constant.
-pub fn curve_cells(curve: &Curve) -> Vec<(BezierPatch, Place)> {
+pub(super) fn curve_cells(curve: &Curve) -> Vec<(BezierPatch, Place)> {
     let (knots, dim) = (curve.knots(), curve.dim());
     let degree = knots.degree();
     let patch = |span: usize| {
@@ -112,7 +112,7 @@ fn bends(patch: &BezierPatch) -> [f64; 2] {
 }
 
 /// The pieces of the trims between the borders of patches, as curves on the surface.
-pub fn trim_pieces(surface: &dyn Patches, trims: &Trims) -> Vec<(BezierPatch, Place)> {
+pub(super) fn trim_pieces(surface: &dyn Patches, trims: &Trims) -> Vec<(BezierPatch, Place)> {
     let mut lines = Vec::new();
     for (from, to) in trims.segments() {
         add_pieces(surface, from, to, &mut lines);

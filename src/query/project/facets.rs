@@ -28,7 +28,7 @@ const FIRST_DAMPING: f64 = 1e-3;
 
 /// A surface over triangles with a tessellation of it.
 #[derive(Debug, Clone)]
-pub struct FacetProjector {
+pub(super) struct FacetProjector {
     surface: Arc<dyn Facets>,
     has_own_trims: bool,
     tree: TriangleTree<Mesh>,
@@ -36,7 +36,7 @@ pub struct FacetProjector {
 
 impl FacetProjector {
     /// For a surface in space.
-    pub fn new(surface: Arc<dyn Facets>) -> Result<Self, TessellateError> {
+    pub(super) fn new(surface: Arc<dyn Facets>) -> Result<Self, TessellateError> {
         let has_own_trims = surface.has_own_trims();
         let mesh = match has_own_trims {
             true => subdivided(surface.as_ref(), PARTS, MAX_POINTS)?,
@@ -46,12 +46,17 @@ impl FacetProjector {
     }
 
     /// Of the box around it.
-    pub fn diagonal(&self) -> f64 {
+    pub(super) fn diagonal(&self) -> f64 {
         self.tree.mesh().diagonal()
     }
 
     /// The nearest place and its distance.
-    pub fn nearest(&self, point: DVec3, guess: Option<DVec2>, options: &ProjectOptions) -> (DVec2, f64) {
+    pub(super) fn nearest(
+        &self,
+        point: DVec3,
+        guess: Option<DVec2>,
+        options: &ProjectOptions,
+    ) -> (DVec2, f64) {
         let starts = [self.start(point), guess.filter(|&uv| self.counts(uv, options))];
         let feet = starts.into_iter().flatten().map(|uv| self.descend(point, uv, options));
         let best = feet.min_by(|a, b| a.1.total_cmp(&b.1));

@@ -22,7 +22,7 @@ const MOST_DAMPING: f64 = 1e12;
 
 /// A place on a cell.
 #[derive(Debug, Clone, Copy)]
-pub struct Foot {
+pub(super) struct Foot {
     /// In the unit square.
     pub at: [f64; 2],
     /// Squared distance there.
@@ -42,13 +42,13 @@ struct Local {
 
 /// The squared distance at a place.
 #[inline(always)]
-pub fn distance_sq(form: &Form, cell: &[f64], at: [f64; 2]) -> f64 {
+pub(super) fn distance_sq(form: &Form, cell: &[f64], at: [f64; 2]) -> f64 {
     local(form, cell, at).distance_sq
 }
 
 /// The local minimum that Newton's method finds from `start`.
 #[inline(always)]
-pub fn find(form: &Form, cell: &[f64], start: [f64; 2]) -> Foot {
+pub(super) fn find(form: &Form, cell: &[f64], start: [f64; 2]) -> Foot {
     let mut at = start;
     let mut here = local(form, cell, at);
     let mut damping = 0.0;

@@ -10,15 +10,15 @@ use crate::memory::{self, CollectVec};
 use glam::DVec2;
 
 /// Children of a node: their boxes are tested together.
-pub const BRANCHES: usize = 4;
+pub(super) const BRANCHES: usize = 4;
 /// Entries of the children of a node with this bit are leaves.
-pub const LEAF: u32 = 1 << 31;
+pub(super) const LEAF: u32 = 1 << 31;
 /// Entry of the children of a node for a place that is not used.
 const NONE: u32 = u32::MAX;
 
 /// Where a leaf lies in the parameter plane.
 #[derive(Debug, Clone, Copy)]
-pub enum Place {
+pub(super) enum Place {
     /// The unit square becomes this rectangle.
     Rectangle(Domain),
     /// The unit interval becomes this line.
@@ -34,7 +34,7 @@ impl Place {
     }
 
     /// From the unit square to (u,v); the sides are met exactly.
-    pub fn uv(&self, at: [f64; 2]) -> DVec2 {
+    pub(super) fn uv(&self, at: [f64; 2]) -> DVec2 {
         let mix = |from: f64, to: f64, t: f64| {
             if t <= 0.5 { from + t * (to - from) } else { to - (1.0 - t) * (to - from) }
         };
@@ -49,7 +49,7 @@ impl Place {
 
 /// A hierarchy over cells of one form.
 #[derive(Debug, Clone)]
-pub struct Index {
+pub(super) struct Index {
     pub kernel: Kernel,
     places: Vec<Place>,
     /// [`Form::len`] numbers a leaf.
@@ -65,7 +65,7 @@ pub struct Index {
 
 impl Index {
     /// `patches` have the same degrees, dimension and rationality.
-    pub fn new(patches: Vec<(BezierPatch, Place)>) -> Self {
+    pub(super) fn new(patches: Vec<(BezierPatch, Place)>) -> Self {
         let form =
             patches.first().map_or(Form { degree: [1, 1], dim: 1, is_rational: false }, |(patch, _)| Form {
                 degree: patch.degree,
@@ -109,7 +109,7 @@ impl Index {
 
     /// Whether a leaf has one local minimum at most, seen from a point. If not, that is unknown.
     #[inline(always)]
-    pub fn is_convex_from(&self, leaf: usize, point: &[f64]) -> bool {
+    pub(super) fn is_convex_from(&self, leaf: usize, point: &[f64]) -> bool {
         let dim = point.len();
         let ball = &self.balls[leaf * (dim + 1)..][..dim + 1];
         let distance_sq = point.iter().zip(ball).map(|(x, c)| (x - c) * (x - c)).sum::<f64>();
@@ -117,23 +117,23 @@ impl Index {
     }
 
     /// Number of leaves.
-    pub fn leaf_count(&self) -> usize {
+    pub(super) fn leaf_count(&self) -> usize {
         self.places.len()
     }
 
     /// Where a leaf lies.
-    pub fn place(&self, leaf: usize) -> &Place {
+    pub(super) fn place(&self, leaf: usize) -> &Place {
         &self.places[leaf]
     }
 
     /// The ordinates of a leaf, component by component.
-    pub fn ordinates(&self, leaf: usize) -> &[f64] {
+    pub(super) fn ordinates(&self, leaf: usize) -> &[f64] {
         let len = self.kernel.form.len();
         &self.ordinates[leaf * len..][..len]
     }
 
     /// The leaf over a parameter pair, and the place on its unit square.
-    pub fn leaf_at(&self, uv: DVec2) -> Option<(usize, [f64; 2])> {
+    pub(super) fn leaf_at(&self, uv: DVec2) -> Option<(usize, [f64; 2])> {
         // nodes of a path: each level leaves three at most behind
         let (mut stack, mut count) = ([0; 3 * 32], usize::from(!self.nodes.is_empty()));
         while count > 0 {
@@ -154,12 +154,12 @@ impl Index {
     }
 
     /// Number of nodes; those below a node come after it.
-    pub fn node_count(&self) -> usize {
+    pub(super) fn node_count(&self) -> usize {
         self.nodes.len()
     }
 
     /// The leaves whose rectangles meet another.
-    pub fn visit_leaves_near(&self, rectangle: &Domain, mut visit: impl FnMut(usize)) {
+    pub(super) fn visit_leaves_near(&self, rectangle: &Domain, mut visit: impl FnMut(usize)) {
         let mut stack = if self.nodes.is_empty() { vec![] } else { vec![0] };
         while let Some(entry) = stack.pop() {
             if entry & LEAF != 0 {
@@ -176,14 +176,14 @@ impl Index {
 
     /// The children of a node that are used.
     #[inline(always)]
-    pub fn children(&self, node: u32) -> &[u32] {
+    pub(super) fn children(&self, node: u32) -> &[u32] {
         let children = &self.nodes[node as usize];
         &children[..children.iter().position(|&child| child == NONE).unwrap_or(BRANCHES)]
     }
 
     /// Squared distances from a point to the boxes of a node's children.
     #[inline(always)]
-    pub fn distances_sq(&self, node: u32, point: &[f64]) -> [f64; BRANCHES] {
+    pub(super) fn distances_sq(&self, node: u32, point: &[f64]) -> [f64; BRANCHES] {
         let dim = point.len();
         let boxes = &self.boxes[node as usize * 2 * dim..][..2 * dim];
         // the same loop, once more with a fixed length

@@ -29,7 +29,7 @@ enum Side {
 
 /// The leaves of an index against trims.
 #[derive(Debug, Clone)]
-pub struct Inside {
+pub(super) struct Inside {
     trims: Trims,
     lines: Vec<[DVec2; 2]>,
     margin: DVec2,
@@ -43,7 +43,7 @@ pub struct Inside {
 
 impl Inside {
     /// For trims that are not empty.
-    pub fn new(index: &Index, trims: &Trims, domain: &Domain) -> Self {
+    pub(super) fn new(index: &Index, trims: &Trims, domain: &Domain) -> Self {
         let largest = domain.min.abs().max(domain.max.abs());
         let mut inside = Self {
             trims: trims.clone(),
@@ -99,27 +99,27 @@ impl Inside {
 
     /// Whether a child of a node has nothing inside.
     #[inline(always)]
-    pub fn is_closed(&self, node: u32, child: usize) -> bool {
+    pub(super) fn is_closed(&self, node: u32, child: usize) -> bool {
         self.closed[node as usize] >> child & 1 == 1
     }
 
     /// Whether a leaf has nothing inside.
-    pub fn is_outside(&self, leaf: usize) -> bool {
+    pub(super) fn is_outside(&self, leaf: usize) -> bool {
         self.sides[leaf] == Side::Outside
     }
 
     /// The lines that cut a leaf.
-    pub fn lines_of(&self, leaf: usize) -> &[u32] {
+    pub(super) fn lines_of(&self, leaf: usize) -> &[u32] {
         &self.touching[self.starts[leaf] as usize..self.starts[leaf + 1] as usize]
     }
 
     /// Whether a place counts.
-    pub fn contains(&self, uv: DVec2) -> bool {
+    pub(super) fn contains(&self, uv: DVec2) -> bool {
         self.trims.contains(uv)
     }
 
     /// Whether a rectangle that no line touches lies inside.
-    pub fn holds(&self, cell: &Domain) -> bool {
+    pub(super) fn holds(&self, cell: &Domain) -> bool {
         self.side_of(cell) == Side::Inside
     }
 
@@ -132,7 +132,7 @@ impl Inside {
 
     /// Whether a line and a rectangle have a point in common, or nearly: no side of the rectangle separates
     /// them, and the line itself does not.
-    pub fn touches(&self, line: u32, cell: &Domain) -> bool {
+    pub(super) fn touches(&self, line: u32, cell: &Domain) -> bool {
         let [from, to] = self.lines[line as usize];
         let half = cell.size() / 2.0 + self.margin;
         let centre = cell.min + cell.size() / 2.0;

@@ -18,7 +18,7 @@ use crate::memory::CollectVec;
 
 /// What the cells of one index have in common.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Form {
+pub(super) struct Form {
     /// Degree along u and v.
     pub degree: [usize; 2],
     /// Components of a value.
@@ -29,24 +29,24 @@ pub struct Form {
 
 impl Form {
     /// Ordinates of a cell.
-    pub fn count(&self) -> usize {
+    pub(super) fn count(&self) -> usize {
         (self.degree[0] + 1) * (self.degree[1] + 1)
     }
 
     /// Components of an ordinate.
-    pub fn width(&self) -> usize {
+    pub(super) fn width(&self) -> usize {
         self.dim + usize::from(self.is_rational)
     }
 
     /// Numbers of a cell: component by component, v running fastest within each.
-    pub fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         self.count() * self.width()
     }
 }
 
 /// Products of cells of one form.
 #[derive(Debug, Clone)]
-pub struct Kernel {
+pub(super) struct Kernel {
     pub form: Form,
     /// Binomials that turn Bernstein products into convolutions, for each ordinate.
     scale: Vec<f64>,
@@ -56,7 +56,7 @@ pub struct Kernel {
 
 /// Bernstein coefficients of the squared distance over a cell, times the squared weight.
 #[derive(Debug, Clone, Default)]
-pub struct Square {
+pub(super) struct Square {
     scaled: Vec<f64>,
     distance: Vec<f64>,
     weight: Vec<f64>,
@@ -67,7 +67,7 @@ pub struct Square {
 
 /// What [`Kernel::judge`] found.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Verdict {
+pub(super) enum Verdict {
     /// Nothing in the cell is nearer than the limit.
     Beyond,
     /// Everywhere in the cell the distance falls towards a side that has a neighbour: no minimum is here.
@@ -79,10 +79,10 @@ pub enum Verdict {
 }
 
 /// Most functions of one variable: a line across a patch has the sum of both degrees.
-pub const MAX_FUNCTIONS: usize = 2 * MAX_DEGREE + 1;
+pub(super) const MAX_FUNCTIONS: usize = 2 * MAX_DEGREE + 1;
 
 impl Kernel {
-    pub fn new(form: Form) -> Self {
+    pub(super) fn new(form: Form) -> Self {
         let weights = |[p, q]: [usize; 2]| -> Vec<f64> {
             (0..=p).flat_map(|i| (0..=q).map(move |j| binomial(p, i) * binomial(q, j))).collect_vec()
         };
@@ -94,7 +94,7 @@ impl Kernel {
     /// `g` that does not matter; `shared` says which sides, the lower and the upper along each axis, lie within
     /// a leaf, so that the surface is smooth across them.
     #[inline(always)]
-    pub fn judge(
+    pub(super) fn judge(
         &self,
         cell: &[f64],
         limit_sq: f64,
@@ -177,7 +177,7 @@ impl Kernel {
     /// |S - P|^2 = |S - C|^2 - 2 (S - C) e + |e|^2
     /// ```
     /// so second derivatives change by no more than `2 |e|` times the largest of the cell.
-    pub fn convex_radius(&self, cell: &[f64], centre: &[f64], square: &mut Square) -> f64 {
+    pub(super) fn convex_radius(&self, cell: &[f64], centre: &[f64], square: &mut Square) -> f64 {
         let ([p, q], count) = (self.form.degree, self.form.count());
         if self.form.is_rational || q == 0 {
             return 0.0;

@@ -18,7 +18,7 @@ const RELATIVE_TOLERANCE: f64 = 1e-14;
 
 /// The nearest place so far.
 #[derive(Debug, Clone, Copy)]
-pub struct Best {
+pub(super) struct Best {
     pub uv: DVec2,
     pub distance_sq: f64,
     /// The square of the distance that another place must have to be worth a look.
@@ -26,7 +26,7 @@ pub struct Best {
 }
 
 impl Best {
-    pub fn new(distance_sq: f64, uv: DVec2, tolerance: f64) -> Self {
+    pub(super) fn new(distance_sq: f64, uv: DVec2, tolerance: f64) -> Self {
         // coefficients of the squared distance are rounded in proportion to it
         let limit = (distance_sq.sqrt() * (1.0 - RELATIVE_TOLERANCE) - tolerance).max(0.0);
         Self { uv, distance_sq, limit_sq: limit * limit }
@@ -35,7 +35,7 @@ impl Best {
 
 /// Memory that points share one after the other.
 #[derive(Debug, Default)]
-pub struct Workspace {
+pub(super) struct Workspace {
     nodes: Vec<(f64, u32)>,
     /// Leaves whose foot point can wait: a sample's squared distance, the bound, the leaf.
     waiting: Vec<(f64, f64, u32)>,
@@ -66,7 +66,7 @@ impl Cell {
 }
 
 /// A search for the point of a surface nearest to `point`.
-pub struct Search<'a> {
+pub(super) struct Search<'a> {
     pub point: &'a [f64],
     /// Differences of distance below this do not count.
     pub tolerance: f64,
@@ -92,7 +92,7 @@ impl Search<'_> {
 
     /// Offers the corners of a leaf that is probably near: a first bound for little.
     #[inline(always)]
-    pub fn sample(&mut self, index: &Index) {
+    pub(super) fn sample(&mut self, index: &Index) {
         let (mut entry, mut is_found) = (0, index.leaf_count() > 0);
         while is_found && entry & LEAF == 0 {
             let bounds = index.distances_sq(entry, self.point);
@@ -117,7 +117,7 @@ impl Search<'_> {
 
     /// Searches all leaves of an index.
     #[inline(always)]
-    pub fn run(&mut self, index: &Index) {
+    pub(super) fn run(&mut self, index: &Index) {
         if index.leaf_count() == 0 {
             return;
         }
@@ -174,7 +174,7 @@ impl Search<'_> {
 
     /// Starts from a place given by the caller: what it finds bounds the rest of the search.
     #[inline(always)]
-    pub fn try_leaf(&mut self, index: &Index, leaf: usize, at: [f64; 2]) {
+    pub(super) fn try_leaf(&mut self, index: &Index, leaf: usize, at: [f64; 2]) {
         if self.inside.is_some_and(|inside| inside.is_outside(leaf)) {
             return;
         }

@@ -30,7 +30,7 @@ const MOST_ROUNDS: usize = 16;
 pub const CHORD_SHARE: f64 = 1e-3;
 
 /// When a tessellation is fine enough.
-pub struct Fineness {
+pub(super) struct Fineness {
     /// 0 takes [`CHORD_SHARE`] of the diagonal.
     pub chord_tolerance: f64,
     /// 0 for no limit.
@@ -39,7 +39,7 @@ pub struct Fineness {
 }
 
 /// Triangles near enough to the surface.
-pub fn tessellate_facets(
+pub(super) fn tessellate_facets(
     surface: &dyn Facets,
     fineness: &Fineness,
     watch: &Watch,

@@ -16,7 +16,11 @@ use crate::surface::Facets;
 use glam::{DVec2, DVec3};
 
 /// A division into `parts` parts a side, as a mesh.
-pub fn subdivided(surface: &dyn Facets, parts: usize, max_points: usize) -> Result<Mesh, TessellateError> {
+pub(crate) fn subdivided(
+    surface: &dyn Facets,
+    parts: usize,
+    max_points: usize,
+) -> Result<Mesh, TessellateError> {
     Division::new(surface, parts.max(1), max_points, &Watch::default())?.finish()
 }
 

@@ -65,7 +65,7 @@ impl Configuration {
 }
 
 /// The mean of rows, by vertex.
-pub fn mean_row<'a>(rows: impl ExactSizeIterator<Item = &'a [(u32, f64)]>) -> Vec<(u32, f64)> {
+pub(super) fn mean_row<'a>(rows: impl ExactSizeIterator<Item = &'a [(u32, f64)]>) -> Vec<(u32, f64)> {
     let share = 1.0 / rows.len() as f64;
     let mut all: Vec<(u32, f64)> =
         rows.flatten().map(|&(vertex, weight)| (vertex, share * weight)).collect_vec();

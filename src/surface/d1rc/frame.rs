@@ -37,7 +37,7 @@ pub enum Boundary {
 
 /// The triangulation whose links are taken.
 #[derive(Debug, Default)]
-pub struct Frame {
+pub(super) struct Frame {
     /// Of the knots while links are built.
     pub link_places: Vec<DVec2>,
     /// Of the knots in the functions.
@@ -64,7 +64,7 @@ const SHARPEST: f64 = 0.25;
 const MOST_HALVINGS: usize = 24;
 
 /// The parameter mesh as the frame sees it.
-pub struct Plane<'a> {
+pub(super) struct Plane<'a> {
     pub mesh: &'a Mesh,
     pub places: &'a [DVec2],
     /// The control point of each vertex.
@@ -77,7 +77,7 @@ pub struct Plane<'a> {
 
 impl Frame {
     /// The parameter mesh, cut, with `degree` rings around it.
-    pub fn new(plane: &Plane, boundary: Boundary, degree: usize) -> Result<Self, D1rcError> {
+    pub(super) fn new(plane: &Plane, boundary: Boundary, degree: usize) -> Result<Self, D1rcError> {
         let mut builder = Builder::new(plane, boundary, degree);
         builder.split_vertices();
         builder.step_back();

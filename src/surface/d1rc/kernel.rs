@@ -28,7 +28,7 @@ const MAX_KNOTS: usize = 3 + MAX_RING;
 const MAX_AREAS: usize = 3 + 4 * MAX_RING;
 
 /// Points that are evaluated together.
-pub const LANES: usize = 4;
+pub(super) const LANES: usize = 4;
 
 /// One of the forms of an `M_1`: areas and their factors. A hull of three edges repeats one.
 #[derive(Debug, Clone, Copy, Default)]
@@ -71,7 +71,7 @@ struct Piece {
 
 /// All functions of a space.
 #[derive(Debug, Clone)]
-pub struct Kernel {
+pub(super) struct Kernel {
     degree: usize,
     pieces: Vec<Piece>,
     knots: Vec<DVec2>,
@@ -79,7 +79,7 @@ pub struct Kernel {
 }
 
 /// Room for the areas of one function.
-pub struct Workspace<const L: usize> {
+pub(super) struct Workspace<const L: usize> {
     areas: [[f64; L]; MAX_AREAS],
     /// From the points to the knots.
     x: [[f64; L]; MAX_KNOTS],
@@ -93,11 +93,11 @@ impl<const L: usize> Default for Workspace<L> {
 }
 
 /// Jets at `L` points: value, u, v, uu, uv, vv of each.
-pub type Jets<const L: usize> = [[f64; L]; 6];
+pub(super) type Jets<const L: usize> = [[f64; L]; 6];
 
 impl Kernel {
     /// Prepares functions of one degree.
-    pub fn new(
+    pub(super) fn new(
         degree: usize,
         configurations: &[Configuration],
         places: &[DVec2],
@@ -138,14 +138,14 @@ impl Kernel {
     }
 
     /// Whether a function goes the fast way.
-    pub fn is_fast(&self, function: u32, order: usize) -> bool {
+    pub(super) fn is_fast(&self, function: u32, order: usize) -> bool {
         // second derivatives of degree 2 are not continuous
         !self.pieces[function as usize].knots.is_empty() && (order < 2 || self.degree == 3)
     }
 
     /// The function at `L` points; None where it is zero at all of them because they lie outside its box.
     #[inline(always)]
-    pub fn jets<const L: usize>(
+    pub(super) fn jets<const L: usize>(
         &self,
         function: u32,
         configuration: &Configuration,

@@ -21,13 +21,13 @@ type KnotSet = [u32; 3];
 const NONE: u32 = u32::MAX;
 
 /// The knots of a function, and the closed edges around them.
-pub struct Link {
+pub(super) struct Link {
     pub knots: Vec<u32>,
     pub edges: Vec<[u32; 2]>,
 }
 
 /// All links of one degree.
-pub struct Links {
+pub(super) struct Links {
     pub closed: Vec<Link>,
     /// The knots of elements with a corner for which there is no link: under their hulls the functions do not sum
     /// to one.
@@ -35,13 +35,13 @@ pub struct Links {
 }
 
 /// The link of a set is not a union of simple counter-clockwise cycles.
-pub struct NotSimple {
+pub(super) struct NotSimple {
     /// One of the set.
     pub knot: u32,
 }
 
 /// The links of all sets of `degree` knots that close. Around knots on the border of the triangles none does.
-pub fn links(
+pub(super) fn links(
     places: &[DVec2],
     triangles: &[[u32; 3]],
     degree: usize,

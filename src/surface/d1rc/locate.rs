@@ -16,7 +16,7 @@ const SLACK: f64 = 16.0 * f64::EPSILON;
 
 /// Faces sorted into a uniform grid.
 #[derive(Debug, Clone)]
-pub struct Locator {
+pub(crate) struct Locator {
     places: Vec<DVec2>,
     faces: Vec<[u32; 3]>,
     domain: Domain,
@@ -29,7 +29,7 @@ pub struct Locator {
 
 impl Locator {
     /// For faces of positive area.
-    pub fn new(places: Vec<DVec2>, faces: Vec<[u32; 3]>) -> Self {
+    pub(crate) fn new(places: Vec<DVec2>, faces: Vec<[u32; 3]>) -> Self {
         let used = faces.iter().flatten().map(|&knot| places[knot as usize]);
         let domain = Domain::around(used);
         let size = domain.size().max(DVec2::splat(f64::MIN_POSITIVE));
@@ -50,22 +50,22 @@ impl Locator {
     }
 
     /// The box of all faces.
-    pub fn domain(&self) -> Domain {
+    pub(crate) fn domain(&self) -> Domain {
         self.domain
     }
 
     /// The corners of a face.
-    pub fn corners(&self, face: u32) -> [DVec2; 3] {
+    pub(crate) fn corners(&self, face: u32) -> [DVec2; 3] {
         self.faces[face as usize].map(|knot| self.places[knot as usize])
     }
 
     /// The faces.
-    pub fn faces(&self) -> &[[u32; 3]] {
+    pub(crate) fn faces(&self) -> &[[u32; 3]] {
         &self.faces
     }
 
     /// The places of their corners.
-    pub fn places(&self) -> &[DVec2] {
+    pub(crate) fn places(&self) -> &[DVec2] {
         &self.places
     }
 
@@ -86,7 +86,7 @@ impl Locator {
     }
 
     /// The faces that a box may meet, in increasing order.
-    pub fn faces_near(&self, around: &Domain, out: &mut Vec<u32>) {
+    pub(crate) fn faces_near(&self, around: &Domain, out: &mut Vec<u32>) {
         out.clear();
         self.for_each_cell(around, |cell| out.extend_from_slice(self.entries(cell)));
         out.sort_unstable();
@@ -95,7 +95,7 @@ impl Locator {
 
     /// The face that holds a point, and the side from which limits are taken: from the right and above where a
     /// face is there, else from the inside of the face.
-    pub fn find(&self, t: DVec2) -> Option<(u32, Site)> {
+    pub(crate) fn find(&self, t: DVec2) -> Option<(u32, Site)> {
         if !self.domain.contains(t) {
             return None;
         }
@@ -136,7 +136,7 @@ impl Locator {
     }
 
     /// A point of a face as [`Locator::find`] would see it if there were no other.
-    pub fn site_on(&self, face: u32, t: DVec2) -> Site {
+    pub(crate) fn site_on(&self, face: u32, t: DVec2) -> Site {
         match Site::new(t) {
             site if self.holds(face, &site) => site,
             _ if self.touches(face, t) => self.site_in(face, t),
@@ -145,19 +145,19 @@ impl Locator {
     }
 
     /// A point of a face, seen from inside the face.
-    pub fn site_in(&self, face: u32, t: DVec2) -> Site {
+    pub(crate) fn site_in(&self, face: u32, t: DVec2) -> Site {
         let corners = self.corners(face);
         let inside: DVec2 = corners.iter().zip(ASKEW).map(|(&corner, share)| share * (corner - t)).sum();
         Site { t, toward: inside }
     }
 
     /// The ends of the sides that bound the faces; each comes twice.
-    pub fn border_knots(&self) -> impl Iterator<Item = u32> + '_ {
+    pub(crate) fn border_knots(&self) -> impl Iterator<Item = u32> + '_ {
         self.border.iter().flat_map(|&(_, side)| side)
     }
 
     /// The place on the faces nearest to a point outside, and its face.
-    pub fn nearest(&self, t: DVec2) -> Option<(u32, DVec2)> {
+    pub(crate) fn nearest(&self, t: DVec2) -> Option<(u32, DVec2)> {
         let place = |knot: u32| self.places[knot as usize];
         let on = |&(face, [a, b]): &(u32, [u32; 2])| (face, nearest_on_segment(t, place(a), place(b)));
         let nearer =

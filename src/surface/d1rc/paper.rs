@@ -16,7 +16,7 @@ use crate::mesh::{HalfEdge, Mesh};
 use glam::DVec2;
 
 /// The parameter mesh and its sharp features.
-pub struct Plane<'a> {
+pub(super) struct Plane<'a> {
     pub mesh: &'a Mesh,
     pub degree: usize,
     /// By half-edge.
@@ -30,7 +30,7 @@ pub struct Plane<'a> {
 
 impl Plane<'_> {
     /// The smooth functions: for each inner vertex, edge or face.
-    pub fn smooth(&self) -> Vec<Configuration> {
+    pub(super) fn smooth(&self) -> Vec<Configuration> {
         let triangles = self.mesh.triangles();
         let is_inner =
             |knots: &[u32]| knots.iter().all(|&v| self.mesh.is_used(v) && !self.mesh.is_boundary(v));
@@ -65,7 +65,7 @@ impl Plane<'_> {
     }
 
     /// The functions of sharp edges and fixed vertices; their own knots are added to `places`.
-    pub fn special(&self, places: &mut Vec<DVec2>) -> Vec<Configuration> {
+    pub(super) fn special(&self, places: &mut Vec<DVec2>) -> Vec<Configuration> {
         let triangles = self.mesh.triangles();
         let mut all = Vec::new();
         let half_edges = (0..self.is_sharp.len()).filter(|&h| self.is_sharp[h] && self.degree > 1);

@@ -11,7 +11,7 @@ use glam::DVec2;
 
 /// The triangles of a simple counter-clockwise polygon, as numbers of its corners; None if it is none. Quadratic time in
 /// the number of corners.
-pub fn triangulate(corners: &[DVec2]) -> Option<Vec<[usize; 3]>> {
+pub(super) fn triangulate(corners: &[DVec2]) -> Option<Vec<[usize; 3]>> {
     let mut rest: Vec<usize> = (0..corners.len()).collect_vec();
     let mut ears: Vec<Ear> = rest.iter().map(|&at| Ear::new(corners, &rest, at)).collect_vec();
     let mut triangles = memory::with_capacity(corners.len().saturating_sub(2));

@@ -10,14 +10,14 @@ use glam::DVec2;
 
 /// Where functions are not zero.
 #[derive(Debug, Clone)]
-pub struct Regions {
+pub(crate) struct Regions {
     by_function: Lists,
     by_face: Lists,
 }
 
 impl Regions {
     /// By the hulls of the knots.
-    pub fn new(
+    pub(crate) fn new(
         configurations: &[Configuration],
         places: &[DVec2],
         locator: &Locator,
@@ -39,7 +39,7 @@ impl Regions {
     }
 
     /// Leaves out the functions that no face sees.
-    pub fn without_unseen(self, configurations: Vec<Configuration>) -> (Vec<Configuration>, Self) {
+    pub(crate) fn without_unseen(self, configurations: Vec<Configuration>) -> (Vec<Configuration>, Self) {
         let face_count = self.by_face.count();
         let mut pairs = memory::with_capacity(self.by_face.items().len());
         let mut kept = memory::with_capacity(configurations.len());
@@ -55,18 +55,18 @@ impl Regions {
     }
 
     /// The functions that may not be zero on a face, in increasing order.
-    pub fn functions(&self, face: u32) -> &[u32] {
+    pub(crate) fn functions(&self, face: u32) -> &[u32] {
         self.by_face.of(face as usize)
     }
 
     /// The faces on which a function may not be zero, in increasing order.
-    pub fn faces(&self, function: u32) -> &[u32] {
+    pub(crate) fn faces(&self, function: u32) -> &[u32] {
         self.by_function.of(function as usize)
     }
 }
 
 /// Hands over the faces whose inside meets the hull of some points, in increasing order.
-pub fn faces_under(points: Vec<DVec2>, locator: &Locator, take: &mut impl FnMut(u32)) {
+pub(super) fn faces_under(points: Vec<DVec2>, locator: &Locator, take: &mut impl FnMut(u32)) {
     let around = Domain::around(points.iter().copied());
     let hull = hull(points);
     if hull.len() < 3 || !overlap(&around, &locator.domain()) {

@@ -15,7 +15,7 @@ pub fn sharp_edges(mesh: &Mesh, angle: f64) -> Result<Vec<[u32; 2]>, D1rcError> 
 }
 
 /// By half-edge: whether it is sharp. Sharp edges on the boundary are none.
-pub fn flags(mesh: &Mesh, sharp: &[[u32; 2]]) -> Result<Vec<bool>, D1rcError> {
+pub(super) fn flags(mesh: &Mesh, sharp: &[[u32; 2]]) -> Result<Vec<bool>, D1rcError> {
     let count = mesh.points().len();
     let mut flags = memory::filled(false, 3 * mesh.triangles().len());
     for (index, &vertices) in sharp.iter().enumerate() {
@@ -33,7 +33,7 @@ pub fn flags(mesh: &Mesh, sharp: &[[u32; 2]]) -> Result<Vec<bool>, D1rcError> {
 }
 
 /// Sharp edges that no other touches, with both ends inside: a cut along them would not open.
-pub fn lonely_edges(mesh: &Mesh, flags: &[bool]) -> Vec<HalfEdge> {
+pub(super) fn lonely_edges(mesh: &Mesh, flags: &[bool]) -> Vec<HalfEdge> {
     let is_tip = |vertex: u32| {
         !mesh.is_boundary(vertex) && mesh.outgoing(vertex).filter(|h| flags[h.index()]).count() == 1
     };

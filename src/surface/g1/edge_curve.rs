@@ -13,7 +13,7 @@ use crate::linalg::Tridiagonal;
 
 /// E_j and E'_j as rows over the inputs E_0, .., E_N, E'_0, E'_N.
 #[derive(Debug, Clone)]
-pub struct EdgeCurve {
+pub(super) struct EdgeCurve {
     segments: Vec<f64>,
     /// E at each break.
     pub positions: Vec<Vec<f64>>,
@@ -32,7 +32,7 @@ struct Dependent {
 
 impl EdgeCurve {
     /// The curve over these breaks.
-    pub fn new(breaks: &[f64], g: &EdgeFunction) -> Self {
+    pub(super) fn new(breaks: &[f64], g: &EdgeFunction) -> Self {
         let segments: Vec<f64> = breaks.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let n = segments.len();
         let width = n + 3;
@@ -89,18 +89,18 @@ impl EdgeCurve {
     }
 
     /// Whether a position is free.
-    pub fn is_free(&self, at: usize) -> bool {
+    pub(super) fn is_free(&self, at: usize) -> bool {
         self.positions[at][at] == 1.0
     }
 
     /// E'' to the right of a break.
-    pub fn second_right(&self, at: usize) -> Vec<f64> {
+    pub(super) fn second_right(&self, at: usize) -> Vec<f64> {
         let h = self.segments[at];
         self.row(at, |from, to, d_from, d_to| (6.0 / h * (to - from) - 4.0 * d_from - 2.0 * d_to) / h)
     }
 
     /// E'' to the left of a break.
-    pub fn second_left(&self, at: usize) -> Vec<f64> {
+    pub(super) fn second_left(&self, at: usize) -> Vec<f64> {
         let h = self.segments[at - 1];
         self.row(at - 1, |from, to, d_from, d_to| (-6.0 / h * (to - from) + 2.0 * d_from + 4.0 * d_to) / h)
     }

@@ -21,7 +21,7 @@ use std::sync::OnceLock;
 
 /// What is derived from the state.
 #[derive(Debug, Clone)]
-pub struct View {
+pub(super) struct View {
     pub topology: Topology,
     /// The jet of each vertex, T-vertices included.
     jets: Vec<f64>,
@@ -44,7 +44,7 @@ struct Frame {
 }
 
 impl View {
-    pub fn new(surface: &PhtSurface, topology: Topology) -> Self {
+    pub(super) fn new(surface: &PhtSurface, topology: Topology) -> Self {
         let (mesh, width) = (&surface.mesh, surface.width());
         let basis: Vec<f64> = surface.jets.values().flatten().copied().collect_vec();
         let jets = all_jets(&topology, mesh, &basis, width);
@@ -71,17 +71,17 @@ impl View {
 
     /// The leaf that has `uv`: on a grid line the one to the right or above; beyond the domain the nearest.
     #[inline(always)]
-    pub fn leaf_at(&self, mesh: &TMesh, uv: DVec2) -> usize {
+    pub(super) fn leaf_at(&self, mesh: &TMesh, uv: DVec2) -> usize {
         self.topology.leaf_of(self.directory.locate(mesh, uv))
     }
 
     /// The jet of a vertex.
-    pub fn jet(&self, vertex: u32) -> &[f64] {
+    pub(super) fn jet(&self, vertex: u32) -> &[f64] {
         row(&self.jets, vertex as usize, jet::ROWS * self.width)
     }
 
     /// The ordinates of one leaf.
-    pub fn leaf_ordinates(&self, leaf: usize) -> &[f64] {
+    pub(super) fn leaf_ordinates(&self, leaf: usize) -> &[f64] {
         row(&self.ordinates, leaf, 16 * self.width)
     }
 }

@@ -59,7 +59,7 @@ pub fn expansions(topology: &Topology, mesh: &TMesh) -> Vec<Vec<(u32, Matrix)>> 
 }
 
 /// How the coordinate `at` lies on the line from one coordinate to another.
-pub fn line_between(mesh: &TMesh, axis: Axis, at: u32, [from, to]: [u32; 2]) -> Line {
+pub(super) fn line_between(mesh: &TMesh, axis: Axis, at: u32, [from, to]: [u32; 2]) -> Line {
     let length = mesh.parameter(axis, to) - mesh.parameter(axis, from);
     Line::at(f64::from(at - from) / f64::from(to - from), length)
 }

@@ -13,11 +13,11 @@ use crate::memory;
 use crate::surface::tensor::Axis;
 
 /// Rows of a jet: f, f_u, f_v, f_uv.
-pub const ROWS: usize = 4;
+pub(super) const ROWS: usize = 4;
 
 /// Two by two weights that carry a row and its derivative from one end of a line to a place on it.
 #[derive(Debug, Clone, Copy)]
-pub struct Line {
+pub(super) struct Line {
     /// Weights of the row and of its derivative at the first end, for the value.
     pub value: [[f64; 2]; 2],
     /// The same for the derivative.
@@ -26,14 +26,14 @@ pub struct Line {
 
 impl Line {
     /// The place that lies at the fraction `s` of a line of this length.
-    pub fn at(s: f64, length: f64) -> Self {
+    pub(super) fn at(s: f64, length: f64) -> Self {
         let ([a, b, c, d], [da, db, dc, dd]) = (shape_functions(s), shape_slopes(s));
         Self { value: [[a, length * c], [b, length * d]], slope: [[da / length, dc], [db / length, dd]] }
     }
 }
 
 /// The pairs of rows that are a cubic and its derivative along an axis.
-pub fn row_pairs(axis: Axis) -> [[usize; 2]; 2] {
+pub(super) fn row_pairs(axis: Axis) -> [[usize; 2]; 2] {
     match axis {
         Axis::U => [[0, 1], [2, 3]],
         Axis::V => [[0, 2], [1, 3]],
@@ -41,7 +41,7 @@ pub fn row_pairs(axis: Axis) -> [[usize; 2]; 2] {
 }
 
 /// The jet at a place on the line between two others along `axis`.
-pub fn between(axis: Axis, line: &Line, ends: [&[f64]; 2], width: usize) -> Vec<f64> {
+pub(super) fn between(axis: Axis, line: &Line, ends: [&[f64]; 2], width: usize) -> Vec<f64> {
     let mut jet = memory::filled(0.0, ROWS * width);
     for [row, derivative] in row_pairs(axis) {
         for k in 0..width {
@@ -56,14 +56,14 @@ pub fn between(axis: Axis, line: &Line, ends: [&[f64]; 2], width: usize) -> Vec<
 }
 
 /// The jet inside a cell whose corners have these jets, in the order of the quadrants.
-pub fn inside(corners: [&[f64]; 4], lines: [Line; 2], width: usize) -> Vec<f64> {
+pub(super) fn inside(corners: [&[f64]; 4], lines: [Line; 2], width: usize) -> Vec<f64> {
     let [low, high] =
         [[0, 2], [1, 3]].map(|ends| between(Axis::U, &lines[0], ends.map(|c| corners[c]), width));
     between(Axis::V, &lines[1], [&low, &high], width)
 }
 
 /// One of the ordinates around a vertex: `f + p f_u + q f_v + p q f_uv`.
-pub fn ordinate(jet: &[f64], p: f64, q: f64, out: &mut [f64]) {
+pub(super) fn ordinate(jet: &[f64], p: f64, q: f64, out: &mut [f64]) {
     let width = out.len();
     for (k, out) in out.iter_mut().enumerate() {
         let row = |r: usize| jet[r * width + k];
@@ -72,7 +72,7 @@ pub fn ordinate(jet: &[f64], p: f64, q: f64, out: &mut [f64]) {
 }
 
 /// Sixteen rows of Bezier ordinates, v running fastest, of a cell of this size.
-pub fn ordinates(corners: [&[f64]; 4], size: [f64; 2], width: usize, out: &mut [f64]) {
+pub(super) fn ordinates(corners: [&[f64]; 4], size: [f64; 2], width: usize, out: &mut [f64]) {
     for i in 0..4 {
         for j in 0..4 {
             let corner = 2 * (i / 2) + j / 2;

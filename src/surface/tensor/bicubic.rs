@@ -18,7 +18,7 @@ pub(super) struct BicubicTable {
 
 impl BicubicTable {
     /// None for surfaces of another kind.
-    pub fn new(surface: &TensorSurface) -> Option<Self> {
+    pub(super) fn new(surface: &TensorSurface) -> Option<Self> {
         let knots = [Axis::U, Axis::V].map(|axis| surface.knots(axis));
         let is_cubic = knots.iter().all(|knots| knots.degree() == 3);
         (is_cubic && surface.dim == 3 && surface.weights.is_none())

@@ -17,7 +17,7 @@ pub(super) struct Cells {
 }
 
 impl Cells {
-    pub fn new(surface: &TSplineSurface) -> Self {
+    pub(super) fn new(surface: &TSplineSurface) -> Self {
         let together = |span| common_breaks(&surface.active(span).iter().collect::<Vec<&Curve>>());
         let breaks: Vec<Vec<f64>> = surface.knots_v.spans().map(together).collect_vec();
         let mut first = vec![0];

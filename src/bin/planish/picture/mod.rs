@@ -3,5 +3,5 @@
 mod raster;
 mod scene;
 
-pub use raster::{Picture, View};
-pub use scene::{RenderOptions, render, render_model};
+pub(crate) use raster::{Picture, View};
+pub(crate) use scene::{RenderOptions, render, render_model};

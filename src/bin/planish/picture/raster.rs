@@ -31,7 +31,7 @@ const LINE_LIFT: f64 = 2e-3;
 
 /// From where a picture is taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct View {
+pub(crate) struct View {
     /// Towards the viewer.
     pub direction: DVec3,
     /// What should point upwards.
@@ -50,7 +50,7 @@ impl From<[f64; 3]> for View {
 impl View {
     /// Opposite to the mean normal of an open shape, a little aside so that depth shows; from a corner for a
     /// closed one.
-    pub fn facing(mesh: &Mesh) -> Self {
+    pub(crate) fn facing(mesh: &Mesh) -> Self {
         let (mut sum, mut total) = (DVec3::ZERO, 0.0);
         for triangle in mesh.triangles() {
             let [a, b, c] = triangle.map(|node| mesh.points()[node as usize]);
@@ -74,7 +74,7 @@ impl View {
 
 /// A picture in the making.
 #[derive(Debug, Clone)]
-pub struct Picture {
+pub(crate) struct Picture {
     width: usize,
     height: usize,
     axes: DMat3,
@@ -88,12 +88,12 @@ pub struct Picture {
 
 impl Picture {
     /// Towards the viewer, and a light beside it: what stripes of equal brightness are measured with.
-    pub fn light(&self) -> DVec3 {
+    pub(crate) fn light(&self) -> DVec3 {
         self.axes.transpose() * DVec3::new(-0.35, 0.45, 0.82).normalize()
     }
 
     /// An empty picture that shows all of `mesh`.
-    pub fn new(width: usize, height: usize, view: &View, mesh: &Mesh) -> Self {
+    pub(crate) fn new(width: usize, height: usize, view: &View, mesh: &Mesh) -> Self {
         let axes = view.axes();
         let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for &node in mesh.triangles().as_flattened() {
@@ -119,14 +119,14 @@ impl Picture {
     }
 
     /// Draws a mesh; `values` at the nodes, from `range.0` to `range.1`, choose the colours.
-    pub fn draw_mesh(&mut self, mesh: &Mesh, values: Option<&[f64]>, range: (f64, f64)) {
+    pub(crate) fn draw_mesh(&mut self, mesh: &Mesh, values: Option<&[f64]>, range: (f64, f64)) {
         let span = (range.1 - range.0).max(f64::MIN_POSITIVE);
         let share = |node: usize| values.map_or(f64::NAN, |values| (values[node] - range.0) / span);
         self.draw_triangles(mesh, share, shade);
     }
 
     /// Draws a mesh in stripes, one for each unit of a number at the nodes.
-    pub fn draw_stripes(&mut self, mesh: &Mesh, values: &[f64]) {
+    pub(crate) fn draw_stripes(&mut self, mesh: &Mesh, values: &[f64]) {
         let stripe = |normal, value: f64| {
             let light = shade(normal, f64::NAN);
             if value.rem_euclid(1.0) < 0.5 { light } else { light.map(|c| DARK * c) }
@@ -151,7 +151,7 @@ impl Picture {
     }
 
     /// Draws a line through places in space.
-    pub fn draw_line(&mut self, points: &[DVec3], color: [f64; 3]) {
+    pub(crate) fn draw_line(&mut self, points: &[DVec3], color: [f64; 3]) {
         for pair in points.windows(2) {
             let (a, b) = (self.project(pair[0]), self.project(pair[1]));
             let steps = (b - a).truncate().abs().max_element().ceil().max(1.0);
@@ -165,7 +165,7 @@ impl Picture {
     }
 
     /// Draws a dot at a place in space.
-    pub fn draw_dot(&mut self, place: DVec3, color: [f64; 3]) {
+    pub(crate) fn draw_dot(&mut self, place: DVec3, color: [f64; 3]) {
         let center = self.project(place);
         let reach = DOT_SAMPLES / 2;
         for dx in -reach..=reach {
@@ -181,7 +181,7 @@ impl Picture {
     }
 
     /// Draws the scale of colours with its ends and a title below the picture.
-    pub fn draw_scale(&mut self, title: &str, range: (f64, f64)) {
+    pub(crate) fn draw_scale(&mut self, title: &str, range: (f64, f64)) {
         let glyph = OVERSAMPLING * 2;
         let (left, right) = (self.width / 8, self.width * 7 / 8);
         let top = self.height - 18 * glyph;
@@ -199,7 +199,7 @@ impl Picture {
     }
 
     /// Width, height and the pixels as RGB bytes, row by row from the top.
-    pub fn finish(&self) -> (u32, u32, Vec<u8>) {
+    pub(crate) fn finish(&self) -> (u32, u32, Vec<u8>) {
         let (width, height) = (self.width / OVERSAMPLING, self.height / OVERSAMPLING);
         let mut bytes = Vec::with_capacity(3 * width * height);
         for y in 0..height {

@@ -14,7 +14,7 @@ use planish::surface::{Domain, Surface, normal};
 
 /// What a picture shows.
 #[derive(Debug, Clone, Copy)]
-pub struct RenderOptions<'a> {
+pub(crate) struct RenderOptions<'a> {
     /// Pixels across.
     pub width: usize,
     /// Pixels down.
@@ -71,7 +71,7 @@ const NET_INK: [f64; 3] = [0.10, 0.35, 0.15];
 const PIECES: usize = 32;
 
 /// Draws the part of a surface inside its trims.
-pub fn render(surface: &dyn Surface, options: &RenderOptions, pool: &Pool) -> Result<Picture, Error> {
+pub(crate) fn render(surface: &dyn Surface, options: &RenderOptions, pool: &Pool) -> Result<Picture, Error> {
     let scene = Scene { surface, is_plane: options.plane };
     let (mesh, distances) = scene.shape(options, pool)?;
     let front = || if options.plane { View::from([0.0, 0.0, 1.0]) } else { View::facing(&mesh) };
@@ -102,7 +102,7 @@ pub fn render(surface: &dyn Surface, options: &RenderOptions, pool: &Pool) -> Re
 
 /// Draws a model: its faces, or a mesh moved on to it; its edges where knot lines are asked for, free ones where trims
 /// are.
-pub fn render_model(model: &Model, options: &RenderOptions, pool: &Pool) -> Result<Picture, Error> {
+pub(crate) fn render_model(model: &Model, options: &RenderOptions, pool: &Pool) -> Result<Picture, Error> {
     let tessellation = model.tessellate(&TessellateOptions::default())?;
     let (mesh, distances) = match options.deviation_from {
         None => (tessellation.mesh.clone(), None),

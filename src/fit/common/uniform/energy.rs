@@ -51,7 +51,7 @@ impl Energy {
 
 /// Which functions without energy vanish at all data, within rounding: those leave a fit undetermined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FreeFunctions {
+pub(crate) enum FreeFunctions {
     /// None of a + bu + cv + duv.
     None,
     /// One with d: the data lie on a hyperbola, or are three. The plate energy settles it.
@@ -68,7 +68,7 @@ const LEAST_PIVOT: f64 = 1e-13;
 impl FreeFunctions {
     /// Factors the Gram matrix of 1, u, v, uv over the data and looks for a pivot that vanishes. Elimination in this
     /// order and by hand: which pivot vanishes is the answer, and a library's pivoting would lose it.
-    pub fn of(uv: &[DVec2], data: &Domain) -> Self {
+    pub(crate) fn of(uv: &[DVec2], data: &Domain) -> Self {
         let (center, half) = ((data.min + data.max) / 2.0, data.size() / 2.0);
         let mut gram = [[0.0; 4]; 4];
         for p in uv {

@@ -22,7 +22,7 @@ const SLOPE_V: usize = 2;
 const TWIST: usize = 3;
 
 /// Control points over the clamped knots of `grid`, rows of `dim` numbers.
-pub fn fit(
+pub(crate) fn fit(
     grid: &[UniformGrid; 2],
     uv: &[DVec2],
     values: &[f64],
@@ -40,7 +40,7 @@ pub fn fit(
 }
 
 /// The same in one parameter: a row of knots without cross slopes.
-pub fn fit_line(
+pub(crate) fn fit_line(
     grid: &UniformGrid,
     u: &[f64],
     values: &[f64],

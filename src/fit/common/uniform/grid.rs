@@ -70,7 +70,7 @@ pub struct Window {
 }
 
 /// The cubic basis in one direction in terms of the unknowns: what equations are made of.
-pub trait Direction: Sync {
+pub(crate) trait Direction: Sync {
     /// Number of unknowns.
     fn len(&self) -> usize;
 
@@ -108,7 +108,7 @@ pub trait Direction: Sync {
 
 /// A part of a cell: the fractions of it where it begins and ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Part {
+pub(crate) struct Part {
     pub cell: usize,
     pub from: f64,
     pub to: f64,

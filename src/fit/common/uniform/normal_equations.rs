@@ -22,7 +22,7 @@ const STENCIL: usize = 4 * 7;
 
 /// The data of a fit: parameters, rows of values, and weights.
 #[derive(Debug, Clone, Copy)]
-pub struct Samples<'a> {
+pub(crate) struct Samples<'a> {
     pub uv: &'a [DVec2],
     /// Rows of `dim` numbers.
     pub values: &'a [f64],
@@ -33,24 +33,24 @@ pub struct Samples<'a> {
 
 /// The basis over a rectangle of cells.
 #[derive(Debug, Clone, Copy)]
-pub struct TensorBasis<D = UniformBasis> {
+pub(crate) struct TensorBasis<D = UniformBasis> {
     pub u: D,
     pub v: D,
 }
 
 impl<D: Direction> TensorBasis<D> {
     /// Number of unknowns; `(i, j)` is number `i * v.len() + j`.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.u.len() * self.v.len()
     }
 
     /// Cells along u and v.
-    pub fn cells(&self) -> [usize; 2] {
+    pub(crate) fn cells(&self) -> [usize; 2] {
         [self.u.cell_count(), self.v.cell_count()]
     }
 
     /// The square of the distance between a value and the spline with some unknowns, which are in columns.
-    pub fn error_sq(&self, uv: DVec2, value: &[f64], unknowns: &[f64]) -> f64 {
+    pub(crate) fn error_sq(&self, uv: DVec2, value: &[f64], unknowns: &[f64]) -> f64 {
         let ((cell_u, s), (cell_v, t)) = (self.u.locate(uv.x), self.v.locate(uv.y));
         let (u, v) = (self.u.window(cell_u, s, 0), self.v.window(cell_v, t, 0));
         let n = self.len();
@@ -66,7 +66,7 @@ impl<D: Direction> TensorBasis<D> {
     }
 
     /// The unknowns that the value at a place is made of, and their weights.
-    pub fn terms(&self, uv: DVec2) -> Vec<(usize, f64)> {
+    pub(crate) fn terms(&self, uv: DVec2) -> Vec<(usize, f64)> {
         let ((cell_u, s), (cell_v, t)) = (self.u.locate(uv.x), self.v.locate(uv.y));
         let (along_u, along_v) = (self.u.window(cell_u, s, 0), self.v.window(cell_v, t, 0));
         let (width_u, width_v, count_v) = (self.u.width(), self.v.width(), self.v.len());
@@ -82,7 +82,7 @@ impl<D: Direction> TensorBasis<D> {
 
 /// `N^T N` and `N^T x` of some data, without energy.
 #[derive(Debug, Clone)]
-pub struct NormalEquations<D = UniformBasis> {
+pub(crate) struct NormalEquations<D = UniformBasis> {
     basis: TensorBasis<D>,
     /// `STENCIL` entries for each unknown.
     matrix: Vec<f64>,
@@ -92,7 +92,7 @@ pub struct NormalEquations<D = UniformBasis> {
 }
 
 /// The data of each cell; to be called within a pool.
-pub fn by_cell(basis: &TensorBasis<impl Direction>, uv: &[DVec2]) -> Lists {
+pub(crate) fn by_cell(basis: &TensorBasis<impl Direction>, uv: &[DVec2]) -> Lists {
     let [cells_u, cells_v] = basis.cells();
     let cells: Vec<u32> = uv.par_iter().map(|&uv| basis.cell(uv) as u32).collect_vec();
     Lists::by_key(cells_u * cells_v, &cells)
@@ -120,7 +120,7 @@ impl Strip {
 
 impl<D: Direction + Clone> NormalEquations<D> {
     /// Adds up the data. Rows of cells are independent pieces of work, added in their order.
-    pub fn assemble(basis: TensorBasis<D>, samples: &Samples, pool: &Pool) -> Self {
+    pub(crate) fn assemble(basis: TensorBasis<D>, samples: &Samples, pool: &Pool) -> Self {
         let [cells_u, _] = basis.cells();
         let (rows, n, dim) = (basis.v.len(), basis.len(), samples.dim);
         let (mut matrix, mut right) = (memory::filled(0.0, n * STENCIL), memory::filled(0.0, n * dim));
@@ -143,7 +143,12 @@ impl<D: Direction + Clone> NormalEquations<D> {
 
     /// The tension of a membrane, `integral of |x_u|^2 + |x_v|^2`, over those products of parts of cells that are
     /// `is_tense`, row by row: for `dim` components, without data.
-    pub fn tension(basis: TensorBasis<D>, dim: usize, parts: &[Vec<Part>; 2], is_tense: &[bool]) -> Self {
+    pub(crate) fn tension(
+        basis: TensorBasis<D>,
+        dim: usize,
+        parts: &[Vec<Part>; 2],
+        is_tense: &[bool],
+    ) -> Self {
         let (n, count_v) = (basis.len(), basis.v.len());
         let mut matrix = vec![0.0; n * STENCIL];
         let across: Vec<_> = parts[1].iter().map(|part| LocalGrams::new(&basis.v, part)).collect();
@@ -166,7 +171,7 @@ impl<D: Direction + Clone> NormalEquations<D> {
     }
 
     /// These and `weight` times others over the same basis.
-    pub fn plus(&self, other: &Self, weight: f64) -> Self {
+    pub(crate) fn plus(&self, other: &Self, weight: f64) -> Self {
         let add = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a + weight * b).collect_vec();
         let (matrix, right) = (add(&self.matrix, &other.matrix), add(&self.right, &other.right));
         Self { matrix, right, basis: self.basis.clone(), dim: self.dim }
@@ -174,7 +179,7 @@ impl<D: Direction + Clone> NormalEquations<D> {
 
     /// Solves with `weight` times the energy added, under conditions; the unknowns come in columns, one for each component.
     /// `symbolic` is made by [`NormalEquations::analyse`] for the same basis.
-    pub fn solve(
+    pub(crate) fn solve(
         &self,
         symbolic: &SymbolicCholesky,
         weight: f64,
@@ -189,7 +194,7 @@ impl<D: Direction + Clone> NormalEquations<D> {
     }
 
     /// The factor that [`NormalEquations::solve`] solves with.
-    pub fn factor(
+    pub(crate) fn factor(
         &self,
         symbolic: &SymbolicCholesky,
         weight: f64,
@@ -199,7 +204,7 @@ impl<D: Direction + Clone> NormalEquations<D> {
     }
 
     /// The pattern, analysed; the same for all data and energies over one basis.
-    pub fn analyse(&self) -> SymbolicCholesky {
+    pub(crate) fn analyse(&self) -> SymbolicCholesky {
         let order = grid_order(self.basis.u.len(), self.basis.v.len(), REACH);
         SymbolicCholesky::new(&self.with_energy(0.0, &[]).view(), Some(&order))
     }

@@ -266,7 +266,7 @@ pub(in crate::fit) struct Shape<S> {
 
 impl<S> Shape<S> {
     /// `fit` fits and measures the points of the source, rows of three numbers.
-    pub fn fit(
+    pub(crate) fn fit(
         source: &Mesh,
         targets: &[DVec3],
         options: &TransferOptions,
@@ -284,7 +284,7 @@ impl<S> Shape<S> {
     }
 
     /// The surface, and what there is to say of the distances of the targets to it if they are allowed.
-    pub fn report(
+    pub(crate) fn report(
         self,
         options: &TransferOptions,
         distances: Vec<f64>,

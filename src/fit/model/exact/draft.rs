@@ -13,7 +13,7 @@ use std::f64::consts::{PI, TAU};
 
 /// A piece of a curve between two vertices.
 #[derive(Debug, Clone)]
-pub struct DraftEdge {
+pub(crate) struct DraftEdge {
     pub shape: Shape,
     pub vertices: [usize; 2],
     /// Parameters at the vertices; they increase.
@@ -23,17 +23,17 @@ pub struct DraftEdge {
 
 impl DraftEdge {
     /// Whether nothing but itself says where it begins.
-    pub fn is_ring(&self) -> bool {
+    pub(crate) fn is_ring(&self) -> bool {
         self.vertices[0] == self.vertices[1]
     }
 }
 
 /// Edges in order, and whether the loop runs along them.
-pub type DraftLoop = Vec<(usize, bool)>;
+pub(crate) type DraftLoop = Vec<(usize, bool)>;
 
 /// A bounded part of a carrier.
 #[derive(Debug, Clone)]
-pub struct DraftFace {
+pub(crate) struct DraftFace {
     pub carrier: Carrier,
     /// Whether its front is the side to which the carrier's normal points.
     pub is_forward: bool,
@@ -45,7 +45,7 @@ pub struct DraftFace {
 
 /// What a model is made of.
 #[derive(Debug, Clone, Default)]
-pub struct Draft {
+pub(crate) struct Draft {
     pub vertices: Vec<DVec3>,
     pub edges: Vec<DraftEdge>,
     pub faces: Vec<DraftFace>,
@@ -64,7 +64,7 @@ const LEAST_SINE: f64 = 0.2;
 
 /// Lengths against which a draft is checked.
 #[derive(Debug, Clone, Copy)]
-pub struct Scale {
+pub(crate) struct Scale {
     pub tolerance: f64,
     pub noise: f64,
     pub diagonal: f64,
@@ -72,7 +72,7 @@ pub struct Scale {
 
 impl Draft {
     /// Of regions that all have a carrier. Labels are those of the triangles, or none.
-    pub fn new(
+    pub(crate) fn new(
         mesh: &Mesh,
         features: &Features,
         regions: &Regions,
@@ -232,7 +232,7 @@ impl Draft {
     }
 
     /// The loops of all faces with edges of a model.
-    pub fn build(&self, builder: &mut Builder) -> Result<Vec<FaceId>, ModelError> {
+    pub(crate) fn build(&self, builder: &mut Builder) -> Result<Vec<FaceId>, ModelError> {
         let vertices: Vec<VertexId> = self.vertices.iter().map(|&place| builder.vertex(place)).collect();
         let curve = |edge: &DraftEdge| -> Option<EdgeCurve> {
             match edge.shape {

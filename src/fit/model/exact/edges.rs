@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 
 /// A whole line, circle or ellipse.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Shape {
+pub(crate) enum Shape {
     /// Through a point, along a direction of length 1.
     Line { origin: DVec3, along: DVec3 },
     /// Around the third axis of a frame, with half its width along the first and second.
@@ -17,7 +17,7 @@ pub enum Shape {
 
 /// The curve in which two carriers meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Meeting {
+pub(crate) struct Meeting {
     pub shape: Shape,
     /// Whether the carriers are tangent along it.
     pub is_smooth: bool,
@@ -31,7 +31,7 @@ const LEAST_ANGLE: f64 = 0.017;
 const SAME: f64 = 1e-9;
 
 /// Where two carriers meet near some places.
-pub fn meet(a: &Carrier, b: &Carrier, near: &[DVec3]) -> Option<Meeting> {
+pub(crate) fn meet(a: &Carrier, b: &Carrier, near: &[DVec3]) -> Option<Meeting> {
     match (a, b) {
         (Carrier::Plane(a), Carrier::Plane(b)) => planes(a, b, near),
         (Carrier::Plane(plane), Carrier::Cylinder(cylinder))
@@ -139,7 +139,7 @@ fn nearest(shapes: [Shape; 2], near: &[DVec3]) -> Shape {
 
 impl Shape {
     /// The parameter of the place nearest to one on or beside the curve: a length along a line, else an angle.
-    pub fn parameter(&self, place: DVec3) -> f64 {
+    pub(crate) fn parameter(&self, place: DVec3) -> f64 {
         match self {
             Self::Line { origin, along } => (place - *origin).dot(*along),
             Self::Conic { frame, radii } => {
@@ -150,7 +150,7 @@ impl Shape {
     }
 
     /// The place at a parameter.
-    pub fn place(&self, t: f64) -> DVec3 {
+    pub(crate) fn place(&self, t: f64) -> DVec3 {
         match self {
             Self::Line { origin, along } => *origin + t * *along,
             Self::Conic { frame, radii } => {
@@ -160,12 +160,12 @@ impl Shape {
     }
 
     /// How far a place is from the curve: for an ellipse from the place of its parameter, which is little farther.
-    pub fn distance(&self, place: DVec3) -> f64 {
+    pub(crate) fn distance(&self, place: DVec3) -> f64 {
         self.place(self.parameter(place)).distance(place)
     }
 
     /// The same curve run through in the other direction, and nothing else changed.
-    pub fn reversed(&self) -> Option<Self> {
+    pub(crate) fn reversed(&self) -> Option<Self> {
         Some(match *self {
             Self::Line { origin, along } => Self::Line { origin, along: -along },
             Self::Conic { frame, radii } => {
@@ -175,7 +175,7 @@ impl Shape {
     }
 
     /// The angle by which places go round, the way from one to the next being the shorter one; for a line the length.
-    pub fn sweep(&self, places: impl Iterator<Item = DVec3>) -> f64 {
+    pub(crate) fn sweep(&self, places: impl Iterator<Item = DVec3>) -> f64 {
         let parameters: Vec<f64> = places.map(|place| self.parameter(place)).collect();
         let step = |pair: &[f64]| match self {
             Self::Line { .. } => pair[1] - pair[0],
@@ -185,7 +185,7 @@ impl Shape {
     }
 
     /// The part between two parameters.
-    pub fn part(&self, ends: [f64; 2]) -> Option<EdgeCurve> {
+    pub(crate) fn part(&self, ends: [f64; 2]) -> Option<EdgeCurve> {
         match *self {
             Self::Line { .. } => EdgeCurve::line(ends.map(|t| self.place(t))),
             Self::Conic { frame, radii } => Some(Arc::new(frame, radii, ends)?.into()),
@@ -194,7 +194,7 @@ impl Shape {
 
     /// The planes whose line it is, as a carrier beside one of its own: through it, and square to a plane or cylinder
     /// that is tangent there to the other.
-    pub fn upright(&self, tangent: &Carrier) -> Option<Carrier> {
+    pub(crate) fn upright(&self, tangent: &Carrier) -> Option<Carrier> {
         let Self::Line { origin, along } = *self else { return None };
         let normal = along.cross(gradient(tangent, origin));
         Some(Plane(Frame::new(origin, normal, least_aligned(normal))?).into())
@@ -207,7 +207,7 @@ const STEPS: usize = 30;
 const FREE: f64 = 1e-6;
 
 /// The place nearest to a node where all carriers meet, and how far it is from them at most.
-pub fn corner(carriers: &[Carrier], node: DVec3) -> Option<(DVec3, f64)> {
+pub(crate) fn corner(carriers: &[Carrier], node: DVec3) -> Option<(DVec3, f64)> {
     let mut place = node;
     for _ in 0..STEPS {
         let matrix = DMatrix::from_fn(carriers.len(), 3, |i, j| gradient(&carriers[i], place)[j]);
@@ -224,6 +224,6 @@ pub fn corner(carriers: &[Carrier], node: DVec3) -> Option<(DVec3, f64)> {
 }
 
 /// Sine of the angle at which two carriers meet at a place.
-pub fn sine_at(a: &Carrier, b: &Carrier, place: DVec3) -> f64 {
+pub(crate) fn sine_at(a: &Carrier, b: &Carrier, place: DVec3) -> f64 {
     gradient(a, place).cross(gradient(b, place)).length()
 }

@@ -244,7 +244,7 @@ impl Evidence {
 }
 
 /// The coordinate axis that is least along a direction.
-pub fn least_aligned(direction: DVec3) -> DVec3 {
+pub(crate) fn least_aligned(direction: DVec3) -> DVec3 {
     let size = direction.abs();
     match size.min_element() {
         least if least == size.x => DVec3::X,
@@ -262,7 +262,7 @@ fn flattened(frame: &Frame, point: DVec3) -> DVec2 {
 ///
 /// The start minimizes the algebraic distance (I. Kasa, "A circle fitting procedure and its error analysis", IEEE Trans.
 /// Instrum. Meas. 25 (1976)); Gauss and Newton's method with Lagrange multipliers for the lines, which are linear, does the rest.
-pub fn circle(points: &[DVec2], lines: &[(DVec2, f64)], extent: f64) -> Option<(DVec2, f64)> {
+pub(crate) fn circle(points: &[DVec2], lines: &[(DVec2, f64)], extent: f64) -> Option<(DVec2, f64)> {
     let (mut matrix, mut right) = (Matrix3::zeros(), SVector::<f64, 3>::zeros());
     for p in points.iter().map(|&p| p / extent) {
         let row = SVector::<f64, 3>::new(2.0 * p.x, 2.0 * p.y, 1.0);
@@ -308,7 +308,7 @@ pub fn circle(points: &[DVec2], lines: &[(DVec2, f64)], extent: f64) -> Option<(
 }
 
 /// The distance of a place from a plane or cylinder: positive in front of the plane, outside the cylinder.
-pub fn signed_distance(carrier: &Carrier, place: DVec3) -> f64 {
+pub(crate) fn signed_distance(carrier: &Carrier, place: DVec3) -> f64 {
     match carrier {
         Carrier::Plane(Plane(frame)) => (place - frame.origin()).dot(frame.z()),
         Carrier::Cylinder(cylinder) => across(cylinder, place).length() - cylinder.radius(),
@@ -317,7 +317,7 @@ pub fn signed_distance(carrier: &Carrier, place: DVec3) -> f64 {
 }
 
 /// The direction in which that distance grows.
-pub fn gradient(carrier: &Carrier, place: DVec3) -> DVec3 {
+pub(crate) fn gradient(carrier: &Carrier, place: DVec3) -> DVec3 {
     match carrier {
         Carrier::Plane(Plane(frame)) => frame.z(),
         Carrier::Cylinder(cylinder) => across(cylinder, place).normalize_or_zero(),

@@ -15,7 +15,7 @@ use crate::summary::summarize;
 use glam::{DVec2, DVec3};
 
 /// Where nodes are, how far off, and the report.
-pub struct Measured {
+pub(super) struct Measured {
     pub places: Vec<Option<(FaceId, DVec2)>>,
     pub errors: Vec<f64>,
     pub report: ModelReport,
@@ -25,7 +25,7 @@ pub struct Measured {
 const BETWEEN_WATCHES: usize = 4096;
 
 /// Measures a model whose faces are the regions of the mesh, in order; refuses one of another shape.
-pub fn measure(
+pub(super) fn measure(
     mesh: &Mesh,
     features: &Features,
     regions: &Regions,

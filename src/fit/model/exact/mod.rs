@@ -131,7 +131,7 @@ fn fit_segments(
 }
 
 /// The model of several meshes, each a shell with its role, and the first face of each.
-pub fn together(fits: &[&ExactFit], roles: &[Role]) -> Result<(Model, Vec<usize>), ModelError> {
+pub(super) fn together(fits: &[&ExactFit], roles: &[Role]) -> Result<(Model, Vec<usize>), ModelError> {
     let drafts: Vec<&Draft> = fits.iter().map(|fit| &fit.draft).collect();
     let starts = drafts.iter().scan(0, |next, draft| {
         let start = *next;

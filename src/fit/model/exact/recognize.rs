@@ -35,7 +35,7 @@ pub fn recognize(mesh: &Mesh, regions: &Regions, limits: &Limits) -> Vec<Option<
 }
 
 /// The carrier on which all of some triangles lie.
-pub fn recognize_region(mesh: &Mesh, triangles: &[u32], limits: &Limits) -> Option<Recognized> {
+pub(crate) fn recognize_region(mesh: &Mesh, triangles: &[u32], limits: &Limits) -> Option<Recognized> {
     let evidence = Evidence::new(mesh, triangles)?;
     let carrier = carrier(&evidence, limits)?;
     Some(Recognized { carrier, evidence })

@@ -17,7 +17,7 @@ const GROWTH: f64 = 1.05;
 const ROUNDING: f64 = 1e-6;
 
 /// Draws directions together and to right angles where the nodes allow it.
-pub fn align(parts: &mut [Part], diagonal: f64) {
+pub(crate) fn align(parts: &mut [Part], diagonal: f64) {
     let mut order: Vec<usize> = (0..parts.len()).collect();
     // how well the nodes tell a direction: by how many there are, and how far they reach
     let weight = |k: usize| {
@@ -43,7 +43,7 @@ pub fn align(parts: &mut [Part], diagonal: f64) {
 }
 
 /// The normal of a plane or the axis of a cylinder.
-pub fn direction(carrier: &Carrier) -> DVec3 {
+pub(crate) fn direction(carrier: &Carrier) -> DVec3 {
     match carrier {
         Carrier::Plane(Plane(frame)) => frame.z(),
         Carrier::Cylinder(cylinder) => cylinder.frame().z(),
@@ -78,7 +78,7 @@ fn turned(found: &Recognized, axis: DVec3, diagonal: f64) -> Option<Carrier> {
 }
 
 /// Lets a cylinder touch the planes that meet it smoothly, if the nodes allow it.
-pub fn touch(found: &Recognized, planes: &[Plane], diagonal: f64) -> Option<Cylinder> {
+pub(crate) fn touch(found: &Recognized, planes: &[Plane], diagonal: f64) -> Option<Cylinder> {
     let Carrier::Cylinder(cylinder) = &found.carrier else { return None };
     let mut tangent: Vec<(DVec3, f64)> = Vec::new();
     for Plane(frame) in planes {

@@ -9,7 +9,7 @@ use glam::{DMat3, DVec2, DVec3};
 use nalgebra::Matrix3;
 
 /// What meets a carrier along some places within a distance.
-pub fn rim(carrier: &Carrier, places: &[DVec3], reach: f64) -> Option<Carrier> {
+pub(super) fn rim(carrier: &Carrier, places: &[DVec3], reach: f64) -> Option<Carrier> {
     let is_on = |rim: &Carrier| {
         places.iter().all(|&place| super::evidence::signed_distance(rim, place).abs() <= reach)
     };

@@ -27,13 +27,13 @@ const STRIDE: usize = 7919;
 
 /// Triangles with the carrier that explains them.
 #[derive(Debug, Clone)]
-pub struct Part {
+pub(crate) struct Part {
     pub triangles: Vec<u32>,
     pub found: Recognized,
 }
 
 /// Planes and cylinders that explain all of a region; none if they do not.
-pub fn split(mesh: &Mesh, triangles: &[u32], limits: &Limits) -> Option<Vec<Part>> {
+pub(crate) fn split(mesh: &Mesh, triangles: &[u32], limits: &Limits) -> Option<Vec<Part>> {
     let mut region = Region::new(mesh, triangles);
     let mut parts: Vec<Part> = Vec::new();
     let edges = region.turning_edges();
@@ -69,7 +69,7 @@ pub fn split(mesh: &Mesh, triangles: &[u32], limits: &Limits) -> Option<Vec<Part
 const BLUNT: [(f64, bool); 5] = [(0.5, false), (0.35, false), (0.27, false), (0.05, true), (FLAT, true)];
 
 /// The parts of a region between edges that turn by less than sharp ones, if all of them are explained.
-pub fn split_at_blunt_edges(mesh: &Mesh, triangles: &[u32], limits: &Limits) -> Option<Vec<Part>> {
+pub(crate) fn split_at_blunt_edges(mesh: &Mesh, triangles: &[u32], limits: &Limits) -> Option<Vec<Part>> {
     BLUNT.into_iter().find_map(|(angle, needs_inner)| {
         let pieces = Region::new(mesh, triangles).pieces(Some(angle));
         if pieces.len() < 2 || (needs_inner && !pieces.iter().all(|piece| has_inner_node(mesh, piece))) {

@@ -23,7 +23,7 @@ struct Sample {
 
 /// The factored least squares of one piece.
 #[derive(Debug)]
-pub struct PieceFitter {
+pub(super) struct PieceFitter {
     pub layout: Layout,
     pub meshes: Vec<TMesh>,
     system: System,
@@ -39,14 +39,14 @@ pub struct PieceFitter {
 
 /// Places for values: what a solution is read at.
 #[derive(Debug)]
-pub struct Readings {
+pub(super) struct Readings {
     pub places: Vec<Place>,
     by_cell: ByCell,
 }
 
 impl PieceFitter {
     /// For fields on the nodes that have places here and values.
-    pub fn new(
+    pub(super) fn new(
         (layout, meshes): (&Layout, &[TMesh]),
         mesh: &Mesh,
         places: &[Option<Place>],
@@ -77,7 +77,7 @@ impl PieceFitter {
     }
 
     /// The free unknowns, column after column, of the field with these values less `center`.
-    pub fn unknowns(&self, values: &[f64], dim: usize, center: &[f64], pool: &Pool) -> Vec<f64> {
+    pub(super) fn unknowns(&self, values: &[f64], dim: usize, center: &[f64], pool: &Pool) -> Vec<f64> {
         let mut rows = vec![0.0; dim * self.samples.len()];
         for (sample, row) in self.samples.iter().zip(rows.chunks_exact_mut(dim)) {
             for (&node, &share) in sample.nodes.iter().zip(&sample.shares).filter(|(_, share)| **share != 0.0)
@@ -91,7 +91,13 @@ impl PieceFitter {
     }
 
     /// What forces at other places, weighted rows, do to the free unknowns.
-    pub fn unknowns_of_forces(&self, at: &Readings, forces: &[f64], dim: usize, pool: &Pool) -> Vec<f64> {
+    pub(super) fn unknowns_of_forces(
+        &self,
+        at: &Readings,
+        forces: &[f64],
+        dim: usize,
+        pool: &Pool,
+    ) -> Vec<f64> {
         self.solve(&at.places, &at.by_cell, forces, dim, pool)
     }
 
@@ -101,19 +107,19 @@ impl PieceFitter {
     }
 
     /// Places of this piece to read solutions at.
-    pub fn readings(&self, places: Vec<Place>, pool: &Pool) -> Result<Readings, FieldError> {
+    pub(super) fn readings(&self, places: Vec<Place>, pool: &Pool) -> Result<Readings, FieldError> {
         let space = Space::new(&self.layout, self.meshes.clone())?;
         let by_cell = ByCell::sort(&space, &places, pool);
         Ok(Readings { places, by_cell })
     }
 
     /// The values of a solution at places: rows.
-    pub fn read(&self, at: &Readings, unknowns: &[f64], dim: usize, pool: &Pool) -> Vec<f64> {
+    pub(super) fn read(&self, at: &Readings, unknowns: &[f64], dim: usize, pool: &Pool) -> Vec<f64> {
         self.system.read(&at.places, &at.by_cell, unknowns, dim, pool)
     }
 
     /// Adds what a solution sends to the nodes: the transpose of [`PieceFitter::unknowns`] without its solution.
-    pub fn add_to_nodes(&self, unknowns: &[f64], dim: usize, out: &mut [f64], pool: &Pool) {
+    pub(super) fn add_to_nodes(&self, unknowns: &[f64], dim: usize, out: &mut [f64], pool: &Pool) {
         let rows = self.system.read(&self.places, &self.by_cell, unknowns, dim, pool);
         for (sample, row) in self.samples.iter().zip(rows.chunks_exact(dim)) {
             for (&node, &share) in sample.nodes.iter().zip(&sample.shares).filter(|(_, share)| **share != 0.0)
@@ -125,7 +131,7 @@ impl PieceFitter {
     }
 
     /// The surfaces of a solution, one a quad, with `center` added.
-    pub fn surfaces(
+    pub(super) fn surfaces(
         &self,
         unknowns: &[f64],
         dim: usize,
@@ -148,7 +154,7 @@ impl PieceFitter {
     }
 
     /// Control points of all patches, four a basis vertex.
-    pub fn coefficient_count(&self) -> usize {
+    pub(super) fn coefficient_count(&self) -> usize {
         self.jets.iter().map(Vec::len).sum()
     }
 }

@@ -20,7 +20,7 @@ const THIRDS: usize = 34;
 
 /// A patch over the unit square.
 #[derive(Debug, Clone, Copy)]
-pub struct Given<'a> {
+pub(super) struct Given<'a> {
     pub surface: &'a TensorSurface,
     /// Its number among all that are given.
     pub number: usize,
@@ -30,7 +30,7 @@ pub struct Given<'a> {
 
 impl Given<'_> {
     /// The point at a place of the unit square, and the tangents along its u and v.
-    pub fn jet(&self, uv: DVec2) -> [DVec3; 3] {
+    pub(super) fn jet(&self, uv: DVec2) -> [DVec3; 3] {
         let domain = self.surface.domain();
         let size = domain.size();
         let own = if self.is_turned { DVec2::new(uv.y, uv.x) } else { uv };
@@ -41,7 +41,7 @@ impl Given<'_> {
         if self.is_turned { [point, along_v, along_u] } else { [point, along_u, along_v] }
     }
 
-    pub fn point(&self, uv: DVec2) -> DVec3 {
+    pub(super) fn point(&self, uv: DVec2) -> DVec3 {
         self.jet(uv)[0]
     }
 
@@ -52,14 +52,14 @@ impl Given<'_> {
 }
 
 /// Patches in one piece.
-pub struct Joined<'a> {
+pub(super) struct Joined<'a> {
     pub layout: Layout,
     pub patches: Vec<Given<'a>>,
 }
 
 /// How far the sides that have been joined are apart.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Seams {
+pub(super) struct Seams {
     /// Largest distance between the sides of an edge.
     pub gap: f64,
     /// Largest difference of unit normals across an edge.
@@ -78,7 +78,7 @@ struct Joint {
 }
 
 /// Joins patches along sides within a tolerance.
-pub fn join<'a>(
+pub(super) fn join<'a>(
     surfaces: &[&'a TensorSurface],
     tolerance: f64,
 ) -> Result<(Vec<Joined<'a>>, Seams), FromPatchesError> {

@@ -22,7 +22,7 @@ const HALVINGS: i32 = 4;
 const SAMPLES: usize = 65;
 
 /// The surface continued by the share `buffer` of its ranges, or less where it would leave the box of its data.
-pub fn with_buffer(surface: TensorSurface, buffer: f64, bounds: &Bounds) -> TensorSurface {
+pub(super) fn with_buffer(surface: TensorSurface, buffer: f64, bounds: &Bounds) -> TensorSurface {
     let data = surface.domain();
     let widths = (0..HALVINGS).map(|k| buffer * 0.5_f64.powi(k) * data.size());
     let continued = widths.filter(|width| width.min_element() > 0.0).map(|width| continued(&surface, width));

@@ -24,7 +24,7 @@ const MARK_SHARE: f64 = 0.3;
 const MOST_NEW: f64 = 0.3;
 
 /// How far inserting lines came.
-pub struct Growth {
+pub(super) struct Growth {
     pub net: Net,
     pub stop: StopReason,
     pub rounds: usize,
@@ -47,7 +47,7 @@ impl NetFitter<'_> {
     }
 
     /// The fit over one cell.
-    pub fn try_one_cell(&self, cell: [Lines; 2], control: &mut Control) -> Result<Growth, FitError> {
+    pub(super) fn try_one_cell(&self, cell: [Lines; 2], control: &mut Control) -> Result<Growth, FitError> {
         let mut net = self.fit(cell, self.smoothings().0, control)?;
         self.tell(net.errors.demand, control)?;
         let stop = match self.meets(&mut net, control.pool()) {
@@ -58,7 +58,12 @@ impl NetFitter<'_> {
     }
 
     /// Inserts lines until the tolerance is met, or `limit` coefficients are reached.
-    pub fn grow(&self, start: [Lines; 2], limit: usize, control: &mut Control) -> Result<Growth, FitError> {
+    pub(super) fn grow(
+        &self,
+        start: [Lines; 2],
+        limit: usize,
+        control: &mut Control,
+    ) -> Result<Growth, FitError> {
         let (mut smoothing, last_smoothing) = self.smoothings();
         let mut equations = self.assemble(start, None, control)?;
         let mut best: Option<Net> = None;

@@ -50,7 +50,7 @@ struct Freed {
 
 impl Problem<'_> {
     /// Fits over the kind of knots that is asked for.
-    pub fn fit_any(self, control: &mut Control) -> Result<TensorFit, FitError> {
+    pub(super) fn fit_any(self, control: &mut Control) -> Result<TensorFit, FitError> {
         let options = self.options;
         let is_uniform = !self.is_mirrored
             && self.sides.is_empty()

@@ -40,7 +40,7 @@ const WITHHOLD_EVERY: u64 = 5;
 const LEAST_TO_WITHHOLD: usize = 512;
 
 /// The data of a problem in the form that nets are fitted to.
-pub struct NetFitter<'a> {
+pub(super) struct NetFitter<'a> {
     pub problem: &'a Problem<'a>,
     /// In the frame.
     values: Vec<f64>,
@@ -74,7 +74,7 @@ struct Rows<'a> {
 
 /// The tension where there are no data.
 #[derive(Clone, Copy)]
-pub struct Tension {
+pub(super) struct Tension {
     /// As a multiple of what makes a plate a membrane within [`TENSE_WITHIN`].
     pub multiple: f64,
     /// Whether it is in parts of cells too.
@@ -83,7 +83,7 @@ pub struct Tension {
 
 /// A surface over a net of knot lines, measured.
 #[derive(Clone)]
-pub struct Net {
+pub(super) struct Net {
     pub lines: [Lines; 2],
     pub surface: TensorSurface,
     pub errors: DataErrors,
@@ -96,23 +96,23 @@ pub struct Net {
 
 impl Net {
     /// Unknowns of the fit.
-    pub fn coefficient_count(&self) -> usize {
+    pub(super) fn coefficient_count(&self) -> usize {
         coefficient_count(&self.lines)
     }
 
     /// The largest error at the data, and between them as far as it has been measured.
-    pub fn merit(&self) -> f64 {
+    pub(super) fn merit(&self) -> f64 {
         self.excess.iter().copied().fold(self.errors.demand, f64::max)
     }
 }
 
 /// Unknowns over knot lines.
-pub fn coefficient_count(lines: &[Lines; 2]) -> usize {
+pub(super) fn coefficient_count(lines: &[Lines; 2]) -> usize {
     lines[0].len() * lines[1].len()
 }
 
 /// The equations of one net, ready to be solved with any smoothing.
-pub struct NetEquations {
+pub(super) struct NetEquations {
     lines: [Lines; 2],
     equations: NormalEquations<Lines>,
     /// Of the cells without data.
@@ -123,7 +123,7 @@ pub struct NetEquations {
 }
 
 impl<'a> NetFitter<'a> {
-    pub fn new(problem: &'a Problem<'a>, watch: &Watch) -> Self {
+    pub(super) fn new(problem: &'a Problem<'a>, watch: &Watch) -> Self {
         let count = problem.uv.len();
         let withholds = problem.mesh.is_none() && count >= LEAST_TO_WITHHOLD;
         let is_withheld = |datum: usize| withholds && scramble(datum).is_multiple_of(WITHHOLD_EVERY);
@@ -155,7 +155,7 @@ impl<'a> NetFitter<'a> {
     }
 
     /// Lets the withheld data count.
-    pub fn use_all_data(&mut self) {
+    pub(super) fn use_all_data(&mut self) {
         self.withholds = false;
         let given = self.problem.weights.clone();
         self.weights = given.unwrap_or_else(|| vec![1.0; self.problem.uv.len()]);
@@ -163,18 +163,18 @@ impl<'a> NetFitter<'a> {
     }
 
     /// Whether data are withheld.
-    pub fn withholds(&self) -> bool {
+    pub(super) fn withholds(&self) -> bool {
         self.withholds
     }
 
     /// Data with a coordinate in the half-open interval.
-    pub fn count_between(&self, axis: usize, from: f64, to: f64) -> usize {
+    pub(super) fn count_between(&self, axis: usize, from: f64, to: f64) -> usize {
         let below = |x: f64| self.sorted[axis].partition_point(|&y| y < x);
         below(to) - below(from)
     }
 
     /// Adds the data up over some knot lines, with factors on their weights if there are any.
-    pub fn assemble(
+    pub(super) fn assemble(
         &self,
         lines: [Lines; 2],
         factors: Option<&[f64]>,
@@ -189,7 +189,7 @@ impl<'a> NetFitter<'a> {
     }
 
     /// The same with columns of signs in place of the values.
-    pub fn assemble_probes(
+    pub(super) fn assemble_probes(
         &self,
         lines: [Lines; 2],
         control: &mut Control,
@@ -205,7 +205,7 @@ impl<'a> NetFitter<'a> {
     }
 
     /// How many data a fit follows: the trace of the matrix that makes its values of theirs.
-    pub fn trace(
+    pub(super) fn trace(
         &self,
         probes: &NetEquations,
         smoothing: f64,
@@ -266,7 +266,12 @@ impl<'a> NetFitter<'a> {
     }
 
     /// Solves and measures at the data.
-    pub fn solve(&self, net: &NetEquations, smoothing: f64, control: &mut Control) -> Result<Net, FitError> {
+    pub(super) fn solve(
+        &self,
+        net: &NetEquations,
+        smoothing: f64,
+        control: &mut Control,
+    ) -> Result<Net, FitError> {
         control.watch(|pool, watch| self.solve_in(net, smoothing, pool, watch))?
     }
 
@@ -321,18 +326,23 @@ impl<'a> NetFitter<'a> {
     }
 
     /// The fit over some knot lines with one smoothing.
-    pub fn fit(&self, lines: [Lines; 2], smoothing: f64, control: &mut Control) -> Result<Net, FitError> {
+    pub(super) fn fit(
+        &self,
+        lines: [Lines; 2],
+        smoothing: f64,
+        control: &mut Control,
+    ) -> Result<Net, FitError> {
         self.solve(&self.assemble(lines, None, control)?, smoothing, control)
     }
 
     /// The tolerance, less a little: the finished surface is measured once more, with other roundings.
-    pub fn bound(&self) -> f64 {
+    pub(super) fn bound(&self) -> f64 {
         (1.0 - 1e-9) * self.problem.goal.tolerance
     }
 
     /// Whether a net is within the tolerance at the data and, beyond what the facets explain, between them.
     /// Between them it is measured only if it is good at them.
-    pub fn meets(&self, net: &mut Net, pool: &Pool) -> bool {
+    pub(super) fn meets(&self, net: &mut Net, pool: &Pool) -> bool {
         if net.errors.demand > self.bound() {
             return false;
         }
@@ -341,12 +351,12 @@ impl<'a> NetFitter<'a> {
     }
 
     /// Whether a net leaves the box of the data too far.
-    pub fn is_wild(&self, net: &Net, pool: &Pool) -> bool {
+    pub(super) fn is_wild(&self, net: &Net, pool: &Pool) -> bool {
         !self.may_be_wild && is_wild(self.problem.excursion(&net.surface, pool))
     }
 
     /// The same as far as a part of what is between the data tells.
-    pub fn seems_to_meet(&self, net: &Net, pool: &Pool) -> bool {
+    pub(super) fn seems_to_meet(&self, net: &Net, pool: &Pool) -> bool {
         let tolerance = self.bound();
         let between = || self.sparse.as_ref().map(|between| between.excess(&net.surface, pool));
         net.errors.demand <= tolerance
@@ -355,14 +365,14 @@ impl<'a> NetFitter<'a> {
     }
 
     /// Measures between the data.
-    pub fn measure_between(&self, net: &mut Net, pool: &Pool) {
+    pub(super) fn measure_between(&self, net: &mut Net, pool: &Pool) {
         if let (Some(between), true) = (&self.between, net.excess.is_empty()) {
             net.excess = between.excess(&net.surface, pool);
         }
     }
 
     /// Places between the data, in the order of [`Net::excess`].
-    pub fn places_between(&self) -> &[DVec2] {
+    pub(super) fn places_between(&self) -> &[DVec2] {
         self.between.as_ref().map_or(&[], |between| &between.uv)
     }
 }

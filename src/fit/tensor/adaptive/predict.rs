@@ -17,7 +17,7 @@ const CALMEST: f64 = 1e-2;
 impl NetFitter<'_> {
     /// The fit over the same lines that predicts each datum best from the others. More smoothing is tried as long as
     /// that helps.
-    pub fn best_predictor(&self, missed: Net, control: &mut Control) -> Result<Net, FitError> {
+    pub(super) fn best_predictor(&self, missed: Net, control: &mut Control) -> Result<Net, FitError> {
         let equations = self.assemble(missed.lines.clone(), None, control)?;
         let probes = self.assemble_probes(missed.lines.clone(), control)?;
         let mut smoothing = missed.smoothing;

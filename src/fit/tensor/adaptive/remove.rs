@@ -37,7 +37,7 @@ struct Line {
 impl NetFitter<'_> {
     /// Takes lines out of a net that meets the tolerance as long as the rest seems to meet it too. `most` solves are
     /// spent at most. With `factors` data near the tolerance are weighed where that helps.
-    pub fn thin(
+    pub(super) fn thin(
         &self,
         mut net: Net,
         most: usize,

@@ -11,7 +11,7 @@ use crate::fit::common::uniform::grid::Direction;
 impl NetFitter<'_> {
     /// A net that stays near the box of the data, where one is found that is as good; the tension that it takes is what
     /// later nets have too.
-    pub fn tamed(&mut self, net: Net, control: &mut Control) -> Result<Net, FitError> {
+    pub(super) fn tamed(&mut self, net: Net, control: &mut Control) -> Result<Net, FitError> {
         let problem = self.problem;
         if !self.is_wild(&net, control.pool()) {
             return Ok(net);
