@@ -70,26 +70,37 @@ def afterwards(face):
     """What Part does with the face: offset, extrusion, thickness, cut. Returns what failed."""
     failed = []
     shape = face.Shape
+    middle = shape.BoundBox.Center
     tries = {
         "offset": lambda: shape.makeOffsetShape(1.0, 0.01),
         "extrude": lambda: shape.extrude(FreeCAD.Vector(0, 0, 20)),
         "cut with a cylinder": lambda: shape.cut(
-            Part.makeCylinder(8, 60, FreeCAD.Vector(50, 30, -30), FreeCAD.Vector(0, 0, 1))
+            Part.makeCylinder(8, 60, FreeCAD.Vector(middle.x, middle.y, -30), FreeCAD.Vector(0, 0, 1))
         ),
         "thicken": lambda: shape.makeOffsetShape(1.0, 0.01, fill=True),
     }
     for name, attempt in tries.items():
         try:
-            if attempt().isNull():
+            if not attempt().isValid():
                 failed.append(name)
         except Exception as error:
             failed.append(f"{name}: {error}")
     return failed
 
 
-def smooth_borders(document):
-    """A jagged border moves by no more than asked for, and its face is valid with edges as long as the border."""
+def jagged_borders(document):
+    """The face over a scan keeps the scan's border, edge by edge, and is valid; so is what Part makes of it."""
     source = mesh_object(document, shapes.jagged(), "Jagged")
+    for tolerance in (1.0, 0.1, 0.01):
+        face = made(document, "FitSurface", Source=source, Tolerance=tolerance)
+        assert face.Shape.isValid() and len(face.Shape.Edges) > 100, (tolerance, len(face.Shape.Edges))
+    assert not (failed := afterwards(face)), failed
+    return source
+
+
+def smooth_borders(document):
+    """A jagged border moves by no more than asked for, and its face has edges as long as the border."""
+    source = jagged_borders(document)
     face = made(document, "FitSurface", Source=source, Tolerance=0.1, SmoothBorder=2.0)
     assert face.Shape.isValid() and len(face.Shape.Edges) <= 8, (face.Shape.isValid(), len(face.Shape.Edges))
     border = max(face.Shape.Wires, key=lambda wire: wire.Length)
@@ -200,9 +211,12 @@ def creased(document):
     surface = obj.Proxy.surface
     source.Mesh = mesh
     source.touch()
-    started = time.perf_counter()
+    # of the processor: what a machine at other work takes longer for is not ours
+    started, used = time.perf_counter(), time.process_time()
     document.recompute()
-    print(f"a moved node is followed in {time.perf_counter() - started:.3f} s")
+    followed = time.process_time() - used
+    print(f"a moved node is followed in {time.perf_counter() - started:.3f} s, {followed:.3f} s of the processor")
+    assert followed < 0.2, followed
     assert obj.Proxy.surface is surface, "only control points move"
     return obj
 

@@ -20,6 +20,10 @@ if TYPE_CHECKING:
 #: The least tolerance that OpenCASCADE works with.
 _PRECISION = 1e-7
 
+#: The measured distance of curves from surfaces may miss the largest between its samples: the tolerance of edges is this much
+#: above it. OpenCASCADE looks at other places, and one that is farther off makes the whole face invalid.
+_MARGIN = 2.0
+
 #: Flags: free, modified, checked, orientable, closed, infinite, convex.
 _VERTEX, _PLAIN, _CLOSED, _ROOT = "0101101", "0101000", "0101100", "1101000"
 
@@ -83,7 +87,7 @@ class _Writer:
     def __init__(self, model: Model):
         self.model = model
         self.faces = [model.face(index) for index in range(model.n_faces)]
-        self.tolerance = max(_PRECISION, model.measure().curve_deviation)
+        self.tolerance = max(_PRECISION, _MARGIN * model.measure().curve_deviation)
         self.pcurves: list[str] = []
         self.curves: list[str] = []
         self.surfaces: list[str] = []
