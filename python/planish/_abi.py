@@ -2,6 +2,8 @@
 # Generated from src/ffi: do not edit. `cargo run -p planish-header` renews it.
 """What planish.h declares, for ctypes: constants, enumerations, records and functions."""
 
+from __future__ import annotations
+
 from ctypes import (CFUNCTYPE, Structure, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint8, c_uint32, c_uint64,
                     c_void_p, sizeof)
 
@@ -2121,7 +2123,164 @@ ELEMENTS = {
 }
 
 
-def declare(library):
+class ReportFields:
+    """The attributes of all reports, for type checkers; a report has those of its record."""
+
+    aligned_row_count: int
+    area: float
+    area_ratio: float
+    back_count: int
+    border: str
+    border_edge_count: int
+    border_slid: int
+    box_max: tuple[float, ...]
+    box_min: tuple[float, ...]
+    cell_count: int
+    certified_distance: float
+    chain_count: int
+    chord_error: float
+    clamped_triangles: int
+    closed_chain_count: int
+    coefficient_count: int
+    collapse_count: int
+    common_count: int
+    component_count: int
+    corner_count: int
+    crossing_count: int
+    curve_count: int
+    curve_deviation: float
+    deepest_level: int
+    degenerate_count: int
+    diagonal: float
+    distance_95: float
+    distance_99: float
+    doublet_count: int
+    dropped_count: int
+    dropped_edge_count: int
+    dropped_parameters: int
+    dropped_triangle_count: int
+    duplicate_triangle_count: int
+    edge_count: int
+    empty_cell_count: int
+    energy: float
+    energy_after: float
+    energy_before: float
+    euler_characteristic: int
+    exact_face_count: int
+    excess_count: int
+    excluded_triangle_count: int
+    face_count: int
+    facet_sagitta: float
+    far_count: int
+    farthest_index: int
+    first_energy: float
+    fit_seconds: float
+    flipped_count: int
+    flipped_triangle_count: int
+    fold_count: int
+    folded_node_count: int
+    folded_triangles: int
+    force_arrived: tuple[float, ...]
+    force_error: float
+    force_given: tuple[float, ...]
+    free_count: int
+    free_edge_count: int
+    gap: float
+    genus: int
+    given_gap: float
+    given_normal_jump: float
+    grid_u: int
+    grid_v: int
+    high_area_ratio: float
+    is_chart: int
+    joined_count: int
+    kind: str
+    largest_count: int
+    least_count: int
+    left_out_count: int
+    limit: float
+    loop_count: int
+    low_area_ratio: float
+    map_energy: float
+    map_seconds: float
+    max_back_distance: float
+    max_deviation: float
+    max_distance: float
+    max_error: float
+    max_fixed_error: float
+    max_gap: float
+    max_interior_error: float
+    max_movement: float
+    max_normal_jump: float
+    max_shape_error: float
+    max_side_angle: float
+    max_side_error: float
+    max_stretch: float
+    max_tolerance_share: float
+    mean_deviation: float
+    mean_distance: float
+    mean_error: float
+    median_distance: float
+    merged_point_count: int
+    mesh_crossing_count: int
+    mesh_volume: float
+    mirror_distance: float
+    missing_end: int
+    moment_arrived: tuple[float, ...]
+    moment_bound: float
+    moment_error: float
+    moment_given: tuple[float, ...]
+    noise: float
+    normal_jump: float
+    overshoot: float
+    parameterize_seconds: float
+    parted_edge_count: int
+    pass_count: int
+    patch_count: int
+    piece_count: int
+    pole_count: int
+    prolonged_edge_count: int
+    remarks: frozenset[str]
+    removed_knot_count: int
+    rms_deviation: float
+    rms_distance: float
+    rms_error: float
+    rms_shape_error: float
+    rough_cell_count: int
+    seconds: float
+    sharp_edge_count: int
+    smallest_angle: float
+    smoothing: float
+    solve_count: int
+    split_count: int
+    split_node_count: int
+    spread_node_count: int
+    step_count: int
+    stop_reason: str
+    stretch: float
+    strip_count: int
+    tensor_count: int
+    tolerance: float
+    turned_count: int
+    twisted_row: int
+    uncertainty: float
+    unproven_count: int
+    unused_node_count: int
+    v_error: float
+    void_count: int
+    volume: float
+    welded_node_count: int
+    work_arrived: float
+    work_error: float
+    work_given: float
+    worst_back_u: float
+    worst_back_v: float
+    worst_index: int
+    worst_node: int
+    worst_patch: int
+
+
+def declare(library) -> None:
     """Tells a loaded library the types of its functions' arguments and results."""
     for name, (result, *arguments) in FUNCTIONS.items():
         function = getattr(library, name)

@@ -100,7 +100,7 @@ class Curve(Handle):
         call("planish_curve_save", self, ctypes.addressof(buffer), len(buffer))
         return buffer.raw
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[Any, ...]:
         return _restore, (self.tobytes(), self.report)
 
     def __copy__(self) -> Curve:

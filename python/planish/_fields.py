@@ -93,7 +93,7 @@ class FieldFitter(Handle):
         values, dim = _rows(values, self.n_points, "values")
         call("planish_field_fitter_update", self, field, pointer(values), self.n_points, dim)
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[Any, ...]:
         return _fitter, self._made_by
 
 

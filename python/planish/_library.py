@@ -9,7 +9,7 @@ from __future__ import annotations
 import ctypes
 import os
 import sys
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -53,7 +53,7 @@ class Error(RuntimeError):
         self.status = status
         self.index = index
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (str(self), self.status, self.index)
 
 
@@ -193,6 +193,9 @@ def path_of(path: str | os.PathLike) -> bytes:
     return os.fsencode(path)
 
 
+_Handle = TypeVar("_Handle", bound="Handle")
+
+
 class Handle:
     """Owns one handle of the library; freed by `close`, by `with`, or with the object."""
 
@@ -221,11 +224,11 @@ class Handle:
         if handle:
             getattr(lib, self._free)(handle)
 
-    def __del__(self):
+    def __del__(self) -> None:
         self.close()
 
-    def __enter__(self):
+    def __enter__(self: _Handle) -> _Handle:
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: Any) -> None:
         self.close()

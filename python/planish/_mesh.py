@@ -27,6 +27,10 @@ class Mesh(Handle):
     """
 
     _free = "planish_mesh_free"
+    #: What was mended.
+    repaired: Report
+    #: Of a mesh that `decimate` made: how it went.
+    report: Report
 
     def __init__(
         self,
@@ -132,7 +136,7 @@ class Mesh(Handle):
     def write(self, path: str | os.PathLike, **write_options: Any) -> None:
         """Writes OFF, OBJ, PLY or STL, as the name ends; uv where the format can, fields in PLY.
 
-        options: those of `planish_mesh_write_options`, such as ``text=True``.
+        write_options: those of `planish_mesh_write_options`, such as ``text=True``.
         """
         record = options("mesh_write_options", write_options)
         call("planish_mesh_write", self, path_of(path), by_reference(record))
@@ -257,10 +261,6 @@ class Mesh(Handle):
 
         return fit(self, *arguments, **keywords)
 
-    def write(self, path: str | os.PathLike) -> None:
-        """Writes OFF, OBJ, PLY or STL by the ending of the path; fields and parameters where the format can."""
-        call("planish_mesh_write", self, path_of(path), None)
-
     # copies
 
     def __copy__(self) -> Mesh:
@@ -269,7 +269,7 @@ class Mesh(Handle):
     def __deepcopy__(self, _: Any) -> Mesh:
         return self.__copy__()
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[Any, ...]:
         return Mesh, (self.points, self.triangles, self.uv, {name: self[name] for name in self})
 
     def __repr__(self) -> str:

@@ -318,7 +318,7 @@ class Model(Handle):
         call("planish_model_save", self, ctypes.addressof(buffer), len(buffer))
         return buffer.raw
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[Any, ...]:
         return _restore, (self.tobytes(), self.report)
 
     def __copy__(self) -> Model:

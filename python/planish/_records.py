@@ -131,11 +131,26 @@ def _array_of(kind: type, name: str, value: Any) -> np.ndarray:
     return array(value, np.dtype(element), what=name)
 
 
-class Report:
+class Report(_abi.ReportFields):
     """The numbers of a report, by the names they have in C; `remarks` is a frozenset of words.
 
     ``status`` tells how the call went: "ok", or a remark such as "tolerance_not_met". ``ok`` is whether it is "ok".
+    What is said below of arrays holds for the calls whose text names them.
     """
+
+    #: The error of each datum, and where it lies in the parameter plane.
+    errors: np.ndarray
+    uv: np.ndarray
+    #: The face of a model on which each node lies.
+    faces: np.ndarray
+    #: The distance of each node with its sign, positive outside.
+    signed: np.ndarray
+    #: Numbers of the data that were left out as gross errors.
+    left_out: np.ndarray
+    #: The plane of symmetry: a place and the normal.
+    plane: tuple[np.ndarray, np.ndarray]
+    #: What there is to say of skins alone.
+    skin: Report
 
     def __init__(self, record: ctypes.Structure, status: int = 0):
         kind = type(record)

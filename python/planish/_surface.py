@@ -370,7 +370,7 @@ class Surface(Handle):
         call("planish_surface_save", self, ctypes.addressof(buffer), len(buffer))
         return buffer.raw
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[Any, ...]:
         return _restore, (self.tobytes(), self.report)
 
     def __copy__(self) -> Surface:

@@ -139,6 +139,8 @@ def test_files_and_bytes_come_back(tmp_path):
         assert read.n_triangles == 2
         assert planish.read_mesh_bytes((tmp_path / name).read_bytes(), format=name[2:]).n_triangles == 2
     assert list(planish.read_mesh(tmp_path / "a.ply")["width"]) == [1, 2, 3, 4]
+    mesh.write(tmp_path / "text.stl", text=True)
+    assert (tmp_path / "text.stl").read_bytes().startswith(b"solid")
 
 
 def test_repairs_are_told_and_chosen():

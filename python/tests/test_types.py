@@ -1,6 +1,8 @@
 """The package carries its types in its own source (`py.typed`): each public name tells those of its arguments and result."""
 
 import inspect
+import subprocess
+import sys
 import typing
 from pathlib import Path
 
@@ -43,3 +45,12 @@ def test_arguments_and_results_have_types(name):
 
 def test_checkers_are_told_that_there_are_types():
     assert (Path(planish.__file__).parent / "py.typed").exists()
+
+
+def test_a_users_program_passes_a_strict_checker(tmp_path):
+    """Without stubs: checkers read the types in the package itself."""
+    pytest.importorskip("mypy")
+    program = Path(__file__).with_name("typed_program.py")
+    checker = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(tmp_path), str(program)]
+    done = subprocess.run(checker, capture_output=True, text=True, cwd=tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr

@@ -1,10 +1,14 @@
 //! `python/planish/_abi.py`: the interface for ctypes.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use crate::api::{Api, Base, Field, Function, Pointer, Record, Role, Type};
 
 const HEAD: &str = r#"# SPDX-License-Identifier: MIT OR Apache-2.0
 # Generated from src/ffi: do not edit. `cargo run -p planish-header` renews it.
 """What planish.h declares, for ctypes: constants, enumerations, records and functions."""
+
+from __future__ import annotations
 
 from ctypes import (CFUNCTYPE, Structure, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint8, c_uint32, c_uint64,
                     c_void_p, sizeof)
@@ -13,7 +17,7 @@ from ctypes import (CFUNCTYPE, Structure, c_char_p, c_double, c_int32, c_int64, 
 
 const TAIL: &str = r#"
 
-def declare(library):
+def declare(library) -> None:
     """Tells a loaded library the types of its functions' arguments and results."""
     for name, (result, *arguments) in FUNCTIONS.items():
         function = getattr(library, name)
@@ -81,8 +85,40 @@ pub fn text(api: &Api) -> String {
         }
     }
     text.push_str("}\n");
+    text.push_str(&report_fields(api));
     text.push_str(TAIL);
     text
+}
+
+/// What type checkers are told of reports: the attributes of all of them in one class.
+fn report_fields(api: &Api) -> String {
+    let mut types = BTreeMap::<&str, BTreeSet<String>>::new();
+    let is_report = |record: &&Record| record.name.ends_with("_report") || record.name.ends_with("_repairs");
+    for field in api.records.iter().filter(is_report).flat_map(|record| &record.fields) {
+        let is_shown = field.name != "struct_size" && !field.name.starts_with("reserved");
+        if is_shown && field.of.pointers.is_empty() {
+            types.entry(&field.name).or_default().insert(python_type(field));
+        }
+    }
+    let mut text = "\n\nclass ReportFields:\n    \"\"\"The attributes of all reports, for type checkers; a report has those of \
+                    its record.\"\"\"\n\n"
+        .to_owned();
+    for (name, types) in types {
+        let types = types.into_iter().collect::<Vec<_>>().join(" | ");
+        text.push_str(&format!("    {name}: {types}\n"));
+    }
+    text
+}
+
+/// What a field of a report is in Python: words for enumerators, sets of words for bits.
+fn python_type(field: &Field) -> String {
+    let one = match (&field.choice, &field.of.base) {
+        (Some(choice), _) if choice.are_bits => "frozenset[str]",
+        (Some(_), _) => "str",
+        (None, Base::Number("double")) => "float",
+        _ => "int",
+    };
+    field.of.count.map_or_else(|| one.to_owned(), |_| format!("tuple[{one}, ...]"))
 }
 
 fn record(record: &Record, text: &mut String) {
