@@ -217,10 +217,6 @@ module planish_records
   !> About the plane for which the mesh is nearest to its image
   integer(c_int32_t), parameter, public :: PLANISH_SYMMETRY_FOUND = 2
 
-  !> A parameter direction.
-  integer(c_int32_t), parameter, public :: PLANISH_AXIS_U = 0 !! The first parameter
-  integer(c_int32_t), parameter, public :: PLANISH_AXIS_V = 1 !! The second parameter
-
   !> What a tolerance is measured in.
   !> The diagonal of the data's bounding box; for a field, of the box of its values
   integer(c_int32_t), parameter, public :: PLANISH_TOLERANCE_SCALE_RELATIVE = 0
@@ -256,6 +252,10 @@ module planish_records
   integer(c_int32_t), parameter, public :: PLANISH_REGULARIZE_AUTO = 0
   integer(c_int32_t), parameter, public :: PLANISH_REGULARIZE_NEVER = 1 !! Take them as they are
   integer(c_int32_t), parameter, public :: PLANISH_REGULARIZE_ALWAYS = 2 !! Even them out
+
+  !> A parameter direction.
+  integer(c_int32_t), parameter, public :: PLANISH_AXIS_U = 0 !! The first parameter
+  integer(c_int32_t), parameter, public :: PLANISH_AXIS_V = 1 !! The second parameter
 
   !> What happens to targets beyond max_distance.
   !> The first of them is an error, PLANISH_STATUS_OUTSIDE
@@ -2143,13 +2143,6 @@ module planish_calls
       integer(c_size_t), value :: count
     end function
 
-    integer(c_int) function c_eval_options_init(options, struct_size) bind(c, name="planish_eval_options_init")
-      import
-      implicit none
-      type(planish_eval_options), intent(inout) :: options
-      integer(c_size_t), value :: struct_size
-    end function
-
     pure integer(c_int32_t) function c_surface_kind(surface) bind(c, name="planish_surface_kind")
       import
       implicit none
@@ -2182,6 +2175,26 @@ module planish_calls
       implicit none
       type(c_ptr), value :: surface
       real(c_double), intent(inout) :: out_box(*)
+    end function
+
+    integer(c_int) function c_surface_clone(surface, out_surface) bind(c, name="planish_surface_clone")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      type(c_ptr), intent(inout) :: out_surface
+    end function
+
+    subroutine c_surface_free(surface) bind(c, name="planish_surface_free")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+    end subroutine
+
+    integer(c_int) function c_eval_options_init(options, struct_size) bind(c, name="planish_eval_options_init")
+      import
+      implicit none
+      type(planish_eval_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
     end function
 
     integer(c_int) function c_surface_eval( &
@@ -2283,19 +2296,6 @@ module planish_calls
       integer(c_size_t), intent(in) :: point_counts(*)
       integer(c_size_t), value :: trim_count
     end function
-
-    integer(c_int) function c_surface_clone(surface, out_surface) bind(c, name="planish_surface_clone")
-      import
-      implicit none
-      type(c_ptr), value :: surface
-      type(c_ptr), intent(inout) :: out_surface
-    end function
-
-    subroutine c_surface_free(surface) bind(c, name="planish_surface_free")
-      import
-      implicit none
-      type(c_ptr), value :: surface
-    end subroutine
 
     pure integer(c_size_t) function c_surface_patch_count(surface) bind(c, name="planish_surface_patch_count")
       import

@@ -548,20 +548,6 @@ typedef enum planish_symmetry {
 } planish_symmetry;
 
 /**
- * A parameter direction.
- */
-typedef enum planish_axis {
-    /**
-     * The first parameter.
-     */
-    PLANISH_AXIS_U = 0,
-    /**
-     * The second parameter.
-     */
-    PLANISH_AXIS_V = 1,
-} planish_axis;
-
-/**
  * What a tolerance is measured in.
  */
 typedef enum planish_tolerance_scale {
@@ -662,6 +648,20 @@ typedef enum planish_regularize {
      */
     PLANISH_REGULARIZE_ALWAYS = 2,
 } planish_regularize;
+
+/**
+ * A parameter direction.
+ */
+typedef enum planish_axis {
+    /**
+     * The first parameter.
+     */
+    PLANISH_AXIS_U = 0,
+    /**
+     * The second parameter.
+     */
+    PLANISH_AXIS_V = 1,
+} planish_axis;
 
 /**
  * What happens to targets beyond max_distance.
@@ -5311,17 +5311,6 @@ enum planish_status planish_layout_copy_node_map(const struct planish_layout *la
                                                  size_t count);
 
 /**
- * Fills options with the defaults.
- *
- * options:     struct_size writable bytes.
- * struct_size: sizeof(planish_eval_options).
- * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
- */
-PLANISH_API
-enum planish_status planish_eval_options_init(struct planish_eval_options *options,
-                                              size_t struct_size);
-
-/**
  * The family of a surface: a planish_kind; PLANISH_KIND_NONE for NULL.
  */
 PLANISH_API uint32_t planish_surface_kind(const struct planish_surface *surface);
@@ -5362,6 +5351,36 @@ PLANISH_API
 PLANISH_NODISCARD
 enum planish_status planish_surface_data_box(const struct planish_surface *surface,
                                              double *out_box);
+
+/**
+ * Makes a copy of a surface with its trims.
+ *
+ * surface:     not NULL.
+ * out_surface: receives a new surface; destroy with planish_surface_free().
+ * Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_clone(const struct planish_surface *surface,
+                                          struct planish_surface **out_surface);
+
+/**
+ * Destroys a surface.
+ *
+ * surface: from this library and not destroyed yet; NULL does nothing.
+ */
+PLANISH_API void planish_surface_free(struct planish_surface *surface);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_eval_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+ */
+PLANISH_API
+enum planish_status planish_eval_options_init(struct planish_eval_options *options,
+                                              size_t struct_size);
 
 /**
  * Evaluates the surface at points.
@@ -5523,25 +5542,6 @@ enum planish_status planish_surface_set_trims(struct planish_surface *surface,
                                               const double *uv,
                                               const size_t *point_counts,
                                               size_t trim_count);
-
-/**
- * Makes a copy of a surface with its trims.
- *
- * surface:     not NULL.
- * out_surface: receives a new surface; destroy with planish_surface_free().
- * Returns PLANISH_STATUS_OK or PLANISH_STATUS_NULL_POINTER.
- */
-PLANISH_API
-PLANISH_NODISCARD
-enum planish_status planish_surface_clone(const struct planish_surface *surface,
-                                          struct planish_surface **out_surface);
-
-/**
- * Destroys a surface.
- *
- * surface: from this library and not destroyed yet; NULL does nothing.
- */
-PLANISH_API void planish_surface_free(struct planish_surface *surface);
 
 /**
  * Number of Bezier patches of a surface: they cover the domain without overlap and are the surface exactly. 0

@@ -4,11 +4,11 @@ use super::arguments::{
     ArgumentError, array_len, choice, copy, deref, options, out, rows_mut, slice, slice_mut,
     slice_mut_or_none, stride, strided_len,
 };
+use super::choices::{planish_ends, planish_tensor_method, planish_tolerance_scale};
 use super::guard::{Failure, guard};
 use super::progress::{thread_count, with_control};
 use super::report::{FitOutputs, planish_fit_report};
 use super::status::query;
-use super::tensor::{planish_ends, planish_tensor_method, planish_tolerance_scale};
 use super::{planish_eval_options, planish_flag, planish_progress, planish_section_ends, planish_status};
 use crate::curve::{Curve, EndRule, MAX_DERIVATIVE, interpolate};
 use crate::fit::common::uniform::{Ends, Method};

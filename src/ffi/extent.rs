@@ -6,7 +6,7 @@ use super::planish_status;
 use super::progress::with_helper;
 use super::query::planish_tessellate_options;
 use super::surface::{planish_surface, query_surface};
-use super::tensor::planish_axis;
+use super::tensor_parts::planish_axis;
 use crate::control::Stage;
 use crate::query::extent::{area, bounding_box, is_closed};
 use crate::query::tessellate::TessellateError;

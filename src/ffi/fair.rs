@@ -3,11 +3,11 @@
 use super::arguments::{
     ArgumentError, Record, ReportOut, array_len, choice, copy_rows, deref, options, out, slice,
 };
+use super::choices::planish_tolerance_scale;
 use super::guard::guard;
 use super::planish_status;
 use super::progress::{planish_progress, with_control};
 use super::surface::planish_surface;
-use super::tensor::planish_tolerance_scale;
 use crate::fit::fair::{FairData, FairOptions, FairReport, Fairness, KeptBorder, fair};
 use crate::fit::report::{Tolerance, ToleranceScale};
 use glam::DVec2;

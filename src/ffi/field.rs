@@ -4,6 +4,7 @@ use super::arguments::{
     ArgumentError, ReportOut, array_len, choice, copy_rows, deref, deref_mut, options, out, rows_mut, slice,
     slice_mut, stride,
 };
+use super::choices::{planish_ends, planish_energy, planish_tolerance_scale};
 use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;
 use super::model::planish_model;
@@ -11,7 +12,6 @@ use super::progress::{thread_count, with_control};
 use super::report::{gravest, planish_fit_report, write_pairs};
 use super::status::query;
 use super::surface::planish_surface;
-use super::tensor::{planish_ends, planish_energy, planish_tolerance_scale};
 use super::{planish_parameterize_options, planish_progress, planish_status};
 use crate::control::{Control, Pool};
 use crate::fit::common::FitError;

@@ -6,6 +6,8 @@ use super::mesh::planish_mesh;
 use super::mesh_parts::query_mesh;
 use super::planish_status;
 use super::report::write_pairs;
+use crate::fit::common::FitError;
+use crate::mesh::Mesh;
 use glam::DVec2;
 use libc::c_char;
 
@@ -167,4 +169,13 @@ pub unsafe extern "C" fn planish_mesh_copy_parameters(
         write_pairs(parameters, rows_mut(out_uv, count, parameters.len(), 2, "out_uv")?);
         Ok(())
     })
+}
+
+/// How many rows the values of a field on a mesh have: one a node, or one a triangle.
+pub(super) fn check_field_count(mesh: &Mesh, count: usize) -> Result<(), FitError> {
+    let expected = mesh.points().len();
+    if count == expected || count == mesh.triangles().len() {
+        return Ok(());
+    }
+    Err(FitError::Count { what: "the nodes", count, expected })
 }

@@ -17,7 +17,7 @@ use super::query::{
     planish_tessellate_report,
 };
 use super::report::write_pairs;
-use super::surface::planish_eval_options;
+use super::surface_eval::planish_eval_options;
 use crate::control::{Pool, Stage};
 use crate::export::vtk;
 use crate::model::{ModelField, ModelProjector, ModelTessellation};

@@ -3,6 +3,7 @@
 use super::arguments::{
     ArgumentError, ReportOut, array_len, choice, copy_rows, deref, options, out, rows_mut, slice,
 };
+use super::choices::planish_tolerance_scale;
 use super::field::{fitter_on_mesh, planish_field_options, tolerance_scale, with_field_options};
 use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;
@@ -10,7 +11,6 @@ use super::model::planish_model;
 use super::planish_status;
 use super::report::write_pairs;
 use super::status::query;
-use super::tensor::planish_tolerance_scale;
 use crate::control::Control;
 use crate::fit::common::FitError;
 use crate::fit::field::transfer::{
