@@ -85,13 +85,16 @@ endif()
 separate_arguments(_more_flags NATIVE_COMMAND "${PLANISH_CARGO_FLAGS}")
 set(_environment "CARGO_TARGET_DIR=${_target_dir}")
 if(PLANISH_TRIM_PATHS)
-  # sources of the library and of its dependencies are named by the messages of panics
+  # sources of dependencies are named by the messages of panics; the library names its own below its root
   set(_cargo_home "$ENV{HOME}/.cargo")
   if(DEFINED ENV{CARGO_HOME})
     set(_cargo_home "$ENV{CARGO_HOME}")
   endif()
-  list(APPEND _environment
-       "RUSTFLAGS=$ENV{RUSTFLAGS} --remap-path-prefix=${CMAKE_CURRENT_SOURCE_DIR}=/planish --remap-path-prefix=${_cargo_home}=/cargo")
+  set(_rustflags "$ENV{RUSTFLAGS}")
+  if(NOT _rustflags MATCHES "--remap-path-prefix") # scripts/paths has done it, and the same flags share one cache
+    string(STRIP "${_rustflags} --remap-path-prefix=${_cargo_home}=/cargo" _rustflags)
+  endif()
+  list(APPEND _environment "RUSTFLAGS=${_rustflags}")
 endif()
 add_custom_target(
   planish_cargo ALL
