@@ -591,6 +591,7 @@ TEST(Fairness, LowersTheEnergyWithinTheTolerance) {
   planish_fair_options options = fresh<planish_fair_options>();
   CHECK(planish_fair_options_init(&options, sizeof options) == PLANISH_STATUS_OK);
   options.tolerance = 1e-2;
+  options.limit = PLANISH_FAIR_LIMIT_TOLERANCE;
   for (const bool has_data : {false, true}) {
     const std::size_t count = has_data ? all.point_count() : 0;
     planish_surface *handle = nullptr;
@@ -628,6 +629,9 @@ TEST(Fairness, LowersTheEnergyWithinTheTolerance) {
   options.border = 3;
   refuse(PLANISH_STATUS_INVALID_ARGUMENT, -1, "border is 3");
   options.border = PLANISH_KEPT_BORDER_TANGENT;
+  options.limit = 2;
+  refuse(PLANISH_STATUS_INVALID_ARGUMENT, -1, "limit is 2");
+  options.limit = PLANISH_FAIR_LIMIT_NOISE;
   const double outside[] = {7, 0};
   CHECK_FAILS(planish_surface_fair(before.surface.get(), outside, all.points.data(), 1, &options, &surface, nullptr),
               PLANISH_STATUS_OUTSIDE, 0, "outside");

@@ -245,7 +245,8 @@ class Surface(Handle):
     ) -> Surface:
         """A surface of less energy within a tolerance of this one, or of values (n, dim) at uv (n, 2).
 
-        ``energy`` is "thin_plate" or "curvature_variation", ``border`` "none", "position" or "tangent".
+        ``energy`` is "thin_plate" or "curvature_variation", ``border`` "none", "position" or "tangent". Near
+        values ``limit`` is "noise", until each is told best from the others, or "tolerance", as far as that lets it.
         """
         uv = np.empty((0, 2)) if uv is None else array(uv, width=2, what="uv")
         values = np.empty((0, self.dim)) if values is None else array(values, what="values")

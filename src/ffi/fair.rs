@@ -1,14 +1,12 @@
 //! Fairness of surfaces.
 
-use super::arguments::{
-    ArgumentError, Record, ReportOut, array_len, choice, copy_rows, deref, options, out, slice,
-};
+use super::arguments::{ArgumentError, ReportOut, array_len, choice, copy_rows, deref, options, out, slice};
 use super::choices::planish_tolerance_scale;
 use super::guard::guard;
 use super::planish_status;
 use super::progress::{planish_progress, with_control};
 use super::surface::planish_surface;
-use crate::fit::fair::{FairData, FairOptions, FairReport, Fairness, KeptBorder, fair};
+use crate::fit::fair::{FairData, FairLimit, FairOptions, FairReport, Fairness, KeptBorder, fair};
 use crate::fit::report::{Tolerance, ToleranceScale};
 use glam::DVec2;
 use libc::c_void;
@@ -35,11 +33,22 @@ pub enum planish_kept_border {
     Tangent = 2,
 }
 
+/// How far the energy of a surface is lowered where there are data.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum planish_fair_limit {
+    /// Until the surface tells each datum best from the others (generalized cross-validation): noise goes, and what is no
+    /// noise stays.
+    Noise = 0,
+    /// As far as the tolerance lets it: what is narrower than that allows is flattened too.
+    Tolerance = 1,
+}
+
 record! {
     /// How a surface is made fair. Fill with planish_fair_options_init(), then change what you need.
     pub struct planish_fair_options (planish_fair_options_init; core: FairOptions) {
-        /// How far the surface may come to lie from itself, or from the data, positive, measured in tolerance_scale. All of
-        /// it is used where that lowers the energy: much more than the noise flattens ridges too. Default 1e-3.
+        /// How far the surface may come to lie from itself, or from the data, positive, measured in tolerance_scale.
+        /// Default 1e-3.
         pub tolerance: f64 = core.tolerance.value,
         /// Hears of the progress and may cancel; NULL (default) for nobody.
         pub progress: planish_progress,
@@ -57,16 +66,14 @@ record! {
         pub energy: u32 = planish_fairness::ThinPlate as u32,
         /// A planish_kept_border. Default PLANISH_KEPT_BORDER_NONE.
         pub border: u32 = planish_kept_border::None as u32,
-        /// 0.
-        pub reserved: u32,
+        /// A planish_fair_limit, for data; without data the energy is lowered as far as the tolerance lets it. Default
+        /// PLANISH_FAIR_LIMIT_NOISE.
+        pub limit: u32 = planish_fair_limit::Noise as u32,
     }
 }
 
 impl planish_fair_options {
     fn to_core(self) -> Result<FairOptions, ArgumentError> {
-        if self.reserved != 0 {
-            return Err(ArgumentError::Reserved { record: Self::NAME, given: self.reserved });
-        }
         let scales = [ToleranceScale::Relative, ToleranceScale::Absolute];
         let scale = choice(self.tolerance_scale, &scales, "tolerance_scale")?;
         let energies = [Fairness::ThinPlate, Fairness::CurvatureVariation];
@@ -75,6 +82,7 @@ impl planish_fair_options {
             tolerance: Tolerance { value: self.tolerance, scale },
             energy: choice(self.energy, &energies, "energy")?,
             border: choice(self.border, &borders, "border")?,
+            limit: choice(self.limit, &[FairLimit::Noise, FairLimit::Tolerance], "limit")?,
         })
     }
 }

@@ -7,7 +7,7 @@ use crate::{Failure, Given, Outcome};
 use clap::{Args, ValueEnum};
 use planish::Control;
 use planish::export::native;
-use planish::fit::fair::{FairData, FairOptions, Fairness, KeptBorder, fair};
+use planish::fit::fair::{FairData, FairLimit, FairOptions, Fairness, KeptBorder, fair};
 use planish::fit::report::{Tolerance, ToleranceScale};
 use planish::mesh::{MeshOptions, read};
 use planish::query::project::{ProjectOptions, Projector};
@@ -32,6 +32,9 @@ pub(crate) struct FairArguments {
     /// What of the border of the domain stays.
     #[arg(long, value_enum, default_value_t = BorderName::None)]
     border: BorderName,
+    /// How far the energy is lowered near the nodes of --mesh.
+    #[arg(long, value_enum, default_value_t = LimitName::Noise)]
+    limit: LimitName,
     /// Write a file: .planish, .step or .stp, .vtu, or a tessellation as .obj; may be given several times.
     #[arg(long, value_name = "FILE")]
     out: Vec<PathBuf>,
@@ -57,12 +60,25 @@ enum BorderName {
     Tangent,
 }
 
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum LimitName {
+    /// Until each node is told best from the others: noise goes, and what is no noise stays.
+    Noise,
+    /// As far as the tolerance lets it.
+    Tolerance,
+}
+
 pub(crate) fn run(arguments: &FairArguments, given: &Given) -> Result<Outcome, Failure> {
     output::check_names(&arguments.out)?;
     let writes_step = arguments.out.iter().any(|path| output::is_step(path));
     for option in StepArguments::OPTIONS {
         given.refuse(option, writes_step, "is not used: no STEP file is written")?;
     }
+    given.refuse(
+        "limit",
+        arguments.mesh.is_some(),
+        "is not used: without --mesh the tolerance is the limit",
+    )?;
     let surface = native::load_file(&arguments.surface)?;
     let options = FairOptions {
         tolerance: Tolerance {
@@ -77,6 +93,10 @@ pub(crate) fn run(arguments: &FairArguments, given: &Given) -> Result<Outcome, F
             BorderName::None => KeptBorder::None,
             BorderName::Position => KeptBorder::Position,
             BorderName::Tangent => KeptBorder::Tangent,
+        },
+        limit: match arguments.limit {
+            LimitName::Noise => FairLimit::Noise,
+            LimitName::Tolerance => FairLimit::Tolerance,
         },
     };
     let nodes = match &arguments.mesh {

@@ -20,6 +20,7 @@ mod remarks;
 pub mod report;
 pub(in crate::fit) mod rounds;
 pub(in crate::fit) mod samples;
+pub(in crate::fit) mod signs;
 pub(in crate::fit) mod symmetric;
 mod symmetry;
 pub(in crate::fit) mod tame;

@@ -8,14 +8,16 @@
 //! ```
 //! d moves the surface s; without data |d|^2 is its integral over each cell, with data it is the square of what a datum is
 //! missed by. Cells or data that would come to lie beyond the tolerance get more weight (C. Lawson, "Contributions to the
-//! theory of linear least maximum approximation", 1961), and lambda grows as long as that lowers E. What is still beyond
-//! the tolerance is met by a shorter step: E is convex, so it falls all the way. Without data the bound is a proof: no
+//! theory of linear least maximum approximation", 1961), and lambda grows as long as that lowers E; with data only as
+//! long as they are told better from each other (see [`prediction`]), unless all of the tolerance is asked for. What is
+//! still beyond the tolerance is met by a shorter step: E is convex, so it falls all the way. Without data the bound is a proof: no
 //! place of the surface moves by more than the ordinates of d, of which it is a mean. Energies after G. Celniker and
 //! D. Gossard, "Deformable curve and surface finite-elements for free-form shape design", SIGGRAPH 1991, and H. Moreton
 //! and C. Sequin, "Functional optimization for fair surface design", SIGGRAPH 1992; here in the surface's own
 //! parameters, in lengths, which keeps both quadratic.
 
 mod error;
+mod prediction;
 mod quadratic;
 mod reference;
 mod space;
@@ -29,7 +31,7 @@ use crate::fit::common::FitError;
 use crate::fit::common::checks::{check_rows, check_tolerance};
 use crate::fit::common::report::Tolerance;
 use crate::geometry::Bounds;
-use crate::linalg::SymbolicCholesky;
+use crate::linalg::{Cholesky, SymbolicCholesky};
 use crate::options::with_fields;
 use crate::surface::tensor::Axis;
 use crate::surface::{AnySurface, Domain};
@@ -61,6 +63,16 @@ pub enum KeptBorder {
     Tangent,
 }
 
+/// How far the energy is lowered where there are data.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum FairLimit {
+    /// Until the surface tells each datum best from the others: noise goes, and what is no noise stays.
+    #[default]
+    Noise,
+    /// As far as the tolerance lets it: what is narrower than that allows is flattened too.
+    Tolerance,
+}
+
 /// Data that a surface is to stay near.
 #[derive(Debug, Clone, Copy)]
 pub struct FairData<'a> {
@@ -74,13 +86,14 @@ pub struct FairData<'a> {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FairOptions {
     /// How far the surface may come to lie from itself, or from the data; relative to the diagonal of the box of its
-    /// control points, or of the data. All of it is used where that lowers the energy: much more than the noise flattens
-    /// ridges too.
+    /// control points, or of the data.
     pub tolerance: Tolerance,
     /// Which energy is lowered.
     pub energy: Fairness,
     /// What of the border stays.
     pub border: KeptBorder,
+    /// How far the energy is lowered where there are data; without data it is as far as the tolerance lets it.
+    pub limit: FairLimit,
 }
 
 impl FairOptions {
@@ -88,6 +101,7 @@ impl FairOptions {
         with_tolerance tolerance: Tolerance,
         with_energy energy: Fairness,
         with_border border: KeptBorder,
+        with_limit limit: FairLimit,
     }
 }
 
@@ -158,7 +172,12 @@ pub fn fair(
     let problem =
         control.watch(|_, watch| Problem::new(&space, data, tolerance, options.energy, watch))??;
     let mut report = FairReport { tolerance, diagonal: bounds.diagonal(), ..FairReport::default() };
-    let best = problem.lower(&mut report, control)?;
+    report.energy_before = problem.energy_of_surface();
+    report.energy_after = report.energy_before;
+    let best = match (&data, options.limit) {
+        (Some(_), FairLimit::Noise) => problem.lower_to_noise(&mut report, control)?,
+        _ => problem.lower(&mut report, control)?,
+    };
     let (deviations, movements) = (problem.reference.deviations(&best), reference::movements(&space, &best));
     report.max_deviation = deviations.iter().copied().fold(0.0, f64::max);
     let squares: f64 = deviations.iter().map(|deviation| deviation * deviation).sum();
@@ -212,6 +231,20 @@ fn check_energy(surface: &AnySurface, energy: Fairness) -> Result<(), FairError>
     }
 }
 
+/// The displacement of least energy so far.
+struct Lowest {
+    /// By how much it changes the energy.
+    change: f64,
+    displacement: Vec<f64>,
+}
+
+impl Lowest {
+    /// None.
+    fn new(space: &Space) -> Self {
+        Self { change: 0.0, displacement: vec![0.0; space.control_points.len()] }
+    }
+}
+
 /// What is minimized.
 struct Problem<'a> {
     space: &'a Space,
@@ -254,71 +287,90 @@ impl<'a> Problem<'a> {
 
     /// The displacement of least energy that is found, zero if none is less than that of the surface.
     fn lower(&self, report: &mut FairReport, control: &mut Control) -> Result<Vec<f64>, FairError> {
-        let energy_at = |d: &[f64], step: f64| self.change(d, step);
-        let mut best = vec![0.0; self.space.control_points.len()];
-        let (mut least, mut idle) = (0.0, 0);
+        let mut lowest = Lowest::new(self.space);
+        let mut idle = 0;
         let mut weights = self.reference.weights();
-        let distance = self.reference.form(&self.pattern, &weights);
-        let (size, bending) = (self.pattern.trace(&distance), self.pattern.trace(&self.energy));
-        report.energy_before = self.energy_of_surface();
-        report.energy_after = report.energy_before;
-        if !(bending > 0.0 && report.energy_before > 0.0) {
-            return Ok(best);
-        }
-        let balance = size / bending;
+        let Some(balance) = self.balance(&weights) else { return Ok(lowest.displacement) };
         let count = POWERS.count() as f64;
         for (k, power) in POWERS.enumerate() {
-            let before = least;
-            for _ in 0..SWEEPS {
-                let smoothing = balance * 10.0_f64.powi(power);
-                let d = control.watch(|_, watch| self.solve(&weights, smoothing, watch))??;
-                report.passes += 1;
-                let step = self.reference.longest_step(&d);
-                let change = energy_at(&d, step);
-                if change < least {
-                    (least, report.smoothing) = (change, smoothing);
-                    best = d.iter().map(|x| step * x).collect();
-                }
-                if step == 1.0 {
-                    break;
-                }
-                self.reference.weigh(&d, &mut weights);
-            }
+            let before = lowest.change;
+            self.sweep(balance * 10.0_f64.powi(power), &mut weights, &mut lowest, report, control)?;
             control.report((k + 1) as f64 / count, f64::NAN)?;
-            report.energy_after = (report.energy_before + least).max(0.0);
-            idle = if least < 0.0 && before - least <= LEAST_GAIN * -least { idle + 1 } else { 0 };
+            let gain = before - lowest.change;
+            idle = if lowest.change < 0.0 && gain <= LEAST_GAIN * -lowest.change { idle + 1 } else { 0 };
             if idle == IDLE_WEIGHTS {
                 break;
             }
         }
-        Ok(best)
+        Ok(lowest.displacement)
+    }
+
+    /// What balances the traces of both forms; None where there is nothing to lower.
+    fn balance(&self, weights: &[f64]) -> Option<f64> {
+        let distance = self.reference.form(&self.pattern, weights);
+        let (size, bending) = (self.pattern.trace(&distance), self.pattern.trace(&self.energy));
+        (bending > 0.0 && self.energy_of_surface() > 0.0).then(|| size / bending)
+    }
+
+    /// Displacements with one weight of the energy, while those that lie beyond the tolerance weigh more and more.
+    fn sweep(
+        &self,
+        smoothing: f64,
+        weights: &mut [f64],
+        lowest: &mut Lowest,
+        report: &mut FairReport,
+        control: &mut Control,
+    ) -> Result<(), FairError> {
+        for _ in 0..SWEEPS {
+            let d = control.watch(|_, watch| self.solve(weights, smoothing, watch))??;
+            report.passes += 1;
+            let step = self.reference.longest_step(&d);
+            let change = self.change(&d, step);
+            if change < lowest.change {
+                report.smoothing = smoothing;
+                report.energy_after = (report.energy_before + change).max(0.0);
+                *lowest = Lowest { change, displacement: d.iter().map(|x| step * x).collect() };
+            }
+            if step == 1.0 {
+                break;
+            }
+            self.reference.weigh(&d, weights);
+        }
+        Ok(())
     }
 
     /// The displacement that balances distance and energy.
     fn solve(&self, weights: &[f64], smoothing: f64, watch: &Watch) -> Result<Vec<f64>, FairError> {
+        let mut pull = self.reference.pull(weights);
+        pull.resize(self.gradient.len(), 0.0);
+        pull.iter_mut().zip(&self.gradient).for_each(|(sum, slope)| *sum -= smoothing * slope);
+        let factor = self.factor(weights, smoothing, watch)?;
+        Ok(self.solve_rows(&factor, &pull, self.space.dim))
+    }
+
+    /// The matrix of distance and energy, factored.
+    fn factor(&self, weights: &[f64], smoothing: f64, watch: &Watch) -> Result<Cholesky, FairError> {
         watch.check()?;
-        let (dim, n) = (self.space.dim, self.space.count());
         let mut matrix = self.reference.form(&self.pattern, weights);
-        let scale = self.pattern.trace(&matrix) / n as f64;
+        let scale = self.pattern.trace(&matrix) / self.space.count() as f64;
         matrix.iter_mut().zip(&self.energy).for_each(|(sum, e)| *sum += smoothing * e);
         self.pattern.keep(&mut matrix, &self.space.is_kept, scale);
-        let pull = self.reference.pull(weights);
-        let mut columns = vec![0.0; n * dim];
-        for unknown in (0..n).filter(|&unknown| !self.space.is_kept[unknown]) {
-            for k in 0..dim {
-                let at = unknown * dim + k;
-                columns[k * n + unknown] =
-                    pull.get(at).copied().unwrap_or(0.0) - smoothing * self.gradient[at];
-            }
-        }
         watch.check()?;
         let factor = self.symbolic.factor(&self.pattern.matrix(matrix).view());
-        factor.map_err(|_| FairError::Singular)?.solve(&mut columns, dim);
         watch.check()?;
-        Ok((0..n)
-            .flat_map(|unknown| (0..dim).map(move |k| (unknown, k)))
-            .map(|(i, k)| columns[k * n + i])
-            .collect())
+        factor.map_err(|_| FairError::Singular)
+    }
+
+    /// The solution for rows of `dim` numbers; what is kept does not move.
+    fn solve_rows(&self, factor: &Cholesky, rows: &[f64], dim: usize) -> Vec<f64> {
+        let n = self.space.count();
+        let mut columns = vec![0.0; n * dim];
+        for unknown in (0..n).filter(|&unknown| !self.space.is_kept[unknown]) {
+            (0..dim).for_each(|k| columns[k * n + unknown] = rows[unknown * dim + k]);
+        }
+        factor.solve(&mut columns, dim);
+        let places = (0..n).flat_map(|unknown| (0..dim).map(move |k| (unknown, k)));
+        places.map(|(i, k)| columns[k * n + i]).collect()
     }
 
     fn energy_of_surface(&self) -> f64 {

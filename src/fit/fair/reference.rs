@@ -93,16 +93,30 @@ impl<'a> Reference<'a> {
     /// The right-hand side of the weighed squares: rows of `dim` numbers; empty without data.
     pub(super) fn pull(&self, weights: &[f64]) -> Vec<f64> {
         let Some(data) = &self.data else { return Vec::new() };
-        let dim = self.space.dim;
-        let mut pull = vec![0.0; self.space.control_points.len()];
-        for (k, (&cell, shares)) in data.cells.iter().zip(&data.shares).enumerate() {
-            let miss = &data.misses[k * dim..][..dim];
+        let misses = data.misses.chunks_exact(self.space.dim).zip(weights);
+        let weighed: Vec<f64> =
+            misses.flat_map(|(miss, weight)| miss.iter().map(move |x| -weight * x)).collect();
+        self.pull_of(&weighed, self.space.dim)
+    }
+
+    /// The right-hand side that rows of `width` numbers make, one for each datum.
+    pub fn pull_of(&self, rows: &[f64], width: usize) -> Vec<f64> {
+        let mut pull = vec![0.0; self.space.count() * width];
+        let Some(data) = &self.data else { return pull };
+        for ((&cell, shares), row) in data.cells.iter().zip(&data.shares).zip(rows.chunks_exact(width)) {
             for (&unknown, share) in self.space.cells[cell as usize].unknowns.iter().zip(shares) {
-                let row = &mut pull[unknown as usize * dim..][..dim];
-                row.iter_mut().zip(miss).for_each(|(sum, miss)| *sum -= weights[k] * share * miss);
+                let sums = &mut pull[unknown as usize * width..][..width];
+                sums.iter_mut().zip(row).for_each(|(sum, x)| *sum += share * x);
             }
         }
         pull
+    }
+
+    /// The sum of the products of rows of `width` numbers, one for each datum, with the values there of such rows for the
+    /// control points.
+    pub fn product(&self, points: &[f64], rows: &[f64], width: usize) -> f64 {
+        let pull = self.pull_of(rows, width);
+        pull.iter().zip(points).map(|(a, b)| a * b).sum()
     }
 
     /// How far each cell moves at most, or by how much each datum is missed, after a displacement.

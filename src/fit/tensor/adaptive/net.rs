@@ -15,6 +15,7 @@ use super::super::{FitError, Problem};
 use crate::control::{Control, Pool, Watch};
 use crate::fit::common::errors::DataErrors;
 use crate::fit::common::interior::Between;
+use crate::fit::common::signs::{PROBES, scramble, signs};
 use crate::fit::common::tame::{TENSE_WITHIN, is_wild};
 use crate::fit::common::uniform::energy::EnergyTerm;
 use crate::fit::common::uniform::grid::Direction;
@@ -60,9 +61,6 @@ pub(super) struct NetFitter<'a> {
     /// Whether nets may leave the box of the data as far as they like.
     pub may_be_wild: bool,
 }
-
-/// Columns of signs that a trace is estimated with.
-const PROBES: usize = 4;
 
 /// What is fitted: rows of `dim` numbers, one a datum.
 struct Rows<'a> {
@@ -194,14 +192,8 @@ impl<'a> NetFitter<'a> {
         lines: [Lines; 2],
         control: &mut Control,
     ) -> Result<NetEquations, FitError> {
-        let signs = Rows { values: &self.signs(), dim: PROBES, are_own: false };
+        let signs = Rows { values: &signs(self.problem.uv.len()), dim: PROBES, are_own: false };
         control.watch(|pool, watch| self.assemble_rows(lines, &signs, &self.weights, pool, watch))?
-    }
-
-    /// Rows of signs, one of each column for a datum.
-    fn signs(&self) -> Vec<f64> {
-        let sign = |k: usize| if scramble(k) & 1 == 0 { 1.0 } else { -1.0 };
-        (0..PROBES * self.problem.uv.len()).map(sign).collect_vec()
     }
 
     /// How many data a fit follows: the trace of the matrix that makes its values of theirs.
@@ -211,7 +203,7 @@ impl<'a> NetFitter<'a> {
         smoothing: f64,
         control: &mut Control,
     ) -> Result<f64, FitError> {
-        let signs = self.signs();
+        let signs = signs(self.problem.uv.len());
         control.watch(|pool, watch| {
             let surface = self.surface(probes, PROBES, smoothing, watch)?;
             let mut rows = memory::filled(0.0, signs.len());
@@ -393,13 +385,4 @@ fn plate([u, v]: &[Lines; 2]) -> Vec<EnergyTerm> {
     [(1.0, 2, 0), (2.0, 1, 1), (1.0, 0, 2)]
         .map(|(weight, p, q)| EnergyTerm { weight, u: u.gram(p), v: v.gram(q) })
         .into()
-}
-
-/// A number that looks random and depends on `x` alone (G. Steele, D. Lea and C. Flood, "Fast splittable
-/// pseudorandom number generators", OOPSLA 2014).
-fn scramble(x: usize) -> u64 {
-    let mut z = (x as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }
