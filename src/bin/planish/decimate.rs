@@ -2,7 +2,7 @@
 
 use crate::input::MeshInput;
 use crate::output::{self, Table};
-use crate::{Failure, Outcome};
+use crate::{Failure, Given, Outcome};
 use clap::Args;
 use planish::Control;
 use planish::mesh::DecimateOptions;
@@ -27,9 +27,11 @@ pub(crate) struct DecimateArguments {
     input: MeshInput,
 }
 
-pub(crate) fn run(arguments: &DecimateArguments) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &DecimateArguments, given: &Given) -> Result<Outcome, Failure> {
     output::check_name(&arguments.out, output::MESHES)?;
     let (mut mesh, repairs) = arguments.input.read(&arguments.mesh)?;
+    let has_parameters = mesh.parameters().is_some();
+    given.refuse("ignore-parameters", has_parameters, "does nothing for a mesh that has none")?;
     if arguments.ignore_parameters {
         mesh.clear_parameters();
     }

@@ -10,13 +10,13 @@ pub(crate) struct MeshInput {
     /// Join nodes closer than this.
     #[arg(long, default_value_t = 0.0, value_name = "DISTANCE", allow_negative_numbers = true)]
     weld: f64,
-    /// Mend these faults too, beside all that need no guess.
+    /// Mend these faults too: sheets, beside all that need no guess; with --no-repair any.
     #[arg(long, value_enum, value_delimiter = ',', value_name = "KINDS")]
     repair: Vec<RepairName>,
     /// Refuse all faults but those that --repair names.
     #[arg(long)]
     no_repair: bool,
-    /// Turn triangles over until neighbours agree, with --no-repair too.
+    /// Turn triangles over until neighbours agree although --no-repair is given.
     #[arg(long)]
     orient: bool,
     /// Take one of several parts that hang together: the largest, or one by its number, counted from 0.
@@ -82,7 +82,23 @@ impl MeshInput {
     }
 
     pub(crate) fn read(&self, path: &Path) -> Result<(Mesh, MeshRepairs), Failure> {
+        self.check_repairs()?;
         Ok(read(path, &self.options())?)
+    }
+
+    /// Refuses what is mended anyway.
+    fn check_repairs(&self) -> Result<(), Failure> {
+        let is_safe = |name: &&RepairName| Repair::SAFE.has(name.kind());
+        let given = match self.repair.iter().find(is_safe) {
+            _ if self.no_repair => return Ok(()),
+            Some(name) => {
+                let name = name.to_possible_value().map(|value| value.get_name().to_owned());
+                format!("--repair {}", name.unwrap_or_default())
+            }
+            None if self.orient => "--orient".to_owned(),
+            None => return Ok(()),
+        };
+        Err(Failure::new(format!("{given} does nothing: that is mended anyway without --no-repair")))
     }
 }
 

@@ -128,7 +128,7 @@ fn main() -> ExitCode {
     let outcome = match arguments.command {
         Command::Fit(arguments) => fit::run(&arguments, &given),
         Command::Skin(arguments) => skin::run(&arguments, &given),
-        Command::Decimate(arguments) => decimate::run(&arguments),
+        Command::Decimate(arguments) => decimate::run(&arguments, &given),
         Command::D1rc(arguments) => d1rc::run(&arguments, &given),
         Command::Convert(arguments) => convert::run(&arguments, &given),
         Command::Info(arguments) => info::run(&arguments),
@@ -136,7 +136,7 @@ fn main() -> ExitCode {
         Command::Fair(arguments) => fair::run(&arguments, &given),
         Command::Morph(arguments) => morph::run(&arguments),
         Command::Render(arguments) => render::run(&arguments, &given),
-        Command::Sample(arguments) => sample::run(&arguments),
+        Command::Sample(arguments) => sample::run(&arguments, &given),
         Command::Topics(arguments) => topics::run(&arguments),
         Command::Completions(arguments) => manual::complete(&arguments),
         Command::Manual(arguments) => manual::write(&arguments),

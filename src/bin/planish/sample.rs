@@ -1,6 +1,6 @@
 //! `planish sample`.
 
-use crate::{Failure, Outcome, output};
+use crate::{Failure, Given, Outcome, output};
 use clap::{Args, ValueEnum};
 use planish::samples::{self, machine, rows::RowSet};
 use std::fmt::Write;
@@ -62,10 +62,18 @@ enum Shape {
     HeadRows,
 }
 
+impl Shape {
+    /// Whether its nodes are jittered.
+    fn is_jittered(self) -> bool {
+        !matches!(self, Self::HalfFuselage | Self::Wing | Self::DustpanRows | Self::WaveRows | Self::HeadRows)
+    }
+}
+
 /// Nodes of machine parts, about.
 const PART_NODES: usize = 3000;
 
-pub(crate) fn run(arguments: &SampleArguments) -> Result<Outcome, Failure> {
+pub(crate) fn run(arguments: &SampleArguments, given: &Given) -> Result<Outcome, Failure> {
+    given.refuse("seed", arguments.shape.is_jittered(), "is not used: this shape has no jitter")?;
     let seed = arguments.seed;
     let mesh = match arguments.shape {
         Shape::FuselagePanel => samples::fuselage_panel(seed),
