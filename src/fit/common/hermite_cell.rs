@@ -58,27 +58,63 @@ impl CellSums {
         }
     }
 
-    /// The matrix with `plate` times the energy of a plate and `membrane` times that of a membrane.
-    pub(crate) fn with_energy(&self, plate: f64, membrane: f64) -> CellMatrix {
+    /// The matrix with `plate` times the energy of a plate, and with that of a membrane.
+    pub(crate) fn with_energy(&self, plate: f64, membrane: Membrane) -> CellMatrix {
         let mut matrix = self.matrix;
-        for (weight, energy) in [(plate, &PLATE), (membrane, &MEMBRANE)] {
-            for (row, energy) in matrix.iter_mut().zip(energy.iter()).filter(|_| weight > 0.0) {
+        let mut add = |weight: f64, energy: &CellMatrix| {
+            for (row, energy) in matrix.iter_mut().zip(energy).filter(|_| weight > 0.0) {
                 row.iter_mut().zip(energy).for_each(|(sum, e)| *sum += weight * e);
             }
+        };
+        add(plate, &PLATE);
+        match membrane.parts {
+            Membrane::WHOLE => add(membrane.weight, &MEMBRANE),
+            parts => (0..PARTS * PARTS)
+                .filter(|part| parts & (1 << part) != 0)
+                .for_each(|part| add(membrane.weight, &MEMBRANES[part])),
         }
         matrix
     }
+}
+
+/// Rows and columns of parts of a cell that a membrane can be in.
+pub const PARTS: usize = 4;
+
+/// A membrane in parts of a cell.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Membrane {
+    /// Weight of its energy.
+    pub weight: f64,
+    /// Bit `PARTS * i + j` for the part of column `i` along u and row `j` along v.
+    pub parts: u16,
+}
+
+impl Membrane {
+    /// All of the cell.
+    pub const WHOLE: u16 = u16::MAX;
 }
 
 /// The integral of `f_xx^2 + 2 f_xy^2 + f_yy^2` over the unit cell.
 static PLATE: LazyLock<CellMatrix> = LazyLock::new(|| energy(&[(1.0, 2, 0), (2.0, 1, 1), (1.0, 0, 2)]));
 
 /// The integral of `f_x^2 + f_y^2` over the unit cell.
-static MEMBRANE: LazyLock<CellMatrix> = LazyLock::new(|| energy(&[(1.0, 1, 0), (1.0, 0, 1)]));
+static MEMBRANE: LazyLock<CellMatrix> = LazyLock::new(|| energy(&MEMBRANE_TERMS));
+const MEMBRANE_TERMS: [(f64, usize, usize); 2] = [(1.0, 1, 0), (1.0, 0, 1)];
+
+/// The same over each part of it.
+static MEMBRANES: LazyLock<[CellMatrix; PARTS * PARTS]> = LazyLock::new(|| {
+    let ends = |k: usize| [k as f64 / PARTS as f64, (k + 1) as f64 / PARTS as f64];
+    std::array::from_fn(|part| energy_in(&MEMBRANE_TERMS, [ends(part / PARTS), ends(part % PARTS)]))
+});
 
 /// The integral of weighed squares of derivatives of some orders over the unit cell.
 fn energy(terms: &[(f64, usize, usize)]) -> CellMatrix {
-    let gram = [0, 1, 2].map(gram);
+    energy_in(terms, [[0.0, 1.0]; 2])
+}
+
+/// The same over a rectangle in it.
+fn energy_in(terms: &[(f64, usize, usize)], [along_u, along_v]: [[f64; 2]; 2]) -> CellMatrix {
+    let [grams_u, grams_v] = [along_u, along_v].map(|ends| [0, 1, 2].map(|order| gram(order, ends)));
     // the place of unknown k of a line: value and slope at its begin, then at its end
     let parts = |unknown: usize| {
         let (corner, row) = (unknown / 4, unknown % 4);
@@ -86,14 +122,14 @@ fn energy(terms: &[(f64, usize, usize)]) -> CellMatrix {
     };
     let entry = |i: usize, j: usize| {
         let ((a, b), (c, d)) = (parts(i), parts(j));
-        terms.iter().map(|&(weight, p, q)| weight * gram[p][a][c] * gram[q][b][d]).sum()
+        terms.iter().map(|&(weight, p, q)| weight * grams_u[p][a][c] * grams_v[q][b][d]).sum()
     };
     std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
 }
 
-/// Integrals over the unit interval of products of derivatives of the cubics that have value or slope 1 at one
+/// Integrals over a part of the unit interval of products of derivatives of the cubics that have value or slope 1 at one
 /// end: value and slope at 0, value and slope at 1.
-fn gram(order: usize) -> [[f64; 4]; 4] {
+fn gram(order: usize, [from, to]: [f64; 2]) -> [[f64; 4]; 4] {
     // coefficients of 1, x, x^2, x^3
     const CUBICS: [[f64; 4]; 4] =
         [[1.0, 0.0, -3.0, 2.0], [0.0, 1.0, -2.0, 1.0], [0.0, 0.0, 3.0, -2.0], [0.0, 0.0, -1.0, 1.0]];
@@ -101,7 +137,11 @@ fn gram(order: usize) -> [[f64; 4]; 4] {
     let cubics = CUBICS.map(|cubic| (0..order).fold(cubic, |c, _| derivative(c)));
     let product = |a: [f64; 4], b: [f64; 4]| -> f64 {
         let pairs = (0..4).flat_map(|i| (0..4).map(move |j| (i, j)));
-        pairs.map(|(i, j)| a[i] * b[j] / (i + j + 1) as f64).sum()
+        let power = |i: usize, j: usize| {
+            let exponent = i + j + 1;
+            (to.powi(exponent as i32) - from.powi(exponent as i32)) / exponent as f64
+        };
+        pairs.map(|(i, j)| a[i] * b[j] * power(i, j)).sum()
     };
     cubics.map(|a| cubics.map(|b| product(a, b)))
 }
@@ -148,5 +188,28 @@ mod tests {
         let pairs = (0..COUNT).flat_map(|i| (0..COUNT).map(move |j| (i, j)));
         let membrane: f64 = pairs.map(|(i, j)| x[i] * MEMBRANE[i][j] * x[j]).sum();
         assert!((membrane - 2.0 / 3.0).abs() <= 256.0 * f64::EPSILON, "{membrane}");
+    }
+
+    #[test]
+    fn membranes_in_parts_make_one_in_the_cell() {
+        let empty = CellSums::new(1);
+        let energy = |x: &[f64; COUNT], parts: u16| -> f64 {
+            let matrix = empty.with_energy(0.0, Membrane { weight: 3.0, parts });
+            let pairs = (0..COUNT).flat_map(|i| (0..COUNT).map(move |j| (i, j)));
+            pairs.map(|(i, j)| x[i] * matrix[i][j] * x[j]).sum()
+        };
+        let x = unknowns(2, 1);
+        let part = |i: usize, j: usize| energy(&x, 1 << (PARTS * i + j));
+        let sum: f64 =
+            (0..PARTS).flat_map(|i| (0..PARTS).map(move |j| (i, j))).map(|(i, j)| part(i, j)).sum();
+        // (x^2 y)_x^2 + (x^2 y)_y^2 = 4 x^2 y^2 + x^4
+        let whole = 3.0 * (4.0 / 9.0 + 1.0 / 5.0);
+        let tol = 1e3 * f64::EPSILON;
+        assert!((sum - whole).abs() <= tol && (energy(&x, Membrane::WHOLE) - whole).abs() <= tol, "{sum}");
+        assert!((energy(&x, Membrane::WHOLE ^ 1) + part(0, 0) - whole).abs() <= tol);
+        // in the first column and the last row of parts
+        let (x3, y3) = (0.25_f64.powi(3) / 3.0, (1.0 - 0.75_f64.powi(3)) / 3.0);
+        let exact = 3.0 * (4.0 * x3 * y3 + 0.25_f64.powi(5) / 5.0 * 0.25);
+        assert!((part(0, PARTS - 1) - exact).abs() <= tol, "{exact}");
     }
 }

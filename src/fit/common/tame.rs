@@ -28,6 +28,13 @@ pub(in crate::fit) const TENSIONS: [f64; 5] = [1.0, 10.0, 1e2, 1e3, 1e4];
 /// Errors may grow by this share for it.
 const DEARER: f64 = 1.02;
 
+/// Whether cells count as empty only as wholes, or in parts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::fit) enum CutCells {
+    No,
+    Yes,
+}
+
 /// Intervals in which each cell is sampled, along both directions.
 const SAMPLES: usize = 3;
 

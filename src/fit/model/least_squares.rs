@@ -12,7 +12,7 @@
 use super::samples::ByCell;
 use crate::control::{Pool, Watch};
 use crate::fit::common::FitError;
-use crate::fit::common::hermite_cell::{CellSums, weights};
+use crate::fit::common::hermite_cell::{CellSums, Membrane, weights};
 use crate::layout::Place;
 use crate::linalg::{Cholesky, SymbolicCholesky};
 use crate::surface::g1::{Enclosure, Space};
@@ -294,7 +294,7 @@ impl System {
                 }
             },
         );
-        let (matrix, map) = (sums.with_energy(smoothing, 0.0), &self.maps[cell]);
+        let (matrix, map) = (sums.with_energy(smoothing, Membrane::default()), &self.maps[cell]);
         let count = map.unknowns.len();
         let mut products = vec![[0.0; CELL]; count];
         for (product, factors) in products.iter_mut().zip(&map.factors) {

@@ -10,7 +10,7 @@
 use super::data::Data;
 use crate::control::{Pool, Watch};
 use crate::fit::common::FitError;
-use crate::fit::common::hermite_cell::{CellMatrix, CellSums, weights};
+use crate::fit::common::hermite_cell::{CellMatrix, CellSums, Membrane, weights};
 use crate::linalg::{Condition, Conditions, SymbolicCholesky, impose_all};
 use crate::lists::Lists;
 use crate::memory::ParallelCollectVec;
@@ -66,8 +66,8 @@ const PIECE: usize = 64;
 pub(super) struct Energy {
     /// Of the plate in every cell.
     pub plate: f64,
-    /// Of the membrane in each leaf; empty for none.
-    pub membrane: Vec<f64>,
+    /// The membrane in each leaf; empty for none.
+    pub membranes: Vec<Membrane>,
 }
 
 type Block = [[f64; 4]; 4];
@@ -252,7 +252,7 @@ impl<'a> System<'a> {
 
     fn share(&self, leaf: usize, sums: &CellSums, energy: &Energy, dim: usize) -> Share {
         let domain = self.mesh.cell_domain(self.cell(leaf));
-        let membrane = energy.membrane.get(leaf).copied().unwrap_or(0.0);
+        let membrane = energy.membranes.get(leaf).copied().unwrap_or_default();
         self.expand(leaf, &sums.with_energy(energy.plate, membrane), &sums.right, units(domain.size()), dim)
     }
 

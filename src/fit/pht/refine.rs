@@ -154,7 +154,7 @@ impl<'a> Refinement<'a> {
             _ => None,
         };
         let (options, smoothing) = (self.options, self.smoothing);
-        let energy = Energy { plate: smoothing, membrane: Vec::new() };
+        let energy = Energy { plate: smoothing, membranes: Vec::new() };
         let mut estimate = |data: &Data, by_leaf: &ByLeaf| -> Result<PhtSurface, FitError> {
             watch.check()?;
             let jets = match &system {

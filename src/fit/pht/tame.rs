@@ -6,7 +6,8 @@ use super::global::{ByLeaf, Energy, KnownSums, System};
 use super::refine::{Refinement, Round, outward};
 use crate::control::{Control, Pool, Watch};
 use crate::fit::common::FitError;
-use crate::fit::common::tame::{FINER_BEYOND, Standing, TENSE_WITHIN, excursion, is_wild, tamed};
+use crate::fit::common::hermite_cell::{Membrane, PARTS};
+use crate::fit::common::tame::{CutCells, FINER_BEYOND, Standing, TENSE_WITHIN, excursion, is_wild, tamed};
 use crate::fit::common::trims;
 use crate::surface::pht::PhtSurface;
 use crate::surface::{Domain, Trims};
@@ -15,8 +16,6 @@ use glam::DVec2;
 
 /// How often cells are split that are too large for their emptiness.
 const SPLITS: usize = 3;
-/// Rows and columns of places at which a cell is looked at.
-const PARTS: usize = 4;
 
 impl Refinement<'_> {
     /// A round, or one over the same cells or more that stays nearer to the box of the data where there are none.
@@ -39,15 +38,17 @@ impl Refinement<'_> {
             this.data.mesh.is_some() || 4 * Topology::new(mesh).basis.len() <= this.data.uv.len()
         };
         let finer = std::iter::successors(first, finer).take(SPLITS).take_while(is_allowed);
-        let (same, finer) = ([this.mesh.clone()], finer.collect::<Vec<TMesh>>());
+        let same = [CutCells::No, CutCells::Yes].map(|cut| (this.mesh.clone(), cut));
+        let finer: Vec<(TMesh, CutCells)> = finer.map(|mesh| (mesh, CutCells::Yes)).collect();
         let judge = |round: &Round, pool: &Pool| Standing {
             excursion: this.excursion(&round.surface, pool),
             error: round.errors.demand,
             between: round.rough.iter().map(|rough| rough.error).fold(0.0, f64::max),
         };
         let smoothing = round.smoothing;
-        let refit = |mesh: &TMesh, tension, control: &mut Control| {
-            control.watch(|pool, watch| this.tense(mesh, &trims, [smoothing, tension], pool, watch))?
+        let refit = |(mesh, cut): &(TMesh, CutCells), tension, control: &mut Control| {
+            let weights = [smoothing, tension];
+            control.watch(|pool, watch| this.tense((mesh, *cut), &trims, weights, pool, watch))?
         };
         let round = tamed(round, this.goal.tolerance, &same, (&finer, FINER_BEYOND), judge, refit, control)?;
         self.mesh = round.surface.mesh().clone();
@@ -72,7 +73,7 @@ impl Refinement<'_> {
     /// membrane where there are no data.
     fn tense(
         &self,
-        mesh: &TMesh,
+        (mesh, cut): (&TMesh, CutCells),
         trims: &Trims,
         [smoothing, tension]: [f64; 2],
         pool: &Pool,
@@ -83,11 +84,12 @@ impl Refinement<'_> {
         let membrane = |(leaf, &node): (usize, &NodeId)| {
             let domain = mesh.cell_domain(mesh.cell(node));
             let share = domain.size() / data.data_box.size() / TENSE_WITHIN;
-            let weight = smoothing * tension * share.x * share.y;
-            if self.is_empty(&domain, by_leaf.of(leaf), trims) { weight } else { 0.0 }
+            let places = by_leaf.of(leaf).iter().map(|&sample| by_leaf.uv[sample as usize]);
+            let parts = empty_parts(&domain, places, cut, trims);
+            Membrane { weight: smoothing * tension * share.x * share.y, parts }
         };
-        let membrane = topology.leaves.iter().enumerate().map(membrane).collect();
-        let energy = Energy { plate: smoothing, membrane };
+        let membranes = topology.leaves.iter().enumerate().map(membrane).collect();
+        let energy = Energy { plate: smoothing, membranes };
         let system = System::new(mesh, &topology);
         let jets = system.solve(data, &by_leaf, &mut KnownSums::default(), &energy, pool, watch)?;
         let surface = outward(data, mesh, jets)?;
@@ -95,11 +97,6 @@ impl Refinement<'_> {
         watch.check()?;
         let rough = self.rough_leaves(&surface, &errors, &by_leaf, pool);
         Ok(Round { surface, errors, uv: data.uv.clone(), rough, smoothing })
-    }
-
-    /// Whether a cell has no samples and is no part of the mesh.
-    fn is_empty(&self, cell: &Domain, samples: &[u32], trims: &Trims) -> bool {
-        samples.is_empty() && (trims.is_empty() || !trims.contains((cell.min + cell.max) / 2.0))
     }
 
     /// With some cells split; None if there are none that may be.
@@ -123,14 +120,35 @@ impl Refinement<'_> {
     }
 }
 
+/// The parts of a cell that have none of the samples, which lie in it, and are no part of the mesh: all or none of them unless
+/// cells are cut. Only a mesh says what is between its nodes: without trims no cell is cut.
+fn empty_parts(cell: &Domain, mut samples: impl Iterator<Item = DVec2>, cut: CutCells, trims: &Trims) -> u16 {
+    if cut == CutCells::No || trims.is_empty() {
+        let is_outside = trims.is_empty() || !trims.contains((cell.min + cell.max) / 2.0);
+        return if is_outside && samples.next().is_none() { Membrane::WHOLE } else { 0 };
+    }
+    let outside = part_middles(cell).enumerate().filter(|&(_, middle)| !trims.contains(middle));
+    let outside = outside.fold(0, |parts, (part, _)| parts | 1 << part);
+    samples.fold(outside, |parts, uv| {
+        let at = (uv - cell.min) / cell.size() * PARTS as f64;
+        let along = |x: f64| (x as usize).min(PARTS - 1);
+        parts & !(1 << (PARTS * along(at.x) + along(at.y)))
+    })
+}
+
+/// The middles of the parts of a cell.
+fn part_middles(cell: &Domain) -> impl Iterator<Item = DVec2> {
+    let (min, size) = (cell.min, cell.size());
+    let middle = |k: usize| (k as f64 + 0.5) / PARTS as f64;
+    (0..PARTS * PARTS).map(move |k| min + size * DVec2::new(middle(k / PARTS), middle(k % PARTS)))
+}
+
 /// Whether some parts of a cell are inside the trims and others are not.
 fn has_border(cell: &Domain, trims: &Trims) -> bool {
     if trims.is_empty() {
         return false;
     }
-    let middle = |k: usize| (k as f64 + 0.5) / PARTS as f64;
-    let places = (0..PARTS * PARTS).map(|k| DVec2::new(middle(k / PARTS), middle(k % PARTS)));
-    let mut are_inside = places.map(|share| trims.contains(cell.min + share * cell.size()));
+    let mut are_inside = part_middles(cell).map(|middle| trims.contains(middle));
     let first = are_inside.next();
     are_inside.any(|is_inside| Some(is_inside) != first)
 }

@@ -1,11 +1,11 @@
 //! The fit on one grid: least squares at a fixed smoothing, the ladder of smoothings, the measure.
 
-use super::tame::{CutCells, Emptiness};
+use super::tame::Emptiness;
 use super::{Ends, FitError, Method, Problem, SMOOTHING_LADDER};
 use crate::control::{Pool, Watch};
 use crate::fit::common::errors::DataErrors;
 use crate::fit::common::samples::{in_cells, interior_weight};
-use crate::fit::common::tame::TENSE_WITHIN;
+use crate::fit::common::tame::{CutCells, TENSE_WITHIN};
 use crate::fit::common::uniform::energy::EnergyTerm;
 use crate::fit::common::uniform::ferguson;
 use crate::fit::common::uniform::grid::{Direction, UniformBasis, UniformGrid};

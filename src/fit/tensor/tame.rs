@@ -3,7 +3,7 @@
 use super::single_grid::Candidate;
 use super::{FitError, Method, Problem};
 use crate::control::{Control, Pool};
-use crate::fit::common::tame::{FARTHEST, FINER_BEYOND, Standing, excursion, is_wild, tamed};
+use crate::fit::common::tame::{CutCells, FARTHEST, FINER_BEYOND, Standing, excursion, is_wild, tamed};
 use crate::fit::common::trims;
 use crate::fit::common::uniform::grid::Part;
 use crate::geometry::{Bounds, Domain};
@@ -117,13 +117,6 @@ impl Problem<'_> {
         let mut parts = parts.filter_map(|part| surface.restrict(part).ok());
         parts.find(|part| self.excursion(part, pool) <= FARTHEST).unwrap_or(surface)
     }
-}
-
-/// Whether cells count as empty only as wholes, or in parts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum CutCells {
-    No,
-    Yes,
 }
 
 /// Cells or parts of them, and which of their products are empty, row by row.

@@ -10,13 +10,13 @@
 //! ```
 
 use super::super::lines::Lines;
-use super::super::tame::{CutCells, Emptiness};
+use super::super::tame::Emptiness;
 use super::super::{FitError, Problem};
 use crate::control::{Control, Pool, Watch};
 use crate::fit::common::errors::DataErrors;
 use crate::fit::common::interior::Between;
 use crate::fit::common::signs::{PROBES, scramble, signs};
-use crate::fit::common::tame::{TENSE_WITHIN, is_wild};
+use crate::fit::common::tame::{CutCells, TENSE_WITHIN, is_wild};
 use crate::fit::common::uniform::energy::EnergyTerm;
 use crate::fit::common::uniform::grid::Direction;
 use crate::fit::common::uniform::normal_equations::{NormalEquations, Samples, TensorBasis};

@@ -2,10 +2,10 @@
 
 use super::super::FitError;
 use super::super::lines::Lines;
-use super::super::tame::{CutCells, HALVINGS};
+use super::super::tame::HALVINGS;
 use super::net::{Net, NetFitter, Tension};
 use crate::control::{Control, Pool};
-use crate::fit::common::tame::{AIM, Standing, tamed};
+use crate::fit::common::tame::{AIM, CutCells, Standing, tamed};
 use crate::fit::common::uniform::grid::Direction;
 
 impl NetFitter<'_> {
