@@ -574,7 +574,26 @@ TEST(Sides, AreTakenOverFromANeighbour) {
   CHECK_NEAR(a[3] * b[4] - a[4] * b[3], 0, 1e-10);
   CHECK_NEAR(a[3] * b[5] - a[5] * b[3], 0, 1e-10);
 
+  // a PHT-spline takes the side over too
+  planish_pht_options cells;
+  CHECK(planish_pht_options_init(&cells, sizeof cells) == PLANISH_STATUS_OK);
+  cells.tolerance = 1e-4;
+  cells.neighbour_u_low = first.get();
+  CHECK(planish_pht_fit_points(uv.data(), high.data(), side * side, 3, &cells, &handle, &report) == PLANISH_STATUS_OK);
+  const Surface third(handle);
+  CHECK(report.max_side_error <= 1e-12 * report.diagonal && report.max_side_angle <= 1e-10);
+  // and is a neighbour for another, but not for a tensor surface, whose curvature is continuous
+  cells.neighbour_u_low = nullptr;
+  cells.neighbour_u_high = third.get();
+  CHECK(planish_pht_fit_points(uv.data(), low.data(), side * side, 3, &cells, &handle, &report) == PLANISH_STATUS_OK);
+  const Surface fourth(handle);
+  CHECK(report.max_side_error <= 1e-12 * report.diagonal && report.max_side_angle <= 1e-10);
+
   planish_surface *surface = sentinel<planish_surface>();
+  options.neighbour_u_low = third.get();
+  CHECK_FAILS(planish_tensor_fit_points(uv.data(), high.data(), side * side, 3, &options, &surface, nullptr),
+              PLANISH_STATUS_INVALID_ARGUMENT, -1, "this smooth");
+  options.neighbour_u_low = first.get();
   options.neighbour_u_high = first.get(); // it lies at the other end
   CHECK_FAILS(planish_tensor_fit_points(uv.data(), high.data(), side * side, 3, &options, &surface, nullptr),
               PLANISH_STATUS_INVALID_ARGUMENT, 1599, "the largest u");

@@ -7,6 +7,7 @@
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepGProp.hxx>
 #include <BRep_Builder.hxx>
@@ -365,6 +366,59 @@ TEST(OcctStep, UntrimmedPatchWithOpenKnots) {
   const TopoDS_Face face = check_file(patch, "patch", PLANISH_UNIT_MILLIMETRE, 1);
   CHECK_EQUAL(hits(face, 25, 25), 1);
   CHECK_EQUAL(count(face, TopAbs_EDGE), 4);
+}
+
+// Two halves of a shell, of which the second takes over the side of the first with its tangent planes: they are sewn
+// without a gap, one file has both as a shell, and no inner edge is free.
+template <class Fit, class Options>
+void check_halves(Fit fit, Options options, const char *name) {
+  std::vector<planish::point2> uv;
+  for (int i = 0; i < 1600; ++i) uv.push_back({i / 40 / 39.0, i % 40 / 39.0});
+  const auto half = [&](double from) {
+    std::vector<double> values;
+    for (const auto &[u, v] : uv) {
+      const double x = from + u;
+      values.insert(values.end(), {100 * x, 100 * v + 10 * x * v, 30 * std::sin(1.7 * x) * (1 + v) + 20 * std::cos(3 * v)});
+    }
+    return values;
+  };
+  options.tolerance = 1e-4;
+  const planish::fitted first = fit(uv, half(0), 3, options);
+  options.neighbour_u_low = first.surface.get();
+  const planish::fitted second = fit(uv, half(1), 3, options);
+  CHECK_EQUAL(second.status, PLANISH_STATUS_OK);
+  CHECK(second.report.max_side_error <= 1e-12 * second.report.diagonal && second.report.max_side_angle <= 1e-10);
+
+  const std::string path = std::string("occt_halves_") + name + ".step";
+  BRepBuilderAPI_Sewing sewing(1e-9 * second.report.diagonal);
+  for (const planish::surface *surface : {&first.surface, &second.surface}) {
+    surface->write_step(path);
+    sewing.Add(read(path));
+  }
+  sewing.Perform();
+  CHECK_EQUAL(count(sewing.SewedShape(), TopAbs_SHELL), 1);
+  CHECK_EQUAL(free_edges(sewing.SewedShape()), 6);
+  CHECK(BRepCheck_Analyzer(sewing.SewedShape()).IsValid());
+
+  if (first.surface.kind() != PLANISH_KIND_TENSOR) return;
+  const planish::smoothed_model both = planish::model_smooth_from_patches({&first.surface, &second.surface});
+  both.model.write_step(path);
+  const TopoDS_Shape shell = read(path);
+  CHECK_EQUAL(count(shell, TopAbs_SHELL), 1);
+  CHECK_EQUAL(count(shell, TopAbs_FACE), 2);
+  CHECK_EQUAL(free_edges(shell), 6);
+  CHECK(BRepCheck_Analyzer(shell).IsValid());
+}
+
+TEST(OcctStep, HalvesOfAShellShareTheirEdge) {
+  auto tensor = planish::defaults<planish_tensor_options>();
+  tensor.buffer = 0; // the side is where the data end
+  const auto tensor_fit = [](const auto &...given) { return planish::tensor_fit_points(given...); };
+  check_halves(tensor_fit, tensor, "adaptive");
+  tensor.knots = PLANISH_KNOTS_UNIFORM;
+  check_halves(tensor_fit, tensor, "uniform");
+  const auto pht_fit = [](const auto &...given) { return planish::pht_fit_points(given...); };
+  check_halves(pht_fit, planish::defaults<planish_pht_options>(), "pht");
 }
 
 TEST(OcctStep, PoleOfASphere) {

@@ -53,6 +53,7 @@ program test_calls
   call scattered_points_are_fitted()
   call fields_are_fitted()
   call single_points_are_obeyed()
+  call sides_are_taken_over()
   call fits_are_heard_and_cancelled()
   call tensor_surfaces_have_parts()
   call values_come_in_columns()
@@ -335,7 +336,7 @@ contains
     type(planish_tensor_options) :: options
     type(planish_fair_options) :: fairness
     type(planish_fit_report) :: report
-    type(planish_fair_report) :: faired
+    type(planish_fair_report) :: faired, near
     real(real64) :: uv(2, 400), values(400)
     real(real64), target :: tolerances(400)
     integer(int32), target :: fixed(2)
@@ -371,9 +372,49 @@ contains
     fairness%tolerance = 2e-2_real64
     call surface%fair(fair, fairness, uv, reshape(values, [1, 400]), faired)
     call check(faired%max_deviation <= 2e-2_real64, "fair near data")
+    fairness%limit = PLANISH_FAIR_LIMIT_TOLERANCE
+    call surface%fair(fair, fairness, uv, reshape(values, [1, 400]), near)
+    call check(near%max_deviation <= 2e-2_real64 .and. near%energy_after <= faired%energy_after, "all of the tolerance")
     call surface%fair(fair, fairness, uv, reshape(values, [1, 399]), stat=stat, errmsg=errmsg)
     call check_fails(stat, errmsg, PLANISH_STATUS_INVALID_ARGUMENT, "the number of values")
   end subroutine
+
+  subroutine sides_are_taken_over()
+    type(planish_surface_t) :: first, second
+    type(planish_tensor_options) :: options
+    type(planish_pht_options) :: cells
+    type(planish_fit_report) :: report
+    real(real64) :: uv(2, 900), low(3, 900), high(3, 900)
+    integer :: i
+    do i = 1, 900
+      uv(:, i) = [(i - 1) / 30, mod(i - 1, 30)] / 29.0_real64
+    end do
+    low = shell(uv(1, :), uv(2, :))
+    high = shell(1 + uv(1, :), uv(2, :))
+    options%tolerance = 1e-4_real64
+    options%buffer = 0
+    call planish_tensor_fit_points(uv, low, first, options, report)
+    options%neighbour_u_low = first%get()
+    call planish_tensor_fit_points(uv, high, second, options, report)
+    call check(report%max_side_error <= 1e-12_real64 * report%diagonal, "a side is taken over")
+    call check(report%max_side_angle <= 1e-10_real64, "with its tangent planes")
+    options%knots = PLANISH_KNOTS_UNIFORM
+    call planish_tensor_fit_points(uv, high, second, options, report)
+    call check(report%max_side_angle <= 1e-10_real64, "over equal cells")
+    cells%tolerance = 1e-4_real64
+    cells%neighbour_u_low = first%get()
+    call planish_pht_fit_points(uv, high, second, cells, report)
+    call check(report%max_side_error <= 1e-12_real64 * report%diagonal, "by a PHT-spline")
+    call check(report%max_side_angle <= 1e-10_real64, "with its tangent planes too")
+  end subroutine
+
+  function shell(x, y) result(points)
+    real(real64), intent(in) :: x(:), y(:)
+    real(real64) :: points(3, size(x))
+    points(1, :) = x
+    points(2, :) = y + 0.1_real64 * x * y
+    points(3, :) = 0.3_real64 * sin(1.7_real64 * x) * (1 + y) + 0.2_real64 * cos(3 * y)
+  end function
 
   subroutine fits_are_heard_and_cancelled()
     type(planish_surface_t) :: surface

@@ -1,7 +1,10 @@
-//! What single data demand of a fit, as the records of options have it.
+//! What single data demand of a fit, and its sides, as the records of options have them.
 
-use super::arguments::{ArgumentError, choice, slice, unused};
-use crate::fit::common::{Demands, Outliers, Plane, Symmetry};
+use super::arguments::{ArgumentError, choice, deref, slice, unused};
+use super::curve::planish_curve;
+use super::surface::planish_surface;
+use crate::fit::common::{Demands, Outliers, Plane, Sides, Symmetry};
+use crate::surface::AnySurface;
 use glam::DVec3;
 
 /// Whether the fit of a mesh's shape is its own mirror image.
@@ -74,4 +77,32 @@ unsafe fn symmetry(given: u32, plane: *const f64) -> Result<Symmetry, ArgumentEr
             Symmetry::About(Plane { point: DVec3::from_slice(plane), normal: DVec3::from_slice(&plane[3..]) })
         }
     })
+}
+
+/// Sides of a surface, as options records have them: those at the least u, the largest u, the least v and the largest v.
+pub(super) struct GivenSides {
+    pub curves: [*const planish_curve; 4],
+    pub neighbours: [*const planish_surface; 4],
+}
+
+impl GivenSides {
+    /// # Safety
+    /// The handles are NULL or those of curves and surfaces that live until the sides are no longer used.
+    pub unsafe fn to_core<'a>(&self) -> Result<Sides<'a>, ArgumentError> {
+        let mut sides = Sides::default();
+        for (given, &at) in sides.curves.iter_mut().zip(&self.curves).filter(|(_, at)| !at.is_null()) {
+            // SAFETY: the caller's promise.
+            *given = Some(unsafe { deref(at, "curve") }?.core());
+        }
+        for (given, &at) in sides.neighbours.iter_mut().zip(&self.neighbours).filter(|(_, at)| !at.is_null())
+        {
+            // SAFETY: the caller's promise.
+            let surface = unsafe { deref(at, "neighbour") }?;
+            *given = Some(match surface.family() {
+                Ok(AnySurface::Pht(pht)) => pht.into(),
+                _ => surface.tensor()?.into(),
+            });
+        }
+        Ok(sides)
+    }
 }

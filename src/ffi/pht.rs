@@ -2,7 +2,8 @@
 
 use super::arguments::{ArgumentError, array_len, choice, copy_rows, deref, flag, options, slice, unused};
 use super::choices::missing;
-use super::demands::{GivenDemands, planish_symmetry};
+use super::curve::planish_curve;
+use super::demands::{GivenDemands, GivenSides, planish_symmetry};
 use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;
 use super::mesh_fields::check_field_count;
@@ -121,6 +122,24 @@ record! {
         /// nobody. Written on success only.
         /// Array: [6].
         pub out_plane: *mut f64,
+        /// The curve that the side at the least u is, exactly; NULL (default) for a free side. Clamped, of degree 3 at most,
+        /// with continuous tangents. Its knots are lines of the first grid.
+        pub curve_u_low: *const planish_curve,
+        /// The curve that the side at the largest u is, exactly; NULL (default) for a free side. As curve_u_low.
+        pub curve_u_high: *const planish_curve,
+        /// The curve that the side at the least v is, exactly; NULL (default) for a free side. As curve_u_low.
+        pub curve_v_low: *const planish_curve,
+        /// The curve that the side at the largest v is, exactly; NULL (default) for a free side. As curve_u_low.
+        pub curve_v_high: *const planish_curve,
+        /// The tensor surface or PHT-spline beyond the side at the least u; NULL (default) for none. Bicubic,
+        /// clamped, without weights: the side takes over its side that lies nearest to the data, and its tangent planes.
+        pub neighbour_u_low: *const planish_surface,
+        /// The tensor surface or PHT-spline beyond the side at the largest u; NULL (default) for none. As neighbour_u_low.
+        pub neighbour_u_high: *const planish_surface,
+        /// The tensor surface or PHT-spline beyond the side at the least v; NULL (default) for none. As neighbour_u_low.
+        pub neighbour_v_low: *const planish_surface,
+        /// The tensor surface or PHT-spline beyond the side at the largest v; NULL (default) for none. As neighbour_u_low.
+        pub neighbour_v_high: *const planish_surface,
     }
 }
 
@@ -146,6 +165,15 @@ impl planish_pht_options {
             symmetry: self.symmetry,
             plane: self.plane,
         };
+        let sides = GivenSides {
+            curves: [self.curve_u_low, self.curve_u_high, self.curve_v_low, self.curve_v_high],
+            neighbours: [
+                self.neighbour_u_low,
+                self.neighbour_u_high,
+                self.neighbour_v_low,
+                self.neighbour_v_high,
+            ],
+        };
         let scales = [ToleranceScale::Relative, ToleranceScale::Absolute];
         let scale = choice(self.tolerance_scale, &scales, "tolerance_scale")?;
         let parameterize = match self.parameterize {
@@ -167,6 +195,8 @@ impl planish_pht_options {
         let estimators = [Estimator::Global, Estimator::LocalQuadratic, Estimator::LocalCubic];
         let regularize = [Regularize::Auto, Regularize::Never, Regularize::Always];
         Ok(PhtOptions {
+            // SAFETY: the caller's promise.
+            sides: unsafe { sides.to_core() }?,
             tolerance: Tolerance { value: self.tolerance, scale },
             estimator: choice(self.estimator, &estimators, "estimator")?,
             smoothing: self.smoothing,

@@ -6,7 +6,7 @@ use super::choices::{
     planish_tensor_method, planish_tolerance_scale,
 };
 use super::curve::planish_curve;
-use super::demands::{GivenDemands, planish_symmetry};
+use super::demands::{GivenDemands, GivenSides, planish_symmetry};
 use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;
 use super::mesh_fields::check_field_count;
@@ -15,13 +15,11 @@ use super::report::{FitOutputs, planish_fit_report};
 use super::surface::planish_surface;
 use super::{planish_parameterize_options, planish_progress, planish_status};
 use crate::Control;
-use crate::curve::Curve;
 use crate::fit::common::{FitError, Regularize};
 use crate::fit::report::{Tolerance, ToleranceScale};
 use crate::fit::tensor::{
-    Ends, Energy, Knots, Method, Sides, TensorFit, TensorOptions, fit_field, fit_mesh, fit_points,
+    Ends, Energy, Knots, Method, TensorFit, TensorOptions, fit_field, fit_mesh, fit_points,
 };
-use crate::surface::tensor::TensorSurface;
 use glam::DVec2;
 use libc::c_void;
 
@@ -124,7 +122,8 @@ record! {
         /// Array: [6].
         pub out_plane: *mut f64,
         /// The curve that the side at the least u is, exactly; NULL (default) for a free side. Clamped, of degree 3 at most,
-        /// without knots of more than one inside. With sides that are given knots are adaptive, and there is no buffer.
+        /// without knots of more than one inside. With sides that are given the surface has their lines among its own, free
+        /// ends and no buffer.
         pub curve_u_low: *const planish_curve,
         /// The curve that the side at the largest u is, exactly; NULL (default) for a free side. As curve_u_low.
         pub curve_u_high: *const planish_curve,
@@ -153,37 +152,6 @@ impl planish_tensor_options {
     }
 
     /// # Safety
-    /// The handles are NULL or those of curves and surfaces that live until the sides are no longer used.
-    unsafe fn sides<'a>(&self) -> Result<Sides<'a>, ArgumentError> {
-        let curve = |at: *const planish_curve| -> Result<Option<&'a Curve>, ArgumentError> {
-            if at.is_null() {
-                Ok(None)
-            } else {
-                // SAFETY: the caller's promise.
-                unsafe { deref(at, "curve") }.map(|curve| Some(curve.core()))
-            }
-        };
-        let surface = |at: *const planish_surface| -> Result<Option<&'a TensorSurface>, ArgumentError> {
-            // SAFETY: the caller's promise.
-            if at.is_null() { Ok(None) } else { unsafe { deref(at, "neighbour") }?.tensor().map(Some) }
-        };
-        Ok(Sides {
-            curves: [
-                curve(self.curve_u_low)?,
-                curve(self.curve_u_high)?,
-                curve(self.curve_v_low)?,
-                curve(self.curve_v_high)?,
-            ],
-            neighbours: [
-                surface(self.neighbour_u_low)?,
-                surface(self.neighbour_u_high)?,
-                surface(self.neighbour_v_low)?,
-                surface(self.neighbour_v_high)?,
-            ],
-        })
-    }
-
-    /// # Safety
     /// The pointers are NULL or as the header says, for `count` data, until the options are no longer used.
     pub(super) unsafe fn to_core<'a>(self, count: usize) -> Result<TensorOptions<'a>, ArgumentError> {
         let demands = GivenDemands {
@@ -207,10 +175,18 @@ impl planish_tensor_options {
             // SAFETY: the caller's promise.
             at => Some(unsafe { slice(at, count, "weights") }?),
         };
-        // SAFETY: the caller's promise.
-        let sides = unsafe { self.sides() }?;
+        let sides = GivenSides {
+            curves: [self.curve_u_low, self.curve_u_high, self.curve_v_low, self.curve_v_high],
+            neighbours: [
+                self.neighbour_u_low,
+                self.neighbour_u_high,
+                self.neighbour_v_low,
+                self.neighbour_v_high,
+            ],
+        };
         Ok(TensorOptions {
-            sides,
+            // SAFETY: the caller's promise.
+            sides: unsafe { sides.to_core() }?,
             tolerance: Tolerance { value: self.tolerance, scale },
             knots: choice(self.knots, &[Knots::Adaptive, Knots::Uniform], "knots")?,
             method: choice(self.method, &[Method::LeastSquares, Method::Ferguson], "method")?,

@@ -11,7 +11,7 @@ use super::Cholesky;
 use std::ops::Range;
 
 /// One condition: a weighed sum of unknowns has a value, in each column of its own.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Condition {
     /// Unknowns and their weights.
     pub terms: Vec<(usize, f64)>,

@@ -111,8 +111,8 @@ pub(crate) struct FitArguments {
     /// Make the surface its own mirror image about a plane: `found`, or a place in it and a normal (tensor, pht).
     #[arg(long, value_name = "found|X,Y,Z,NX,NY,NZ", value_parser = symmetry, allow_hyphen_values = true)]
     symmetry: Option<Symmetry>,
-    /// Take a side over from a saved curve, or from the nearest side of a saved tensor surface with its tangent planes
-    /// (tensor): SIDE is u-low, u-high, v-low or v-high; may be given several times.
+    /// Take a side over from a saved curve, or from the nearest side of a saved surface with its tangent planes
+    /// (tensor, pht): SIDE is u-low, u-high, v-low or v-high; may be given several times.
     #[arg(long, value_name = "SIDE=FILE", value_parser = side)]
     side: Vec<(usize, PathBuf)>,
     #[command(flatten)]
@@ -220,7 +220,6 @@ pub(crate) fn run(arguments: &FitArguments, given: &Given) -> Result<Outcome, Fa
 fn check_used(arguments: &FitArguments, family: FamilyName, given: &Given) -> Result<(), Failure> {
     for (option, owner) in [
         ("max-grid", FamilyName::Tensor),
-        ("side", FamilyName::Tensor),
         ("free-ends", FamilyName::Tensor),
         ("ferguson", FamilyName::Tensor),
         ("control", FamilyName::D1rc),
@@ -239,7 +238,7 @@ fn check_used(arguments: &FitArguments, family: FamilyName, given: &Given) -> Re
     given.refuse("sharp-angle", has_edges, "is used by --family d1rc and --family model only")?;
     given.refuse("sharp-angle", !arguments.smooth, "is not used with --smooth")?;
     let is_free = matches!(family, FamilyName::Tensor | FamilyName::Pht);
-    for option in ["fixed", "tolerances", "outlier-share", "outlier-scale", "symmetry"] {
+    for option in ["fixed", "tolerances", "outlier-share", "outlier-scale", "symmetry", "side"] {
         given.refuse(option, is_free, "is used by --family tensor and --family pht only")?;
     }
     given.refuse("weights", family != FamilyName::Model, "is not used by --family model")?;
@@ -271,7 +270,7 @@ fn fit_by_family(
             Ok(Fit { surface: fit.surface.into(), report, parameters, errors })
         }
         FamilyName::Pht => {
-            let fit = pht::fit_mesh(mesh, &pht_options(arguments, mesh), control)?;
+            let fit = pht::fit_mesh(mesh, &pht_options(arguments, mesh).with_sides(sides(saved)), control)?;
             let (report, parameters, errors) = (fit.report, fit.parameters, fit.errors);
             Ok(Fit { surface: fit.surface.into(), report, parameters, errors })
         }
@@ -323,8 +322,13 @@ fn side(text: &str) -> Result<(usize, PathBuf), String> {
 /// The curves and surfaces that sides are taken from.
 fn saved_sides(arguments: &FitArguments) -> Result<Vec<(usize, Saved)>, Failure> {
     let load = |(side, path): &(usize, PathBuf)| match load_any_file(path)? {
-        saved @ (Saved::Curve(_) | Saved::Surface(AnySurface::Tensor(_))) => Ok((*side, saved)),
-        _ => Err(Failure::new(format!("'{}' holds no curve and no tensor surface", path.display()))),
+        saved @ (Saved::Curve(_) | Saved::Surface(AnySurface::Tensor(_) | AnySurface::Pht(_))) => {
+            Ok((*side, saved))
+        }
+        _ => Err(Failure::new(format!(
+            "'{}' holds no curve, no tensor surface and no PHT-spline",
+            path.display()
+        ))),
     };
     arguments.side.iter().map(load).collect()
 }
@@ -334,7 +338,8 @@ fn sides(saved: &[(usize, Saved)]) -> Sides<'_> {
     for (side, saved) in saved {
         match saved {
             Saved::Curve(curve) => sides.curves[*side] = Some(curve),
-            Saved::Surface(AnySurface::Tensor(surface)) => sides.neighbours[*side] = Some(surface),
+            Saved::Surface(AnySurface::Tensor(surface)) => sides.neighbours[*side] = Some(surface.into()),
+            Saved::Surface(AnySurface::Pht(surface)) => sides.neighbours[*side] = Some(surface.into()),
             _ => {}
         }
     }

@@ -9,6 +9,7 @@ use crate::fit::common::interior::{InteriorErrors, MeshData, Sagittas, heights_o
 use crate::fit::common::neighbours::z_order;
 use crate::fit::common::report::{Goal, Tolerance};
 use crate::fit::common::samples::bulge;
+use crate::fit::common::sides::GivenSide;
 use crate::fit::common::{Demands, FitError, Frame, Standards};
 use crate::geometry::{Bounds, Domain};
 use crate::memory::{self, CollectVec};
@@ -48,6 +49,8 @@ pub(super) struct Data<'a> {
     pub standards: Standards,
     /// Whether the side of the largest u is a mirror.
     pub is_mirrored: bool,
+    /// Sides that are given.
+    pub sides: Vec<GivenSide>,
 }
 
 impl<'a> Data<'a> {
@@ -75,6 +78,7 @@ impl<'a> Data<'a> {
             sagittas: Vec::new(),
             standards: Standards::default(),
             is_mirrored: false,
+            sides: Vec::new(),
             values,
             dim,
             first_uv: memory::copied(&uv),

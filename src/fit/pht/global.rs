@@ -15,7 +15,7 @@ use crate::linalg::{Condition, Conditions, SymbolicCholesky, impose_all};
 use crate::lists::Lists;
 use crate::memory::ParallelCollectVec;
 use crate::surface::pht::{Matrix, expansions};
-use crate::tmesh::{Cell, TMesh, Topology};
+use crate::tmesh::{Cell, TMesh, Topology, Vertex};
 use glam::DVec2;
 use rayon::prelude::*;
 use sprs::CsMat;
@@ -161,14 +161,20 @@ impl<'a> System<'a> {
         }
         known.sums = kept.sums;
         watch.check()?;
-        let matrix = lower_triangle(&self.rows, &blocks);
+        let mut matrix = lower_triangle(&self.rows, &blocks);
+        let pinned = self.pinned(data);
+        pinned.eliminate(&mut matrix, &mut right, n);
         let factor = self.symbolic.factor(&matrix.view()).map_err(|_| FitError::Singular)?;
         factor.solve(&mut right, dim);
+        pinned.impose(&mut right, n);
         let values = (&data.sample_values[..], dim);
-        let conditions = match data.is_mirrored {
+        let mut conditions = match data.is_mirrored {
             true => self.mirror_conditions(dim, data.frame.inward(&vec![0.0; dim])[0]),
             false => data.standards.conditions(&data.uv, values, |uv| self.terms(uv)),
         };
+        for condition in conditions.iter_mut().flat_map(|all| &mut all.conditions) {
+            *condition = pinned.without(std::mem::take(condition));
+        }
         impose_all(&conditions, &factor, &mut right, n);
         watch.check()?;
         Ok(self.jets(&right, dim))
@@ -197,10 +203,7 @@ impl<'a> System<'a> {
     /// The conditions of a mirror along the side of the largest u: the first component is odd across it, the others are
     /// even. `across` is the plane's place in the frame of the data.
     fn mirror_conditions(&self, dim: usize, across: f64) -> Vec<Conditions> {
-        let end = self.mesh.last_vertex().i;
-        let vertex = |rank: &usize| self.topology.vertices[self.topology.basis[*rank] as usize];
-        let on_mirror: Vec<usize> =
-            (0..self.topology.basis.len()).filter(|rank| vertex(rank).i == end).collect();
+        let on_mirror = self.vertices_on(1);
         let hold = |row: usize, value: f64, columns: usize| {
             on_mirror.iter().map(move |rank| Condition {
                 terms: vec![(4 * rank + row, 1.0)],
@@ -214,6 +217,35 @@ impl<'a> System<'a> {
                 conditions: hold(1, 0.0, dim - 1).chain(hold(3, 0.0, dim - 1)).collect(),
             },
         ]
+    }
+
+    /// The basis vertices on a side: that of the least u, the largest u, the least v or the largest v.
+    pub fn vertices_on(&self, side: usize) -> Vec<usize> {
+        let last = self.mesh.last_vertex();
+        let is_on = |&rank: &usize| {
+            let vertex = self.vertex(rank);
+            match side {
+                0 => vertex.i == 0,
+                1 => vertex.i == last.i,
+                2 => vertex.j == 0,
+                _ => vertex.j == last.j,
+            }
+        };
+        (0..self.topology.basis.len()).filter(is_on).collect()
+    }
+
+    fn vertex(&self, rank: usize) -> Vertex {
+        self.topology.vertices[self.topology.basis[rank] as usize]
+    }
+
+    /// The parameters of a basis vertex.
+    pub fn place_of(&self, rank: usize) -> DVec2 {
+        self.mesh.parameters(self.vertex(rank))
+    }
+
+    /// The size of the largest cell at a basis vertex.
+    pub fn size_of(&self, rank: usize) -> DVec2 {
+        self.sizes[rank]
     }
 
     fn jets(&self, unknowns: &[f64], dim: usize) -> Vec<f64> {
@@ -314,7 +346,7 @@ impl<'a> System<'a> {
 }
 
 /// What the four unknowns of a jet are multiplied by.
-fn units(size: DVec2) -> [f64; 4] {
+pub fn units(size: DVec2) -> [f64; 4] {
     [1.0, size.x, size.y, size.x * size.y]
 }
 

@@ -24,6 +24,7 @@ pub(super) fn fit_symmetric(
     options.check()?;
     options.demands.check(mesh.points().len())?;
     check_unused(options.estimator == Estimator::Global, "estimator", BY)?;
+    check_unused(options.sides.are_free(), "sides", BY)?;
     let values: Vec<f64> = mesh.points().iter().flat_map(|p| p.to_array()).collect();
     check_values(mesh.points().len(), &values, 3, options.weights)?;
     let (tolerance, map) = (options.tolerance, options.parameterize.unwrap_or(ParameterizeOptions::TENSOR));

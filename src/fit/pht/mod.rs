@@ -17,6 +17,7 @@ mod local;
 mod mirror;
 mod options;
 mod refine;
+mod sides;
 mod tame;
 #[cfg(test)]
 mod tests;
@@ -149,6 +150,7 @@ fn fit_partial(
 ) -> Result<PhtFit, FitError> {
     const BY: &str = "the fit of data without values at some places";
     check_unused(options.demands == Demands::default(), "what single data demand", BY)?;
+    check_unused(options.sides.are_free(), "sides", BY)?;
     let partial = Partial::of(places, data_box, values, dim, options.weights, options.missing)?;
     partial.fit(|partial| {
         let options = PhtOptions { weights: partial.weights(), ..*options };

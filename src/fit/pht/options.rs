@@ -2,7 +2,7 @@
 
 use crate::fit::common::checks::{check_option, check_smoothing, check_tolerance, check_unused};
 use crate::fit::common::report::Tolerance;
-use crate::fit::common::{Demands, FitError, Missing, Regularize};
+use crate::fit::common::{Demands, FitError, Missing, Regularize, Sides};
 use crate::options::with_fields;
 use crate::parameterize::ParameterizeOptions;
 use crate::tmesh::{MAX_GRID, MAX_LEVEL};
@@ -51,6 +51,8 @@ pub struct PhtOptions<'a> {
     pub weights: Option<&'a [f64]>,
     /// What single data demand.
     pub demands: Demands<'a>,
+    /// Sides that are given, by [`Estimator::Global`]: their lines are among those of the first grid.
+    pub sides: Sides<'a>,
     /// Whether to measure the closest-point distance of the nodes.
     pub measure_distance: bool,
     /// What values of points and fields mean that are NaN.
@@ -73,6 +75,7 @@ impl Default for PhtOptions<'_> {
             parameterize: None,
             weights: None,
             demands: Demands::default(),
+            sides: Sides { curves: [None; 4], neighbours: [None; 4] },
             measure_distance: false,
             missing: Missing::default(),
         }
@@ -94,6 +97,7 @@ impl<'a> PhtOptions<'a> {
         with_parameterize parameterize: Option<ParameterizeOptions>,
         with_weights weights: Option<&'a [f64]>,
         with_demands demands: Demands<'a>,
+        with_sides sides: Sides<'a>,
         with_measure_distance measure_distance: bool,
         with_missing missing: Missing,
     }
@@ -103,6 +107,7 @@ impl<'a> PhtOptions<'a> {
         check_smoothing(self.smoothing, true)?;
         if self.estimator != Estimator::Global {
             check_unused(self.demands.fixed.is_empty(), "fixed", "local estimators")?;
+            check_unused(self.sides.are_free(), "sides", "local estimators")?;
         }
         for count in self.initial_grid {
             let holds = (1..=MAX_GRID).contains(&count);

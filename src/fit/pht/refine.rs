@@ -9,6 +9,7 @@ use crate::fit::common::errors::{DataErrors, max_distance};
 use crate::fit::common::foot_points::{self, LONGEST_STEP, hold_back};
 use crate::fit::common::report::{FitReport, Goal, Remarks, StopReason};
 use crate::fit::common::rounds::{self, Next, Outcome, Rounds, Standing};
+use crate::fit::common::sides::{side_deviation, side_lines, with_side_lines};
 use crate::fit::common::trims;
 use crate::fit::common::uniform::energy::FreeFunctions;
 use crate::memory;
@@ -128,12 +129,16 @@ impl<'a> Refinement<'a> {
                 .map(|k| if k == count { to } else { from + (to - from) * k as f64 / count as f64 })
                 .collect()
         };
-        let [count_u, count_v] = options.initial_grid;
-        let mesh = TMesh::new(&breaks(min.x, max.x, count_u), &breaks(min.y, max.y, count_v));
-        // the box has a range, but no room for more lines than it has roundings
-        let mesh = mesh.map_err(|_| FitError::DegenerateRange { axis: 'u', at: min.x })?;
         let goal = Goal::new(&options.tolerance, &data.bounds);
         data.demand(&options.demands, &options.tolerance, &goal)?;
+        data.give_sides(&options.sides, &goal)?;
+        let [count_u, count_v] = options.initial_grid;
+        let [lines_u, lines_v] = side_lines(&data.sides);
+        let breaks_u = with_side_lines(breaks(min.x, max.x, count_u), &lines_u);
+        let breaks_v = with_side_lines(breaks(min.y, max.y, count_v), &lines_v);
+        // the box has a range, but no room for more lines than it has roundings
+        let mesh = TMesh::new(&breaks_u, &breaks_v)
+            .map_err(|_| FitError::DegenerateRange { axis: 'u', at: min.x })?;
         let known = KnownSums::new(!data.is_shape);
         let (smoothing, noise) = (options.smoothing, NoiseTest::default());
         Ok(Self { data, options, mesh, known, smoothing, goal, noise })
@@ -273,6 +278,7 @@ impl<'a> Refinement<'a> {
             report.max_distance = max_distance(&surface, &data.values, &data.uv, pool);
         }
         data.standards.report(&errors.each, &mut report);
+        [report.max_side_error, report.max_side_angle] = side_deviation((&surface).into(), &data.sides);
         if let Some(interior) = data.interior_errors(&surface, pool) {
             report.add_interior(&interior);
         }

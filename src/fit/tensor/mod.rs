@@ -21,8 +21,8 @@ mod single_grid;
 mod tame;
 
 pub use super::common::uniform::{Ends, Energy, Method, SMOOTHING_LADDER};
+pub use super::common::{Neighbour, Sides};
 pub use options::{Knots, TensorOptions};
-pub use sides::Sides;
 
 use super::common::checks::{check_parameters, check_unused, check_values};
 use super::common::errors::{DataErrors, data_errors};
@@ -30,6 +30,7 @@ use super::common::neighbours::triangles_between;
 use super::common::outliers::{self, Cloud};
 use super::common::partial::{self, is_on_triangles, is_partial};
 use super::common::report::{FitReport, Goal};
+use super::common::sides::{GivenSide, SideJoints, SideMeasure};
 use super::common::uniform::normal_equations::TensorBasis;
 use super::common::{
     Demands, FitError, Frame, Outliers, Partial, Standards, Symmetry, Used, node_parameters,
@@ -43,7 +44,6 @@ use crate::surface::tensor::TensorSurface;
 use crate::surface::{Domain, Region, Surface};
 use glam::DVec2;
 use lines::Lines;
-use sides::GivenSide;
 use std::borrow::Cow;
 use std::time::Instant;
 
@@ -270,8 +270,9 @@ impl<'a> Problem<'a> {
         let energy = options.energy.determining(&uv, &data_box)?;
         let goal = Goal::new(&options.tolerance, &bounds);
         let standards = Standards::new(&options.demands, &options.tolerance, &goal, &uv, (values, dim))?;
-        let measure = (goal.tolerance, goal.diagonal);
-        let sides = GivenSide::all(&options.sides, &data_box, &uv, (values, dim), measure)?;
+        let measure = SideMeasure { tolerance: goal.tolerance, diagonal: goal.diagonal };
+        let data = (values, dim);
+        let sides = GivenSide::all(&options.sides, &data_box, &uv, data, SideJoints::Curvature, measure)?;
         Ok(Self {
             weights: standards.weights(options.weights),
             goal,
@@ -303,15 +304,20 @@ impl<'a> Problem<'a> {
             true => mirror::conditions(basis, dim, self.frame.inward(&vec![0.0; dim])[0]),
             false => {
                 let mut all = self.standards.conditions(&self.uv, (values, dim), |uv| basis.terms(uv));
-                let sides = self.side_conditions(basis);
+                let conditions = self.side_conditions(basis);
                 match all.first_mut() {
-                    Some(fixed) => fixed.conditions.extend(sides),
-                    None if sides.is_empty() => {}
-                    None => all.push(Conditions { columns: 0..dim, conditions: sides }),
+                    Some(fixed) => fixed.conditions.extend(conditions),
+                    None if conditions.is_empty() => {}
+                    None => all.push(Conditions { columns: 0..dim, conditions }),
                 }
                 all
             }
         }
+    }
+
+    /// Whether the ends of the surface are bound by sides.
+    fn has_bound_ends(&self) -> bool {
+        !self.sides.is_empty()
     }
 
     fn region(&self) -> Region {

@@ -56,7 +56,7 @@ pub struct TensorOptions<'a> {
     pub weights: Option<&'a [f64]>,
     /// What single data demand.
     pub demands: Demands<'a>,
-    /// Sides that are given, over adaptive knots and without a buffer.
+    /// Sides that are given: their lines are among those of the surface, whose ends are free and without a buffer.
     pub sides: Sides<'a>,
     /// Whether to measure the closest-point distance of the nodes.
     pub measure_distance: bool,
@@ -129,9 +129,7 @@ impl<'a> TensorOptions<'a> {
         }
         if !self.sides.are_free() {
             const BY: &str = "a fit with given sides";
-            check_unused(self.knots == Knots::Adaptive, "knots", BY)?;
             check_unused(self.method == Method::default(), "method", BY)?;
-            check_unused(self.fixed_grid.is_none(), "grid", BY)?;
             check_unused(self.demands.symmetry == Symmetry::None, "symmetry", BY)?;
         }
         check_grid(self.fixed_grid.into_iter().flatten())

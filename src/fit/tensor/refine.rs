@@ -7,6 +7,7 @@ use crate::fit::common::errors::max_distance;
 use crate::fit::common::foot_points::{LONGEST_STEP, foot_points, hold_back};
 use crate::fit::common::report::{FitReport, Remarks, StopReason};
 use crate::fit::common::rounds::{self, Next, Rounds, Standing};
+use crate::fit::common::sides::side_deviation;
 use crate::fit::common::trims;
 use crate::surface::Surface;
 use crate::surface::tensor::{Axis, TensorSurface};
@@ -234,7 +235,7 @@ impl Problem<'_> {
             ..FitReport::new(&best.errors, &self.goal, stop, passes)
         };
         self.standards.report(&best.errors.each, &mut report);
-        [report.max_side_error, report.max_side_angle] = self.side_deviation(&best.surface);
+        [report.max_side_error, report.max_side_angle] = side_deviation((&best.surface).into(), &self.sides);
         report.add_interior(&self.interior_errors(&best.surface, control.pool()));
         report.remarks.add_if(self.energy != self.options.energy, Remarks::PLATE_ENERGY_USED);
         report.remarks.add_if(empty_cell_count > 0, Remarks::EMPTY_CELLS);

@@ -8,6 +8,7 @@
 //! ```
 
 mod buffer;
+mod equal;
 mod insert;
 mod net;
 mod predict;
@@ -19,6 +20,7 @@ use super::single_grid::Fitted;
 use super::{FitError, Knots, Method, Problem, TensorFit};
 use crate::control::Control;
 use crate::fit::common::report::StopReason;
+use crate::fit::common::sides::{side_lines, with_side_lines};
 use crate::geometry::Bounds;
 use crate::memory;
 use crate::surface::Surface;
@@ -53,7 +55,7 @@ impl Problem<'_> {
     pub(super) fn fit_any(self, control: &mut Control) -> Result<TensorFit, FitError> {
         let options = self.options;
         let is_uniform = !self.is_mirrored
-            && self.sides.is_empty()
+            && !self.has_bound_ends()
             && (options.knots == Knots::Uniform
                 || options.method == Method::Ferguson
                 || options.fixed_grid.is_some()
@@ -62,7 +64,7 @@ impl Problem<'_> {
         if is_uniform {
             return self.run(control);
         }
-        if self.is_mirrored || !self.sides.is_empty() {
+        if self.is_mirrored || self.has_bound_ends() {
             let freed = self.fit_freely(control)?;
             return Ok(self.finish_freed(freed, control));
         }
@@ -86,7 +88,7 @@ impl Problem<'_> {
         let coefficient_count = freed.net.coefficient_count();
         let Net { surface, smoothing, .. } = freed.net;
         let bounds = Bounds::of_rows(self.values, self.dim);
-        let buffer = if self.sides.is_empty() { options.buffer } else { 0.0 };
+        let buffer = if self.has_bound_ends() { 0.0 } else { options.buffer };
         let mut surface = with_buffer(surface, buffer, &bounds);
         *surface.region_mut() = self.region();
         let errors = self.errors(&surface, control.pool());
@@ -97,7 +99,11 @@ impl Problem<'_> {
     /// Fits over free knots.
     fn fit_freely(&self, control: &mut Control) -> Result<Freed, FitError> {
         let mut fitter = control.watch(|_, watch| NetFitter::new(self, watch))?;
-        let Growth { mut net, stop, mut rounds } = self.grow_best(&fitter, control)?;
+        let is_equal = self.has_equal_cells();
+        let Growth { mut net, stop, mut rounds } = match is_equal {
+            true => self.grow_equal(&fitter, control)?,
+            false => self.grow_best(&fitter, control)?,
+        };
         if stop != StopReason::ToleranceMet {
             if fitter.withholds() {
                 fitter.use_all_data();
@@ -108,6 +114,9 @@ impl Problem<'_> {
             return Ok(Freed { net: fitter.tamed(net, control)?, stop, rounds });
         }
         net = fitter.tamed(net, control)?;
+        if is_equal {
+            return Ok(Freed { net, stop, rounds });
+        }
         let (least, most, coefficients) = SOLVES;
         let most = (least + net.coefficient_count() / coefficients).min(most);
         let (mut thin, solves) = fitter.thin(net.clone(), most, None, control)?;
@@ -138,7 +147,7 @@ impl Problem<'_> {
         let fits =
             |start: usize, limit: usize| (start + 3) * (start + 3) <= limit && start < self.options.max_grid;
         // a plain shape needs no more than one cell
-        let mut best = fitter.try_one_cell(self.start(1)?, control)?;
+        let mut best = fitter.try_one_cell(self.lines([1, 1])?, control)?;
         let is_plain = best.stop == StopReason::ToleranceMet && !fitter.is_wild(&best.net, control.pool());
         if is_plain || !fits(STARTS[0], limit) {
             return Ok(best);
@@ -149,7 +158,7 @@ impl Problem<'_> {
             if !fits(start, limit) {
                 continue;
             }
-            let growth = fitter.grow(self.start(start)?, limit, control)?;
+            let growth = fitter.grow(self.lines([start, start])?, limit, control)?;
             rounds += growth.rounds;
             let is_met = growth.stop == StopReason::ToleranceMet;
             if k == 0 || is_met {
@@ -162,13 +171,20 @@ impl Problem<'_> {
         Ok(Growth { rounds, ..best })
     }
 
-    /// Equal cells over the box of the data.
-    fn start(&self, count: usize) -> Result<[Lines; 2], FitError> {
+    /// Whether cells are to be equal although the ends of the surface are bound.
+    fn has_equal_cells(&self) -> bool {
+        let options = self.options;
+        self.has_bound_ends() && (options.knots == Knots::Uniform || options.fixed_grid.is_some())
+    }
+
+    /// Equal cells over the box of the data, with the lines that sides need.
+    fn lines(&self, counts: [usize; 2]) -> Result<[Lines; 2], FitError> {
         let (min, max) = (self.data_box.min, self.data_box.max);
+        let needed = side_lines(&self.sides);
         let lines = |axis: usize| {
             let degenerate = |_| FitError::DegenerateRange { axis: ['u', 'v'][axis], at: min[axis] };
-            let equal = Lines::uniform(min[axis], max[axis], count).map_err(degenerate)?;
-            Lines::new(self.with_side_lines(equal.breaks().to_vec(), axis)).map_err(degenerate)
+            let equal = Lines::uniform(min[axis], max[axis], counts[axis]).map_err(degenerate)?;
+            Lines::new(with_side_lines(equal.breaks().to_vec(), &needed[axis])).map_err(degenerate)
         };
         Ok([lines(0)?, lines(1)?])
     }

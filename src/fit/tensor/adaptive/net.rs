@@ -123,7 +123,7 @@ pub(super) struct NetEquations {
 impl<'a> NetFitter<'a> {
     pub(super) fn new(problem: &'a Problem<'a>, watch: &Watch) -> Self {
         let count = problem.uv.len();
-        let withholds = problem.mesh.is_none() && count >= LEAST_TO_WITHHOLD;
+        let withholds = problem.mesh.is_none() && count >= LEAST_TO_WITHHOLD && !problem.has_equal_cells();
         let is_withheld = |datum: usize| withholds && scramble(datum).is_multiple_of(WITHHOLD_EVERY);
         let weight = |datum: usize| match &problem.weights {
             _ if is_withheld(datum) => 0.0,

@@ -8,6 +8,7 @@ use super::super::FitError;
 use super::super::lines::Lines;
 use super::net::{Net, NetFitter};
 use crate::control::Control;
+use crate::fit::common::sides::side_lines;
 use crate::fit::common::uniform::grid::Direction;
 use crate::memory;
 
@@ -44,7 +45,7 @@ impl NetFitter<'_> {
         mut factors: Option<&mut Vec<f64>>,
         control: &mut Control,
     ) -> Result<(Net, usize), FitError> {
-        let mut kept: [Vec<f64>; 2] = self.problem.side_lines();
+        let mut kept: [Vec<f64>; 2] = side_lines(&self.problem.sides);
         let mut share = FIRST_SHARE;
         let mut solves = 0;
         while solves < most {
