@@ -277,6 +277,13 @@ module planish_records
   integer(c_int32_t), parameter, public :: PLANISH_KEPT_BORDER_POSITION = 1 !! Its place
   integer(c_int32_t), parameter, public :: PLANISH_KEPT_BORDER_TANGENT = 2 !! Its place and its tangent planes
 
+  !> How far the energy of a surface is lowered where there are data.
+  !> Until the surface tells each datum best from the others (generalized cross-validation): noise goes, and what is
+  !> no noise stays
+  integer(c_int32_t), parameter, public :: PLANISH_FAIR_LIMIT_NOISE = 0
+  !> As far as the tolerance lets it: what is narrower than that allows is flattened too
+  integer(c_int32_t), parameter, public :: PLANISH_FAIR_LIMIT_TOLERANCE = 1
+
   !> What a VTK file holds of a surface.
   !> Triangles of the part inside the trims, or of deviation_from
   integer(c_int32_t), parameter, public :: PLANISH_VTK_CONTENT_TRIANGLES = 0
@@ -749,7 +756,7 @@ module planish_records
 
   !> Options of tensor fits.
   type, bind(c), public :: planish_tensor_options
-    integer(c_size_t) :: struct_size = 24 * word + 96
+    integer(c_size_t) :: struct_size = 24 * word + 112
     !> The largest error allowed at the data, positive, measured in tolerance_scale
     real(c_double) :: tolerance = 1e-3_c_double
     !> Weight of the bending energy; 0 (default) finds one: of uniform knots the largest of 1e-3, 1e-4, 1e-5, 1e-6
@@ -829,6 +836,10 @@ module planish_records
     type(c_ptr) :: neighbour_v_low = c_null_ptr
     !> The tensor surface beyond the side at the largest v; NULL (default) for none
     type(c_ptr) :: neighbour_v_high = c_null_ptr
+    !> The period of a surface that closes along u: after so much of it the surface goes on as it began, with slope
+    !> and curvature
+    real(c_double) :: period_u = 0
+    real(c_double) :: period_v = 0 !! The same along v
   end type
 
   !> How fields are fitted.
@@ -1099,7 +1110,8 @@ module planish_records
     integer(c_int32_t) :: tolerance_scale = PLANISH_TOLERANCE_SCALE_RELATIVE
     integer(c_int32_t) :: energy = PLANISH_FAIRNESS_THIN_PLATE !! A planish_fairness
     integer(c_int32_t) :: border = PLANISH_KEPT_BORDER_NONE !! A planish_kept_border
-    integer(c_int32_t) :: reserved = 0
+    !> A planish_fair_limit, for data; without data the energy is lowered as far as the tolerance lets it
+    integer(c_int32_t) :: limit = PLANISH_FAIR_LIMIT_NOISE
   end type
 
   !> What fairing did.
@@ -1488,7 +1500,7 @@ module planish_records
 
   !> Options of PHT fits.
   type, bind(c), public :: planish_pht_options
-    integer(c_size_t) :: struct_size = 16 * word + 88
+    integer(c_size_t) :: struct_size = 24 * word + 88
     !> The largest error allowed at the data, positive, measured in tolerance_scale
     real(c_double) :: tolerance = 1e-3_c_double
     !> Weight of the bending energy of each cell, mapped to the unit cell; lowered where cells cannot be split any
@@ -1545,6 +1557,22 @@ module planish_records
     !> Receives a place in the plane of symmetry and its unit normal, if symmetry was asked for; NULL (default) for
     !> nobody
     type(c_ptr) :: out_plane = c_null_ptr
+    !> The curve that the side at the least u is, exactly; NULL (default) for a free side
+    type(c_ptr) :: curve_u_low = c_null_ptr
+    !> The curve that the side at the largest u is, exactly; NULL (default) for a free side
+    type(c_ptr) :: curve_u_high = c_null_ptr
+    !> The curve that the side at the least v is, exactly; NULL (default) for a free side
+    type(c_ptr) :: curve_v_low = c_null_ptr
+    !> The curve that the side at the largest v is, exactly; NULL (default) for a free side
+    type(c_ptr) :: curve_v_high = c_null_ptr
+    !> The tensor surface or PHT-spline beyond the side at the least u; NULL (default) for none
+    type(c_ptr) :: neighbour_u_low = c_null_ptr
+    !> The tensor surface or PHT-spline beyond the side at the largest u; NULL (default) for none
+    type(c_ptr) :: neighbour_u_high = c_null_ptr
+    !> The tensor surface or PHT-spline beyond the side at the least v; NULL (default) for none
+    type(c_ptr) :: neighbour_v_low = c_null_ptr
+    !> The tensor surface or PHT-spline beyond the side at the largest v; NULL (default) for none
+    type(c_ptr) :: neighbour_v_high = c_null_ptr
   end type
 
   !> How a PHT-spline is simplified.

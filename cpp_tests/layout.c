@@ -283,7 +283,9 @@ FOLLOWS(planish_tensor_options, curve_v_high, neighbour_u_low);
 FOLLOWS(planish_tensor_options, neighbour_u_low, neighbour_u_high);
 FOLLOWS(planish_tensor_options, neighbour_u_high, neighbour_v_low);
 FOLLOWS(planish_tensor_options, neighbour_v_low, neighbour_v_high);
-LAST(planish_tensor_options, neighbour_v_high);
+FOLLOWS(planish_tensor_options, neighbour_v_high, period_u);
+FOLLOWS(planish_tensor_options, period_u, period_v);
+LAST(planish_tensor_options, period_v);
 
 FIRST(planish_field_options);
 FOLLOWS(planish_field_options, struct_size, tolerance);
@@ -467,8 +469,8 @@ FOLLOWS(planish_fair_options, cancel, out_stage);
 FOLLOWS(planish_fair_options, out_stage, tolerance_scale);
 FOLLOWS(planish_fair_options, tolerance_scale, energy);
 FOLLOWS(planish_fair_options, energy, border);
-FOLLOWS(planish_fair_options, border, reserved);
-LAST(planish_fair_options, reserved);
+FOLLOWS(planish_fair_options, border, limit);
+LAST(planish_fair_options, limit);
 
 FIRST(planish_fair_report);
 FOLLOWS(planish_fair_report, struct_size, energy_before);
@@ -765,7 +767,15 @@ FOLLOWS(planish_pht_options, outlier_share, outlier_scale);
 FOLLOWS(planish_pht_options, outlier_scale, fixed_count);
 FOLLOWS(planish_pht_options, fixed_count, plane);
 FOLLOWS(planish_pht_options, plane, out_plane);
-LAST(planish_pht_options, out_plane);
+FOLLOWS(planish_pht_options, out_plane, curve_u_low);
+FOLLOWS(planish_pht_options, curve_u_low, curve_u_high);
+FOLLOWS(planish_pht_options, curve_u_high, curve_v_low);
+FOLLOWS(planish_pht_options, curve_v_low, curve_v_high);
+FOLLOWS(planish_pht_options, curve_v_high, neighbour_u_low);
+FOLLOWS(planish_pht_options, neighbour_u_low, neighbour_u_high);
+FOLLOWS(planish_pht_options, neighbour_u_high, neighbour_v_low);
+FOLLOWS(planish_pht_options, neighbour_v_low, neighbour_v_high);
+LAST(planish_pht_options, neighbour_v_high);
 
 FIRST(planish_pht_simplify_options);
 FOLLOWS(planish_pht_simplify_options, struct_size, progress);

@@ -600,6 +600,40 @@ TEST(Sides, AreTakenOverFromANeighbour) {
   CHECK(surface == sentinel<planish_surface>());
 }
 
+TEST(Periods, CloseASurface) {
+  const std::size_t count = 2000;
+  const double tau = 8 * std::atan(1);
+  std::vector<double> uv, values;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double u = tau * std::fmod(0.754877666 * double(k), 1), v = std::fmod(0.569840291 * double(k), 1);
+    uv.insert(uv.end(), {u, v});
+    values.insert(values.end(), {(2 + v) * std::cos(u), (2 + v) * std::sin(u), 3 * v});
+  }
+  planish_tensor_options options = tensor_options();
+  options.tolerance = 1e-4;
+  options.period_u = tau;
+  planish_surface *handle = nullptr;
+  planish_fit_report report = fresh<planish_fit_report>();
+  CHECK(planish_tensor_fit_points(uv.data(), values.data(), count, 3, &options, &handle, &report) == PLANISH_STATUS_OK);
+  const Surface tube(handle);
+  CHECK(planish_surface_is_closed(tube.get(), PLANISH_AXIS_U) == 1);
+  double domain[4];
+  CHECK(planish_surface_domain(tube.get(), domain) == PLANISH_STATUS_OK);
+  const double begin[] = {domain[0], 0.37}, end[] = {domain[1], 0.37};
+  double a[18], b[18];
+  CHECK(planish_surface_eval_derivatives(tube.get(), begin, 1, 2, nullptr, a) == PLANISH_STATUS_OK);
+  CHECK(planish_surface_eval_derivatives(tube.get(), end, 1, 2, nullptr, b) == PLANISH_STATUS_OK);
+  for (int k = 0; k < 18; ++k) CHECK_NEAR(a[k], b[k], k < 3 ? 1e-12 * report.diagonal : 1e-8 * report.diagonal);
+  planish_surface *surface = sentinel<planish_surface>();
+  options.period_u = 3;
+  CHECK_FAILS(planish_tensor_fit_points(uv.data(), values.data(), count, 3, &options, &surface, nullptr),
+              PLANISH_STATUS_INVALID_ARGUMENT, -1, "period_u is 3");
+  options.period_u = std::nan("");
+  CHECK_FAILS(planish_tensor_fit_points(uv.data(), values.data(), count, 3, &options, &surface, nullptr),
+              PLANISH_STATUS_INVALID_ARGUMENT, -1, "period_u");
+  CHECK(surface == sentinel<planish_surface>());
+}
+
 TEST(Fairness, LowersTheEnergyWithinTheTolerance) {
   const arrays all = shapes::graph(30, 30, 0.2, 4);
   const Mesh mesh = make(all, true);

@@ -724,6 +724,21 @@ typedef enum planish_kept_border {
 } planish_kept_border;
 
 /**
+ * How far the energy of a surface is lowered where there are data.
+ */
+typedef enum planish_fair_limit {
+    /**
+     * Until the surface tells each datum best from the others (generalized cross-validation): noise goes, and what is no
+     * noise stays.
+     */
+    PLANISH_FAIR_LIMIT_NOISE = 0,
+    /**
+     * As far as the tolerance lets it: what is narrower than that allows is flattened too.
+     */
+    PLANISH_FAIR_LIMIT_TOLERANCE = 1,
+} planish_fair_limit;
+
+/**
  * What a VTK file holds of a surface.
  */
 typedef enum planish_vtk_content {
@@ -2095,7 +2110,8 @@ typedef struct planish_tensor_options {
     double *out_plane;
     /**
      * The curve that the side at the least u is, exactly; NULL (default) for a free side. Clamped, of degree 3 at most,
-     * without knots of more than one inside. With sides that are given knots are adaptive, and there is no buffer.
+     * without knots of more than one inside. With sides that are given the surface has their lines among its own, free
+     * ends and no buffer.
      */
     const struct planish_curve *curve_u_low;
     /**
@@ -2127,6 +2143,16 @@ typedef struct planish_tensor_options {
      * The tensor surface beyond the side at the largest v; NULL (default) for none. As neighbour_u_low.
      */
     const struct planish_surface *neighbour_v_high;
+    /**
+     * The period of a surface that closes along u: after so much of it the surface goes on as it began, with slope and
+     * curvature. For points; at least the range of their u. 0 (default) for an open surface. Ends are free, and there is
+     * no buffer.
+     */
+    double period_u;
+    /**
+     * The same along v. Default 0.
+     */
+    double period_v;
 } planish_tensor_options;
 
 /**
@@ -2986,8 +3012,8 @@ typedef struct planish_fair_options {
      */
     size_t struct_size;
     /**
-     * How far the surface may come to lie from itself, or from the data, positive, measured in tolerance_scale. All of
-     * it is used where that lowers the energy: much more than the noise flattens ridges too. Default 1e-3.
+     * How far the surface may come to lie from itself, or from the data, positive, measured in tolerance_scale.
+     * Default 1e-3.
      */
     double tolerance;
     /**
@@ -3021,9 +3047,10 @@ typedef struct planish_fair_options {
      */
     uint32_t border;
     /**
-     * 0.
+     * A planish_fair_limit, for data; without data the energy is lowered as far as the tolerance lets it. Default
+     * PLANISH_FAIR_LIMIT_NOISE.
      */
-    uint32_t reserved;
+    uint32_t limit;
 } planish_fair_options;
 
 /**
@@ -4254,6 +4281,40 @@ typedef struct planish_pht_options {
      * Array: [6].
      */
     double *out_plane;
+    /**
+     * The curve that the side at the least u is, exactly; NULL (default) for a free side. Clamped, of degree 3 at most,
+     * with continuous tangents. Its knots are lines of the first grid.
+     */
+    const struct planish_curve *curve_u_low;
+    /**
+     * The curve that the side at the largest u is, exactly; NULL (default) for a free side. As curve_u_low.
+     */
+    const struct planish_curve *curve_u_high;
+    /**
+     * The curve that the side at the least v is, exactly; NULL (default) for a free side. As curve_u_low.
+     */
+    const struct planish_curve *curve_v_low;
+    /**
+     * The curve that the side at the largest v is, exactly; NULL (default) for a free side. As curve_u_low.
+     */
+    const struct planish_curve *curve_v_high;
+    /**
+     * The tensor surface or PHT-spline beyond the side at the least u; NULL (default) for none. Bicubic,
+     * clamped, without weights: the side takes over its side that lies nearest to the data, and its tangent planes.
+     */
+    const struct planish_surface *neighbour_u_low;
+    /**
+     * The tensor surface or PHT-spline beyond the side at the largest u; NULL (default) for none. As neighbour_u_low.
+     */
+    const struct planish_surface *neighbour_u_high;
+    /**
+     * The tensor surface or PHT-spline beyond the side at the least v; NULL (default) for none. As neighbour_u_low.
+     */
+    const struct planish_surface *neighbour_v_low;
+    /**
+     * The tensor surface or PHT-spline beyond the side at the largest v; NULL (default) for none. As neighbour_u_low.
+     */
+    const struct planish_surface *neighbour_v_high;
 } planish_pht_options;
 
 /**

@@ -191,6 +191,10 @@ ENUMERATIONS = {
         "position": 1,
         "tangent": 2,
     },
+    "planish_fair_limit": {
+        "noise": 0,
+        "tolerance": 1,
+    },
     "planish_vtk_content": {
         "triangles": 0,
         "patches": 1,
@@ -729,6 +733,8 @@ class planish_tensor_options(Structure):
         ("neighbour_u_high", c_void_p),
         ("neighbour_v_low", c_void_p),
         ("neighbour_v_high", c_void_p),
+        ("period_u", c_double),
+        ("period_v", c_double),
     ]
     choices = {
         "out_stage": "planish_stage",
@@ -1078,13 +1084,14 @@ class planish_fair_options(Structure):
         ("tolerance_scale", c_uint32),
         ("energy", c_uint32),
         ("border", c_uint32),
-        ("reserved", c_uint32),
+        ("limit", c_uint32),
     ]
     choices = {
         "out_stage": "planish_stage",
         "tolerance_scale": "planish_tolerance_scale",
         "energy": "planish_fairness",
         "border": "planish_kept_border",
+        "limit": "planish_fair_limit",
     }
     elements = {
         "out_stage": c_uint32,
@@ -1555,6 +1562,14 @@ class planish_pht_options(Structure):
         ("fixed_count", c_size_t),
         ("plane", c_void_p),
         ("out_plane", c_void_p),
+        ("curve_u_low", c_void_p),
+        ("curve_u_high", c_void_p),
+        ("curve_v_low", c_void_p),
+        ("curve_v_high", c_void_p),
+        ("neighbour_u_low", c_void_p),
+        ("neighbour_u_high", c_void_p),
+        ("neighbour_v_low", c_void_p),
+        ("neighbour_v_high", c_void_p),
     ]
     choices = {
         "out_stage": "planish_stage",
@@ -1727,7 +1742,7 @@ SIZES = {
     planish_eval_options: 40,
     planish_patch: 72,
     planish_convert_options: 48,
-    planish_tensor_options: 288,
+    planish_tensor_options: 304,
     planish_field_options: 128,
     planish_gradient_options: 24,
     planish_smooth_options: 88,
@@ -1757,7 +1772,7 @@ SIZES = {
     planish_interpolate_options: 24,
     planish_skin_report: 112,
     planish_skin_options: 168,
-    planish_pht_options: 216,
+    planish_pht_options: 280,
     planish_pht_simplify_options: 40,
     planish_pht_convert_options: 64,
     planish_pht_patches_options: 48,

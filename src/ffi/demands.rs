@@ -88,7 +88,7 @@ pub(super) struct GivenSides {
 impl GivenSides {
     /// # Safety
     /// The handles are NULL or those of curves and surfaces that live until the sides are no longer used.
-    pub unsafe fn to_core<'a>(&self) -> Result<Sides<'a>, ArgumentError> {
+    pub(super) unsafe fn to_core<'a>(&self) -> Result<Sides<'a>, ArgumentError> {
         let mut sides = Sides::default();
         for (given, &at) in sides.curves.iter_mut().zip(&self.curves).filter(|(_, at)| !at.is_null()) {
             // SAFETY: the caller's promise.

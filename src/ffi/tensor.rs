@@ -140,6 +140,12 @@ record! {
         pub neighbour_v_low: *const planish_surface,
         /// The tensor surface beyond the side at the largest v; NULL (default) for none. As neighbour_u_low.
         pub neighbour_v_high: *const planish_surface,
+        /// The period of a surface that closes along u: after so much of it the surface goes on as it began, with slope and
+        /// curvature. For points; at least the range of their u. 0 (default) for an open surface. Ends are free, and there is
+        /// no buffer.
+        pub period_u: f64,
+        /// The same along v. Default 0.
+        pub period_v: f64,
     }
 }
 
@@ -185,6 +191,7 @@ impl planish_tensor_options {
             ],
         };
         Ok(TensorOptions {
+            periods: [self.period_u, self.period_v],
             // SAFETY: the caller's promise.
             sides: unsafe { sides.to_core() }?,
             tolerance: Tolerance { value: self.tolerance, scale },

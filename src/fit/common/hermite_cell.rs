@@ -78,11 +78,11 @@ impl CellSums {
 }
 
 /// Rows and columns of parts of a cell that a membrane can be in.
-pub const PARTS: usize = 4;
+pub(crate) const PARTS: usize = 4;
 
 /// A membrane in parts of a cell.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Membrane {
+pub(crate) struct Membrane {
     /// Weight of its energy.
     pub weight: f64,
     /// Bit `PARTS * i + j` for the part of column `i` along u and row `j` along v.
@@ -91,7 +91,7 @@ pub struct Membrane {
 
 impl Membrane {
     /// All of the cell.
-    pub const WHOLE: u16 = u16::MAX;
+    pub(crate) const WHOLE: u16 = u16::MAX;
 }
 
 /// The integral of `f_xx^2 + 2 f_xy^2 + f_yy^2` over the unit cell.

@@ -78,7 +78,7 @@ const NEAR_SIDE: f64 = 0.15;
 
 /// How smooth the curves of sides must be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SideJoints {
+pub(crate) enum SideJoints {
     /// Their curvature is continuous: knots inside are single.
     Curvature,
     /// Their tangents are: knots inside are double at most.
@@ -103,7 +103,7 @@ impl SideJoints {
 
 /// What sides are measured by, in model units.
 #[derive(Debug, Clone, Copy)]
-pub struct SideMeasure {
+pub(crate) struct SideMeasure {
     /// How far curves may lie off the data.
     pub tolerance: f64,
     /// Of the data.
@@ -112,7 +112,7 @@ pub struct SideMeasure {
 
 /// A side that is given, in model units, over the range of the data.
 #[derive(Debug, Clone)]
-pub struct GivenSide {
+pub(crate) struct GivenSide {
     /// Its place among those at the least u, the largest u, the least v and the largest v.
     pub side: usize,
     /// Cubic.
@@ -123,7 +123,7 @@ pub struct GivenSide {
 
 impl GivenSide {
     /// The sides that are given, made ready for the data.
-    pub fn all(
+    pub(crate) fn all(
         sides: &Sides,
         data_box: &Domain,
         uv: &[DVec2],
@@ -148,12 +148,12 @@ impl GivenSide {
     }
 
     /// The direction across the side: 0 along u.
-    pub fn across_axis(&self) -> usize {
+    pub(crate) fn across_axis(&self) -> usize {
         self.side / 2
     }
 
     /// Whether it is at the largest parameter.
-    pub fn is_end(&self) -> bool {
+    pub(crate) fn is_end(&self) -> bool {
         self.side % 2 == 1
     }
 }
@@ -306,7 +306,7 @@ fn check_neighbour(neighbour: Neighbour) -> Result<(), &'static str> {
 }
 
 /// The curve of a side of a surface, and the derivative across it, out of the surface.
-pub fn side_of(neighbour: Neighbour, side: usize) -> Option<(Curve, Curve)> {
+pub(crate) fn side_of(neighbour: Neighbour, side: usize) -> Option<(Curve, Curve)> {
     match neighbour {
         Neighbour::Tensor(surface) => side_of_tensor(surface, side),
         Neighbour::Pht(surface) => side_of_pht(surface, side),
@@ -424,7 +424,7 @@ fn check_corners(all: &[GivenSide], dim: usize, exact: f64) -> Result<(), FitErr
 }
 
 /// The lines that sides need along u and v.
-pub fn side_lines(sides: &[GivenSide]) -> [Vec<f64>; 2] {
+pub(crate) fn side_lines(sides: &[GivenSide]) -> [Vec<f64>; 2] {
     [0, 1].map(|axis| {
         let sides = sides.iter().filter(|side| side.across_axis() != axis);
         let mut lines: Vec<f64> = sides.flat_map(|side| side.curve.knots().breaks()).collect();
@@ -435,7 +435,7 @@ pub fn side_lines(sides: &[GivenSide]) -> [Vec<f64>; 2] {
 }
 
 /// Lines to start from, with those that sides need.
-pub fn with_side_lines(start: Vec<f64>, needed: &[f64]) -> Vec<f64> {
+pub(crate) fn with_side_lines(start: Vec<f64>, needed: &[f64]) -> Vec<f64> {
     if needed.is_empty() {
         return start;
     }
@@ -447,7 +447,7 @@ pub fn with_side_lines(start: Vec<f64>, needed: &[f64]) -> Vec<f64> {
 }
 
 /// Largest distance of a surface to the curves of its sides, and largest angle to the planes of its neighbours.
-pub fn side_deviation(surface: Neighbour, sides: &[GivenSide]) -> [f64; 2] {
+pub(crate) fn side_deviation(surface: Neighbour, sides: &[GivenSide]) -> [f64; 2] {
     const SAMPLES: usize = 200;
     let (mut distance, mut angle) = (0.0_f64, 0.0_f64);
     for side in sides {

@@ -18,7 +18,7 @@ const BESIDE: [f64; 2] = [-0.5, 0.5];
 
 impl Problem<'_> {
     /// The displacement towards the surface that tells each datum best from the others, as far as the tolerance lets it.
-    pub fn lower_to_noise(
+    pub(crate) fn lower_to_noise(
         &self,
         report: &mut FairReport,
         control: &mut Control,

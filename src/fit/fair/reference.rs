@@ -100,7 +100,7 @@ impl<'a> Reference<'a> {
     }
 
     /// The right-hand side that rows of `width` numbers make, one for each datum.
-    pub fn pull_of(&self, rows: &[f64], width: usize) -> Vec<f64> {
+    pub(crate) fn pull_of(&self, rows: &[f64], width: usize) -> Vec<f64> {
         let mut pull = vec![0.0; self.space.count() * width];
         let Some(data) = &self.data else { return pull };
         for ((&cell, shares), row) in data.cells.iter().zip(&data.shares).zip(rows.chunks_exact(width)) {
@@ -114,7 +114,7 @@ impl<'a> Reference<'a> {
 
     /// The sum of the products of rows of `width` numbers, one for each datum, with the values there of such rows for the
     /// control points.
-    pub fn product(&self, points: &[f64], rows: &[f64], width: usize) -> f64 {
+    pub(crate) fn product(&self, points: &[f64], rows: &[f64], width: usize) -> f64 {
         let pull = self.pull_of(rows, width);
         pull.iter().zip(points).map(|(a, b)| a * b).sum()
     }

@@ -220,7 +220,7 @@ impl<'a> System<'a> {
     }
 
     /// The basis vertices on a side: that of the least u, the largest u, the least v or the largest v.
-    pub fn vertices_on(&self, side: usize) -> Vec<usize> {
+    pub(crate) fn vertices_on(&self, side: usize) -> Vec<usize> {
         let last = self.mesh.last_vertex();
         let is_on = |&rank: &usize| {
             let vertex = self.vertex(rank);
@@ -239,12 +239,12 @@ impl<'a> System<'a> {
     }
 
     /// The parameters of a basis vertex.
-    pub fn place_of(&self, rank: usize) -> DVec2 {
+    pub(crate) fn place_of(&self, rank: usize) -> DVec2 {
         self.mesh.parameters(self.vertex(rank))
     }
 
     /// The size of the largest cell at a basis vertex.
-    pub fn size_of(&self, rank: usize) -> DVec2 {
+    pub(crate) fn size_of(&self, rank: usize) -> DVec2 {
         self.sizes[rank]
     }
 
@@ -346,7 +346,7 @@ impl<'a> System<'a> {
 }
 
 /// What the four unknowns of a jet are multiplied by.
-pub fn units(size: DVec2) -> [f64; 4] {
+pub(crate) fn units(size: DVec2) -> [f64; 4] {
     [1.0, size.x, size.y, size.x * size.y]
 }
 

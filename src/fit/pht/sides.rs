@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 
 impl Data<'_> {
     /// Takes over the sides that are given.
-    pub fn give_sides(&mut self, sides: &Sides, goal: &Goal) -> Result<(), FitError> {
+    pub(crate) fn give_sides(&mut self, sides: &Sides, goal: &Goal) -> Result<(), FitError> {
         let measure = SideMeasure { tolerance: goal.tolerance, diagonal: goal.diagonal };
         let data = (&self.values[..], self.dim);
         let all = GivenSide::all(sides, &self.data_box, &self.uv, data, SideJoints::Tangent, measure);
@@ -33,11 +33,11 @@ impl Data<'_> {
 
 /// Unknowns that do not vary, and what they are in each column.
 #[derive(Default)]
-pub struct Pinned(BTreeMap<usize, Vec<f64>>);
+pub(crate) struct Pinned(BTreeMap<usize, Vec<f64>>);
 
 impl System<'_> {
     /// The unknowns that the sides determine. In a corner the first side has its way.
-    pub fn pinned(&self, data: &Data) -> Pinned {
+    pub(crate) fn pinned(&self, data: &Data) -> Pinned {
         let mut pinned = Pinned::default();
         for side in &data.sides {
             for rank in self.vertices_on(side.side) {
@@ -79,7 +79,7 @@ fn value_and_slope(curve: &Curve, t: f64) -> [Vec<f64>; 2] {
 impl Pinned {
     /// Takes the unknowns out of a system, the lower triangle of its matrix in columns and columns of right-hand sides of
     /// length `n`: what they add goes to the right, and their own rows become what they are.
-    pub fn eliminate(&self, matrix: &mut CsMat<f64>, right: &mut [f64], n: usize) {
+    pub(crate) fn eliminate(&self, matrix: &mut CsMat<f64>, right: &mut [f64], n: usize) {
         if self.0.is_empty() {
             return;
         }
@@ -108,14 +108,14 @@ impl Pinned {
     }
 
     /// The unknowns to the bit, in a solution.
-    pub fn impose(&self, solution: &mut [f64], n: usize) {
+    pub(crate) fn impose(&self, solution: &mut [f64], n: usize) {
         for (&unknown, values) in &self.0 {
             values.iter().enumerate().for_each(|(k, &x)| solution[k * n + unknown] = x);
         }
     }
 
     /// A condition on the other unknowns.
-    pub fn without(&self, condition: Condition) -> Condition {
+    pub(crate) fn without(&self, condition: Condition) -> Condition {
         let mut values = condition.values;
         let mut terms = condition.terms;
         terms.retain(|(unknown, weight)| match self.0.get(unknown) {

@@ -11,6 +11,7 @@
 //! ```
 
 mod adaptive;
+mod closing;
 mod lines;
 mod measure;
 mod mirror;
@@ -99,6 +100,7 @@ pub fn fit_field(
 ) -> Result<TensorFit, FitError> {
     if dim > 0 && (is_partial(values, options.missing) || is_on_triangles(mesh, values.len() / dim)) {
         options.check()?;
+        check_unused(!options.closes(), "periods", "the fit over a mesh")?;
         let map =
             |control: &mut Control| node_parameters(mesh, &options.parameterize, options.regularize, control);
         return partial::fit_on_mesh(mesh, values.len() / dim, control, map, |places, data_box, control| {
@@ -157,7 +159,7 @@ fn fit_partial(
         let options = TensorOptions { weights: partial.weights(), ..*options };
         check(&partial.uv, &partial.values, dim, &options)?;
         let problem = Problem::new(partial.uv.clone(), &partial.values, dim, None, &options)?;
-        Problem { data_box: partial.data_box, ..problem }.fit_any(control)
+        Problem { data_box: options.whole_box(partial.data_box)?, ..problem }.fit_any(control)
     })
 }
 
@@ -179,6 +181,7 @@ fn fit_on_mesh(
         return Ok(fit);
     }
     let start = Instant::now();
+    check_unused(!options.closes(), "periods", "the fit over a mesh")?;
     if options.demands.symmetry != Symmetry::None {
         check_unused(is_shape, "symmetry", "the fit of a field")?;
         let mut fit = mirror::fit_symmetric(mesh, options, control)?;
@@ -266,7 +269,7 @@ impl<'a> Problem<'a> {
         options: &'a TensorOptions<'a>,
     ) -> Result<Self, FitError> {
         let bounds = Bounds::of_rows(values, dim);
-        let data_box = Domain::around(uv.iter().copied());
+        let data_box = options.whole_box(Domain::around(uv.iter().copied()))?;
         let energy = options.energy.determining(&uv, &data_box)?;
         let goal = Goal::new(&options.tolerance, &bounds);
         let standards = Standards::new(&options.demands, &options.tolerance, &goal, &uv, (values, dim))?;
@@ -304,7 +307,8 @@ impl<'a> Problem<'a> {
             true => mirror::conditions(basis, dim, self.frame.inward(&vec![0.0; dim])[0]),
             false => {
                 let mut all = self.standards.conditions(&self.uv, (values, dim), |uv| basis.terms(uv));
-                let conditions = self.side_conditions(basis);
+                let mut conditions = self.side_conditions(basis);
+                conditions.extend(self.closing_conditions(basis));
                 match all.first_mut() {
                     Some(fixed) => fixed.conditions.extend(conditions),
                     None if conditions.is_empty() => {}
@@ -315,9 +319,9 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Whether the ends of the surface are bound by sides.
+    /// Whether the ends of the surface are bound: by sides, or because it closes.
     fn has_bound_ends(&self) -> bool {
-        !self.sides.is_empty()
+        !self.sides.is_empty() || self.options.closes()
     }
 
     fn region(&self) -> Region {

@@ -58,6 +58,9 @@ pub struct TensorOptions<'a> {
     pub demands: Demands<'a>,
     /// Sides that are given: their lines are among those of the surface, whose ends are free and without a buffer.
     pub sides: Sides<'a>,
+    /// Periods of surfaces that close, along u and v, for points: after so much of a parameter they go on as they began, with
+    /// slope and curvature; at least the range of the data, 0 for open. Ends are free and without a buffer.
+    pub periods: [f64; 2],
     /// Whether to measure the closest-point distance of the nodes.
     pub measure_distance: bool,
     /// What values of points and fields mean that are NaN.
@@ -83,6 +86,7 @@ impl Default for TensorOptions<'_> {
             weights: None,
             demands: Demands::default(),
             sides: Sides { curves: [None; 4], neighbours: [None; 4] },
+            periods: [0.0; 2],
             measure_distance: false,
             missing: Missing::default(),
         }
@@ -107,6 +111,7 @@ impl<'a> TensorOptions<'a> {
         with_weights weights: Option<&'a [f64]>,
         with_demands demands: Demands<'a>,
         with_sides sides: Sides<'a>,
+        with_periods periods: [f64; 2],
         with_measure_distance measure_distance: bool,
         with_missing missing: Missing,
     }
@@ -126,6 +131,14 @@ impl<'a> TensorOptions<'a> {
             check_unused(self.demands.fixed.is_empty(), "fixed", BY)?;
             check_unused(self.demands.outliers == Outliers::None, "outliers", BY)?;
             check_unused(self.demands.tolerances.is_none(), "tolerances", BY)?;
+        }
+        for (period, name) in self.periods.into_iter().zip(["period_u", "period_v"]) {
+            check_option(period >= 0.0 && period.is_finite(), name, period, "finite and not negative")?;
+        }
+        if self.closes() {
+            const BY: &str = "the fit of a surface that closes";
+            check_unused(self.method == Method::default(), "method", BY)?;
+            check_unused(self.sides.are_free(), "sides", BY)?;
         }
         if !self.sides.are_free() {
             const BY: &str = "a fit with given sides";

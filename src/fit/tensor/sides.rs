@@ -17,7 +17,7 @@ use crate::linalg::Condition;
 
 impl Problem<'_> {
     /// The conditions of all sides that are given.
-    pub fn side_conditions(&self, basis: &TensorBasis<Lines>) -> Vec<Condition> {
+    pub(crate) fn side_conditions(&self, basis: &TensorBasis<Lines>) -> Vec<Condition> {
         self.sides.iter().flat_map(|side| self.conditions_of(side, basis)).collect()
     }
 

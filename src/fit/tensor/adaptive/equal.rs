@@ -15,7 +15,7 @@ const WORTH_CALMING: f64 = 1.1;
 
 impl Problem<'_> {
     /// The first net of equal cells that meets the tolerance, or the best.
-    pub fn grow_equal(&self, fitter: &NetFitter, control: &mut Control) -> Result<Growth, FitError> {
+    pub(super) fn grow_equal(&self, fitter: &NetFitter, control: &mut Control) -> Result<Growth, FitError> {
         let mut counts = self.options.fixed_grid.unwrap_or(FIRST_GRID).map(|knots| knots - 1);
         let mut net = fitter.fit_calmest(self.lines(counts)?, control)?;
         let mut best: Option<Net> = None;

@@ -39,7 +39,7 @@ struct Mark {
 
 impl NetFitter<'_> {
     /// The smoothings to try: the one that was asked for, or the first and the last.
-    pub fn smoothings(&self) -> (f64, f64) {
+    pub(super) fn smoothings(&self) -> (f64, f64) {
         match self.problem.options.smoothing {
             0.0 => (FIRST_SMOOTHING, LAST_SMOOTHING),
             asked => (asked, asked),
@@ -96,7 +96,7 @@ impl NetFitter<'_> {
     }
 
     /// Keeps the net that is better at the data and between them.
-    pub fn keep_better(&self, best: &mut Option<Net>, mut net: Net, pool: &Pool) {
+    pub(super) fn keep_better(&self, best: &mut Option<Net>, mut net: Net, pool: &Pool) {
         if let Some(best) = best {
             if net.errors.demand >= best.merit() {
                 return;
