@@ -378,6 +378,12 @@ module planish_records
   !> A weighted cubic fit around each vertex: no system to solve, for very large data
   integer(c_int32_t), parameter, public :: PLANISH_PHT_ESTIMATOR_LOCAL_CUBIC = 2
 
+  !> Whether a PHT fit merges cells again as long as the tolerance is met, at the cost of up to 40 further fits.
+  !> Where the surface has two continuous derivatives
+  integer(c_int32_t), parameter, public :: PLANISH_COARSENING_AUTO = 0
+  integer(c_int32_t), parameter, public :: PLANISH_COARSENING_ON = 1 !! Yes
+  integer(c_int32_t), parameter, public :: PLANISH_COARSENING_OFF = 2 !! No
+
   !> An edge of a surface's domain.
   integer(c_int32_t), parameter, public :: PLANISH_BORDER_SIDE_LOW_U = 0 !! Least u
   integer(c_int32_t), parameter, public :: PLANISH_BORDER_SIDE_HIGH_U = 1 !! Largest u
@@ -669,7 +675,7 @@ module planish_records
 
   !> What a fit did and how good it is.
   type, bind(c), public :: planish_fit_report
-    integer(c_size_t) :: struct_size = 10 * word + 160
+    integer(c_size_t) :: struct_size = 11 * word + 160
     !> Largest distance between a datum and the surface at the datum's (u,v): what the tolerance bounds
     real(c_double) :: max_error = 0
     real(c_double) :: rms_error = 0 !! Square root of the mean of its square
@@ -711,6 +717,9 @@ module planish_records
     !> Largest angle between the tangent planes of the surface and those of its neighbours along such sides, in
     !> radians
     real(c_double) :: max_side_angle = 0
+    !> Unknowns before cells were merged again, as coarsening asks; that of coefficient_count where none were, 0 for a
+    !> fit without cells
+    integer(c_size_t) :: refined_coefficient_count = 0
   end type
 
   !> How points are evaluated.
@@ -1500,7 +1509,7 @@ module planish_records
 
   !> Options of PHT fits.
   type, bind(c), public :: planish_pht_options
-    integer(c_size_t) :: struct_size = 24 * word + 88
+    integer(c_size_t) :: struct_size = 24 * word + 96
     !> The largest error allowed at the data, positive, measured in tolerance_scale
     real(c_double) :: tolerance = 1e-3_c_double
     !> Weight of the bending energy of each cell, mapped to the unit cell; lowered where cells cannot be split any
@@ -1573,6 +1582,8 @@ module planish_records
     type(c_ptr) :: neighbour_v_low = c_null_ptr
     !> The tensor surface or PHT-spline beyond the side at the largest v; NULL (default) for none
     type(c_ptr) :: neighbour_v_high = c_null_ptr
+    integer(c_int32_t) :: continuity = 1 !! Continuous derivatives of the surface: 1 (default), or 2
+    integer(c_int32_t) :: coarsening = PLANISH_COARSENING_AUTO !! A planish_coarsening
   end type
 
   !> How a PHT-spline is simplified.

@@ -209,7 +209,8 @@ FOLLOWS(planish_fit_report, max_tolerance_share, left_out_count);
 FOLLOWS(planish_fit_report, left_out_count, mirror_distance);
 FOLLOWS(planish_fit_report, mirror_distance, max_side_error);
 FOLLOWS(planish_fit_report, max_side_error, max_side_angle);
-LAST(planish_fit_report, max_side_angle);
+FOLLOWS(planish_fit_report, max_side_angle, refined_coefficient_count);
+LAST(planish_fit_report, refined_coefficient_count);
 
 FIRST(planish_eval_options);
 FOLLOWS(planish_eval_options, struct_size, uv_stride);
@@ -775,7 +776,9 @@ FOLLOWS(planish_pht_options, curve_v_high, neighbour_u_low);
 FOLLOWS(planish_pht_options, neighbour_u_low, neighbour_u_high);
 FOLLOWS(planish_pht_options, neighbour_u_high, neighbour_v_low);
 FOLLOWS(planish_pht_options, neighbour_v_low, neighbour_v_high);
-LAST(planish_pht_options, neighbour_v_high);
+FOLLOWS(planish_pht_options, neighbour_v_high, continuity);
+FOLLOWS(planish_pht_options, continuity, coarsening);
+LAST(planish_pht_options, coarsening);
 
 FIRST(planish_pht_simplify_options);
 FOLLOWS(planish_pht_simplify_options, struct_size, progress);

@@ -193,6 +193,36 @@ TEST(PhtFit, KeepsTheTolerance) {
   }
 }
 
+TEST(PhtFit, TwoContinuousDerivativesTakeFewerCoefficients) {
+  const shapes::arrays all = shapes::graph(60, 60, 0.2, 21);
+  std::vector<double> heights;
+  for (std::size_t i = 0; i < all.point_count(); ++i) heights.push_back(all.points[3 * i + 2]);
+  auto options = planish::defaults<planish_pht_options>();
+  options.tolerance = 1e-4;
+  const auto once = planish::pht_fit_points(all.uv, heights, 1, options);
+  options.continuity = 2;
+  const auto twice = planish::pht_fit_points(all.uv, heights, 1, options);
+  CHECK(twice.status == PLANISH_STATUS_OK && twice.report.max_error <= twice.report.tolerance);
+  CHECK(twice.report.coefficient_count < once.report.coefficient_count);
+  CHECK(twice.report.coefficient_count <= twice.report.refined_coefficient_count);
+  CHECK_EQUAL(twice.surface.coefficient_count(), twice.report.coefficient_count);
+  CHECK_EQUAL(twice.surface.kind(), static_cast<std::uint32_t>(PLANISH_KIND_PHT));
+  // it comes back to the bit, with as many coefficients
+  const auto bytes = twice.surface.save();
+  const planish::surface loaded = planish::surface::load(bytes);
+  CHECK(loaded.save() == bytes);
+  CHECK_EQUAL(loaded.coefficient_count(), twice.surface.coefficient_count());
+  CHECK_EQUAL(value(loaded, 0.3, 0.6), value(twice.surface, 0.3, 0.6));
+  options.continuity = 3;
+  CHECK(thrown([&] { planish::pht_fit_points(all.uv, heights, 1, options); }) == PLANISH_STATUS_INVALID_ARGUMENT);
+  options.continuity = 1;
+  options.coarsening = PLANISH_COARSENING_ON;
+  const auto coarse = planish::pht_fit_points(all.uv, heights, 1, options);
+  CHECK(coarse.status == PLANISH_STATUS_OK && coarse.report.max_error <= coarse.report.tolerance);
+  CHECK(coarse.report.coefficient_count <= coarse.report.refined_coefficient_count);
+  CHECK_EQUAL(coarse.report.refined_coefficient_count, once.report.coefficient_count);
+}
+
 TEST(PhtFit, SaysWhenTheLimitIsReached) {
   const shapes::arrays all = shapes::graph(40, 40, 0.2, 12);
   std::vector<double> heights;

@@ -991,6 +991,24 @@ typedef enum planish_pht_estimator {
 } planish_pht_estimator;
 
 /**
+ * Whether a PHT fit merges cells again as long as the tolerance is met, at the cost of up to 40 further fits.
+ */
+typedef enum planish_coarsening {
+    /**
+     * Where the surface has two continuous derivatives.
+     */
+    PLANISH_COARSENING_AUTO = 0,
+    /**
+     * Yes.
+     */
+    PLANISH_COARSENING_ON = 1,
+    /**
+     * No.
+     */
+    PLANISH_COARSENING_OFF = 2,
+} planish_coarsening;
+
+/**
  * An edge of a surface's domain.
  */
 typedef enum planish_border_side {
@@ -2292,6 +2310,11 @@ typedef struct planish_fit_report {
      * radians.
      */
     double max_side_angle;
+    /**
+     * Unknowns before cells were merged again, as coarsening asks; that of coefficient_count where none were, 0 for a
+     * fit without cells.
+     */
+    size_t refined_coefficient_count;
 } planish_fit_report;
 
 /**
@@ -4315,6 +4338,18 @@ typedef struct planish_pht_options {
      * The tensor surface or PHT-spline beyond the side at the largest v; NULL (default) for none. As neighbour_u_low.
      */
     const struct planish_surface *neighbour_v_high;
+    /**
+     * Continuous derivatives of the surface: 1 (default), or 2. With 2 it is a truncated hierarchical B-spline, with
+     * fewest coefficients; estimator must be PLANISH_PHT_ESTIMATOR_GLOBAL, symmetry PLANISH_SYMMETRY_NONE and all sides
+     * free, grade is not looked at, several initial grids are tried unless grid_u or grid_v is given, smoothing weighs one plate
+     * over the whole surface, 1e-8 of it against the mean square error, and parameters are corrected by a fit with
+     * one continuous derivative that comes first.
+     */
+    uint32_t continuity;
+    /**
+     * A planish_coarsening. Default PLANISH_COARSENING_AUTO.
+     */
+    uint32_t coarsening;
 } planish_pht_options;
 
 /**

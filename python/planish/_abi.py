@@ -264,6 +264,11 @@ ENUMERATIONS = {
         "local_quadratic": 1,
         "local_cubic": 2,
     },
+    "planish_coarsening": {
+        "auto": 0,
+        "on": 1,
+        "off": 2,
+    },
     "planish_border_side": {
         "low_u": 0,
         "high_u": 1,
@@ -620,6 +625,7 @@ class planish_fit_report(Structure):
         ("mirror_distance", c_double),
         ("max_side_error", c_double),
         ("max_side_angle", c_double),
+        ("refined_coefficient_count", c_size_t),
     ]
     choices = {
         "stop_reason": "planish_stop_reason",
@@ -1570,6 +1576,8 @@ class planish_pht_options(Structure):
         ("neighbour_u_high", c_void_p),
         ("neighbour_v_low", c_void_p),
         ("neighbour_v_high", c_void_p),
+        ("continuity", c_uint32),
+        ("coarsening", c_uint32),
     ]
     choices = {
         "out_stage": "planish_stage",
@@ -1578,6 +1586,7 @@ class planish_pht_options(Structure):
         "regularize": "planish_regularize",
         "symmetry": "planish_symmetry",
         "missing": "planish_missing",
+        "coarsening": "planish_coarsening",
     }
     elements = {
         "weights": c_double,
@@ -1738,7 +1747,7 @@ SIZES = {
     planish_layout_options: 16,
     planish_mesh_layout_options: 56,
     planish_mesh_layout_report: 72,
-    planish_fit_report: 240,
+    planish_fit_report: 248,
     planish_eval_options: 40,
     planish_patch: 72,
     planish_convert_options: 48,
@@ -1772,7 +1781,7 @@ SIZES = {
     planish_interpolate_options: 24,
     planish_skin_report: 112,
     planish_skin_options: 168,
-    planish_pht_options: 280,
+    planish_pht_options: 288,
     planish_pht_simplify_options: 40,
     planish_pht_convert_options: 64,
     planish_pht_patches_options: 48,
@@ -2255,6 +2264,7 @@ class ReportFields:
     piece_count: int
     pole_count: int
     prolonged_edge_count: int
+    refined_coefficient_count: int
     remarks: frozenset[str]
     removed_knot_count: int
     rms_deviation: float

@@ -25,6 +25,8 @@ pub(super) enum ArgumentError {
     Choice { name: &'static str, given: u32, largest: u32 },
     #[error("{name} is {given}, the largest is {largest}")]
     Limit { name: &'static str, given: usize, largest: usize },
+    #[error("continuity is {given}, it must be 1 or 2")]
+    Continuity { given: u32 },
     #[error("cannot tell the format of '{path}', known are .off, .obj, .ply, .stl")]
     NoMeshFormat { path: String },
     #[error("repair is {given}, no choice has the bits beyond {largest}")]

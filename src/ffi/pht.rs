@@ -13,7 +13,9 @@ use super::surface::planish_surface;
 use super::{planish_parameterize_options, planish_progress, planish_status};
 use crate::Control;
 use crate::fit::common::{FitError, Regularize};
-use crate::fit::pht::{Estimator, PhtFit, PhtOptions, fit_field, fit_mesh, fit_points};
+use crate::fit::pht::{
+    Coarsening, Continuity, Estimator, PhtFit, PhtOptions, fit_field, fit_mesh, fit_points,
+};
 use crate::fit::report::{Tolerance, ToleranceScale};
 use glam::DVec2;
 use libc::c_void;
@@ -28,6 +30,18 @@ pub enum planish_pht_estimator {
     LocalQuadratic = 1,
     /// A weighted cubic fit around each vertex: no system to solve, for very large data.
     LocalCubic = 2,
+}
+
+/// Whether a PHT fit merges cells again as long as the tolerance is met, at the cost of up to 40 further fits.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum planish_coarsening {
+    /// Where the surface has two continuous derivatives.
+    Auto = 0,
+    /// Yes.
+    On = 1,
+    /// No.
+    Off = 2,
 }
 
 record! {
@@ -140,6 +154,14 @@ record! {
         pub neighbour_v_low: *const planish_surface,
         /// The tensor surface or PHT-spline beyond the side at the largest v; NULL (default) for none. As neighbour_u_low.
         pub neighbour_v_high: *const planish_surface,
+        /// Continuous derivatives of the surface: 1 (default), or 2. With 2 it is a truncated hierarchical B-spline, with
+        /// fewest coefficients; estimator must be PLANISH_PHT_ESTIMATOR_GLOBAL, symmetry PLANISH_SYMMETRY_NONE and all sides
+        /// free, grade is not looked at, several initial grids are tried unless grid_u or grid_v is given, smoothing weighs one plate
+        /// over the whole surface, 1e-8 of it against the mean square error, and parameters are corrected by a fit with
+        /// one continuous derivative that comes first.
+        pub continuity: u32 = 1,
+        /// A planish_coarsening. Default PLANISH_COARSENING_AUTO.
+        pub coarsening: u32 = planish_coarsening::Auto as u32,
     }
 }
 
@@ -192,12 +214,20 @@ impl planish_pht_options {
             // SAFETY: the caller's promise.
             at => Some(unsafe { slice(at, count, "weights") }?),
         };
+        let continuity = match self.continuity {
+            1 => Continuity::C1,
+            2 => Continuity::C2,
+            given => return Err(ArgumentError::Continuity { given }),
+        };
+        let coarsening = [Coarsening::Auto, Coarsening::On, Coarsening::Off];
         let estimators = [Estimator::Global, Estimator::LocalQuadratic, Estimator::LocalCubic];
         let regularize = [Regularize::Auto, Regularize::Never, Regularize::Always];
         Ok(PhtOptions {
             // SAFETY: the caller's promise.
             sides: unsafe { sides.to_core() }?,
             tolerance: Tolerance { value: self.tolerance, scale },
+            continuity,
+            coarsening: choice(self.coarsening, &coarsening, "coarsening")?,
             estimator: choice(self.estimator, &estimators, "estimator")?,
             smoothing: self.smoothing,
             initial_grid: [self.grid_u as usize, self.grid_v as usize],

@@ -145,6 +145,9 @@ record! {
         /// Largest angle between the tangent planes of the surface and those of its neighbours along such sides, in
         /// radians.
         pub max_side_angle: f64,
+        /// Unknowns before cells were merged again, as coarsening asks; that of coefficient_count where none were, 0 for a
+        /// fit without cells.
+        pub refined_coefficient_count: usize,
     }
 }
 
@@ -183,6 +186,7 @@ impl From<&FitReport> for planish_fit_report {
             mirror_distance: report.mirror_distance,
             max_side_error: report.max_side_error,
             max_side_angle: report.max_side_angle,
+            refined_coefficient_count: report.refined_coefficient_count,
         }
     }
 }

@@ -10,7 +10,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use planish::export::native::{Saved, load_any_file};
 use planish::fit::common::{Demands, Outliers, Plane, Regularize, Symmetry};
 use planish::fit::d1rc::{self, D1rcFitOptions};
-use planish::fit::pht::{self, PhtOptions};
+use planish::fit::pht::{self, Coarsening, Continuity, PhtOptions};
 use planish::fit::report::{FitReport, Remarks, StopReason, Tolerance, ToleranceScale};
 use planish::fit::tensor::{self, Ends, Knots, Method, Sides, TensorOptions};
 use planish::mesh::{Mesh, MeshRepairs};
@@ -65,6 +65,13 @@ pub(crate) struct FitArguments {
     /// Where the knot lines of a tensor surface stand.
     #[arg(long, value_enum, default_value_t = KnotsName::Adaptive)]
     knots: KnotsName,
+    /// Continuous derivatives of a surface with cells: 1, or 2, which takes the fewest coefficients (pht).
+    #[arg(long, default_value_t = 1, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=2))]
+    continuity: u32,
+    /// Merge cells again as long as the tolerance is met, or not; auto does where the surface has two continuous
+    /// derivatives (pht).
+    #[arg(long, value_enum, default_value_t = CoarseningName::Auto)]
+    coarsening: CoarseningName,
     /// Weight of the bending energy; 0 finds one.
     #[arg(long, default_value_t = 0.0, value_name = "MU", allow_negative_numbers = true)]
     pub smoothing: f64,
@@ -168,6 +175,13 @@ enum KnotsName {
     Uniform,
 }
 
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum CoarseningName {
+    Auto,
+    On,
+    Off,
+}
+
 pub(crate) fn run(arguments: &FitArguments, given: &Given) -> Result<Outcome, Failure> {
     output::check_names(&arguments.out)?;
     arguments.picture.iter().try_for_each(|path| output::check_name(path, output::PICTURES))?;
@@ -219,6 +233,8 @@ pub(crate) fn run(arguments: &FitArguments, given: &Given) -> Result<Outcome, Fa
 /// Refuses what the family or the method would not look at.
 fn check_used(arguments: &FitArguments, family: FamilyName, given: &Given) -> Result<(), Failure> {
     for (option, owner) in [
+        ("continuity", FamilyName::Pht),
+        ("coarsening", FamilyName::Pht),
         ("max-grid", FamilyName::Tensor),
         ("free-ends", FamilyName::Tensor),
         ("ferguson", FamilyName::Tensor),
@@ -400,6 +416,12 @@ fn pht_options<'a>(arguments: &'a FitArguments, mesh: &'a Mesh) -> PhtOptions<'a
     let is_asked = !matches!(arguments.border, BorderName::Auto);
     PhtOptions {
         tolerance: tolerance(arguments),
+        continuity: if arguments.continuity == 2 { Continuity::C2 } else { Continuity::C1 },
+        coarsening: match arguments.coarsening {
+            CoarseningName::Auto => Coarsening::Auto,
+            CoarseningName::On => Coarsening::On,
+            CoarseningName::Off => Coarsening::Off,
+        },
         smoothing: if arguments.smoothing > 0.0 { arguments.smoothing } else { defaults.smoothing },
         correction_sweeps: arguments.sweeps.unwrap_or(defaults.correction_sweeps),
         parameterize: is_asked.then(|| ParameterizeOptions::PHT.with_border(border(arguments))),
@@ -568,6 +590,7 @@ fn json_report(
         "cell_count": report.cell_count,
         "deepest_level": report.deepest_level,
         "coefficient_count": report.coefficient_count,
+        "refined_coefficient_count": report.refined_coefficient_count,
         "smoothing": report.smoothing,
         "empty_cell_count": report.empty_cell_count,
         "passes": report.passes,

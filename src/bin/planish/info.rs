@@ -159,6 +159,7 @@ fn pht_rows(surface: &PhtSurface, table: &mut Table) {
     let mesh = surface.mesh();
     let deepest = mesh.leaves().map(|leaf| mesh.cell(leaf).level).max().unwrap_or(0);
     table.row("kind", "PHT-spline".to_owned());
+    table.row("continuous derivatives", surface.continuity().to_string());
     table.row("cells", format!("{} down to level {deepest}", mesh.leaf_count()));
     table.row("control points", surface.coefficient_count().to_string());
     table.row("weights", if surface.is_rational() { "yes" } else { "no" }.to_owned());

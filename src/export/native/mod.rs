@@ -4,9 +4,9 @@
 //! ```text
 //! offset  type          content
 //!  0      8 bytes       "PLANISH" and a zero
-//!  8      u32           version of the format: 1, or 2 for a model with arcs of circles and ellipses
-//! 12      u32           kind: 0 tensor surface, 1 T-spline, 2 PHT-spline, 3 D1RC-spline, 16 curve, 17 model,
-//!                       18 field over a model
+//!  8      u32           version of the format: 1, 2 for a model with arcs of circles and ellipses, 3 for kind 4
+//! 12      u32           kind: 0 tensor surface, 1 T-spline, 2 PHT-spline, 3 D1RC-spline, 4 PHT-spline with two
+//!                       continuous derivatives, 16 curve, 17 model, 18 field over a model
 //! 16      u64           size of the whole in bytes
 //! 24                    what the family needs, see its module
 //! ...     u64           the unit of a surface: 0 millimetre, 1 metre, 2 inch \
@@ -78,7 +78,7 @@ impl Classify for LoadError {
 
 const MAGIC: [u8; 8] = *b"PLANISH\0";
 /// The latest version. Each file says the first that knows all it holds.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 /// The version of what needs nothing newer.
 const FIRST_VERSION: u32 = 1;
 /// Bytes before the content, and those of the checksum after it.
@@ -89,6 +89,7 @@ const TENSOR: u32 = 0;
 const TSPLINE: u32 = 1;
 const PHT: u32 = 2;
 const D1RC: u32 = 3;
+const SMOOTH_PHT: u32 = 4;
 /// What is no surface has kinds from 16 on.
 const CURVE: u32 = 16;
 const MODEL: u32 = 17;
@@ -154,6 +155,7 @@ pub fn load(bytes: &[u8]) -> Result<AnySurface, LoadError> {
     let mut surface = match kind {
         TENSOR => AnySurface::Tensor(tensor::read(&mut reader)?),
         PHT => AnySurface::Pht(pht::read(&mut reader)?),
+        SMOOTH_PHT => AnySurface::Pht(pht::read_smooth(&mut reader)?),
         D1RC => AnySurface::D1rc(d1rc::read(&mut reader)?),
         TSPLINE => AnySurface::TSpline(tspline::read(&mut reader)?),
         CURVE => return Err(reader.wrong("this is a curve, not a surface")),

@@ -4,7 +4,7 @@ use super::*;
 use crate::curve::Curve;
 use crate::knots::KnotVector;
 use crate::surface::d1rc::{D1rcOptions, D1rcSurface};
-use crate::surface::pht::PhtSurface;
+use crate::surface::pht::{PhtSurface, TruncatedBasis};
 use crate::surface::tensor::TensorSurface;
 use crate::surface::tspline::TSplineSurface;
 use crate::surface::{Domain, Region, Surface, Trims, Unit};
@@ -50,6 +50,17 @@ fn pht() -> AnySurface {
     AnySurface::Pht(surface)
 }
 
+fn smooth_pht() -> AnySurface {
+    let mut mesh = TMesh::new(&[0.0, 1.0, 3.0], &[0.0, 2.0]).unwrap();
+    mesh.split_all(&[Cell { level: 0, i: 1, j: 0 }, Cell { level: 1, i: 2, j: 1 }]).unwrap();
+    let count = TruncatedBasis::new(&mesh).count();
+    let points: Vec<f64> = (0..2 * count).map(|k| f64::from(k as u32).sqrt()).collect();
+    let mut surface = PhtSurface::truncated(2, mesh, &points).unwrap();
+    surface.split(&[Cell { level: 0, i: 0, j: 0 }]).unwrap();
+    surface.region_mut().data_box = Some(surface.domain());
+    AnySurface::Pht(surface)
+}
+
 fn d1rc() -> AnySurface {
     let (places, triangles) = crate::samples::grid([4, 4], 0.1, 1, |_| true);
     let points = places.iter().map(|p| p.extend(p.x * p.y)).collect();
@@ -63,7 +74,7 @@ fn d1rc() -> AnySurface {
 
 /// One of each family, with the bytes at which its counts and flags lie.
 fn families() -> Vec<(AnySurface, std::ops::Range<usize>)> {
-    vec![(tensor(), 24..88), (tspline(), 24..56), (pht(), 24..88), (d1rc(), 24..112)]
+    vec![(tensor(), 24..88), (tspline(), 24..56), (pht(), 24..88), (smooth_pht(), 24..80), (d1rc(), 24..112)]
 }
 
 #[test]
@@ -119,8 +130,8 @@ fn forged_sizes_are_refused_before_memory_is_asked_for() {
 
 #[test]
 fn later_versions_and_unknown_kinds_are_named() {
-    let later = load(&forge(&tensor(), 8, &3u32.to_le_bytes()));
-    assert_eq!(later.unwrap_err(), LoadError::Version { version: 3 });
+    let later = load(&forge(&tensor(), 8, &4u32.to_le_bytes()));
+    assert_eq!(later.unwrap_err(), LoadError::Version { version: 4 });
     let unknown = load(&forge(&tensor(), 12, &77u32.to_le_bytes()));
     assert!(unknown.unwrap_err().to_string().contains("kind 77"));
 }

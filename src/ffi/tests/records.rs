@@ -178,7 +178,7 @@ fn reports_are_filled_as_far_as_the_size_goes() {
         assert!(fit((&raw mut longer).cast()) as i32 >= 0);
         assert_eq!(longer.record.struct_size, size);
         // SAFETY: plain bytes.
-        let bytes: [u8; 256] = unsafe { std::mem::transmute(longer) };
+        let bytes: [u8; 264] = unsafe { std::mem::transmute(longer) };
         assert!(bytes[size..].iter().all(|&byte| byte == CANARY), "beyond {size}");
         if size > known {
             assert_eq!(bytes[known..size], [0; 16]);

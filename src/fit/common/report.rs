@@ -137,6 +137,8 @@ pub struct FitReport {
     pub rough_cell_count: usize,
     /// Unknowns of the fit. The surface may store more control points, which these determine.
     pub coefficient_count: usize,
+    /// Unknowns before cells were merged again; 0 for fits without cells.
+    pub refined_coefficient_count: usize,
     /// Weight of the smoothing energy in the chosen fit.
     pub smoothing: f64,
     /// Cells without data inside the trims.

@@ -10,19 +10,24 @@
 //!          measure each datum, and the inside of each triangle above its sagitta
 //!          split the cells in which one misses the tolerance
 //! ```
+//! [`Continuity::C2`] fits truncated hierarchical B-splines instead of jets, from several initial grids; cells that turn out
+//! not to be needed are merged again ([`Coarsening`]).
 
+mod coarsen;
 mod data;
 mod global;
+mod growth;
 mod local;
 mod mirror;
 mod options;
 mod refine;
 mod sides;
+mod smooth;
 mod tame;
 #[cfg(test)]
 mod tests;
 
-pub use options::{Estimator, PhtOptions};
+pub use options::{Coarsening, Continuity, Estimator, PhtOptions};
 
 use super::common::checks::{check_parameters, check_unused, check_values};
 use super::common::neighbours::triangles_between;
@@ -206,14 +211,40 @@ fn fit_on_mesh(
         fit.report.seconds = start.elapsed().as_secs_f64();
         return Ok(fit);
     }
-    control.set_stage(0.3, 1.0);
-    let data = Data::of_mesh(mesh, map.uv, values, dim, is_shape, options.weights);
+    let mut uv = map.uv;
+    if is_shape && options.continuity == Continuity::C2 && options.correction_sweeps > 0 {
+        control.set_stage(0.3, 0.5);
+        uv = corrected(mesh, uv, values, options, control)?;
+        control.set_stage(0.5, 1.0);
+    } else {
+        control.set_stage(0.3, 1.0);
+    }
+    let data = Data::of_mesh(mesh, uv, values, dim, is_shape, options.weights);
     let mut fit = Refinement::new(data, options)?.run(control)?;
     fit.report.remarks.0 |= map.remarks.0;
     fit.report.measure_map(mesh, &fit.parameters);
     fit.report.parameterize_seconds = parameterize_seconds;
     fit.report.seconds = start.elapsed().as_secs_f64();
     Ok(fit)
+}
+
+/// Parameters of the nodes as a fit with one continuous derivative leaves them. Its cells become small at once where the shape
+/// asks; moved towards the coarse first surfaces that are C2, parameters end worse than they were.
+fn corrected(
+    mesh: &Mesh,
+    uv: Vec<DVec2>,
+    values: &[f64],
+    options: &PhtOptions,
+    control: &mut Control,
+) -> Result<Vec<DVec2>, FitError> {
+    let options = PhtOptions {
+        continuity: Continuity::C1,
+        coarsening: Coarsening::Off,
+        measure_distance: false,
+        ..*options
+    };
+    let data = Data::of_mesh(mesh, uv, values, 3, true, options.weights);
+    Ok(Refinement::new(data, &options)?.run(control)?.parameters)
 }
 
 /// Largest stretch at which the plain mean value map is even enough for fine tolerances. A quadtree absorbs changes

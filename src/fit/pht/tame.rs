@@ -2,8 +2,8 @@
 //! that.
 
 use super::Estimator;
-use super::global::{ByLeaf, Energy, KnownSums, System};
-use super::refine::{Refinement, Round, outward};
+use super::global::{ByLeaf, KnownSums};
+use super::refine::{Refinement, Round};
 use crate::control::{Control, Pool, Watch};
 use crate::fit::common::FitError;
 use crate::fit::common::hermite_cell::{Membrane, PARTS};
@@ -34,16 +34,14 @@ impl Refinement<'_> {
         let first = this.with_split(&this.mesh, |cell| has_border(cell, &trims) || wild.contains(cell));
         let finer = |mesh: &TMesh| this.with_split(mesh, |cell| has_border(cell, &trims));
         // between scattered points nothing is known: no more unknowns than there are
-        let is_allowed = |mesh: &TMesh| {
-            this.data.mesh.is_some() || 4 * Topology::new(mesh).basis.len() <= this.data.uv.len()
-        };
+        let is_allowed = |mesh: &TMesh| this.data.mesh.is_some() || this.unknowns(mesh) <= this.data.uv.len();
         let finer = std::iter::successors(first, finer).take(SPLITS).take_while(is_allowed);
         let same = [CutCells::No, CutCells::Yes].map(|cut| (this.mesh.clone(), cut));
         let finer: Vec<(TMesh, CutCells)> = finer.map(|mesh| (mesh, CutCells::Yes)).collect();
         let judge = |round: &Round, pool: &Pool| Standing {
             excursion: this.excursion(&round.surface, pool),
             error: round.errors.demand,
-            between: round.rough.iter().map(|rough| rough.error).fold(0.0, f64::max),
+            between: round.leaves.iter().map(|leaf| leaf.error).fold(0.0, f64::max),
         };
         let smoothing = round.smoothing;
         let refit = |(mesh, cut): &(TMesh, CutCells), tension, control: &mut Control| {
@@ -79,24 +77,19 @@ impl Refinement<'_> {
         pool: &Pool,
         watch: &Watch,
     ) -> Result<Round, FitError> {
-        let (data, topology) = (&self.data, Topology::new(mesh));
-        let by_leaf = ByLeaf::sort(mesh, &topology, data, pool);
-        let membrane = |(leaf, &node): (usize, &NodeId)| {
-            let domain = mesh.cell_domain(mesh.cell(node));
-            let share = domain.size() / data.data_box.size() / TENSE_WITHIN;
-            let places = by_leaf.of(leaf).iter().map(|&sample| by_leaf.uv[sample as usize]);
-            let parts = empty_parts(&domain, places, cut, trims);
-            Membrane { weight: smoothing * tension * share.x * share.y, parts }
+        let energy = self.energy(smoothing, Vec::new());
+        let membranes = |topology: &Topology, by_leaf: &ByLeaf| -> Vec<Membrane> {
+            let in_leaf = |(leaf, &node): (usize, &NodeId)| {
+                let domain = mesh.cell_domain(mesh.cell(node));
+                let share = domain.size() / self.data.data_box.size() / TENSE_WITHIN;
+                let plate = energy.plate(mesh.cell(node).level);
+                let places = by_leaf.of(leaf).iter().map(|&sample| by_leaf.uv[sample as usize]);
+                let parts = empty_parts(&domain, places, cut, trims);
+                Membrane { weight: plate * tension * share.x * share.y, parts }
+            };
+            topology.leaves.iter().enumerate().map(in_leaf).collect()
         };
-        let membranes = topology.leaves.iter().enumerate().map(membrane).collect();
-        let energy = Energy { plate: smoothing, membranes };
-        let system = System::new(mesh, &topology);
-        let jets = system.solve(data, &by_leaf, &mut KnownSums::default(), &energy, pool, watch)?;
-        let surface = outward(data, mesh, jets)?;
-        let errors = data.errors(&surface, pool);
-        watch.check()?;
-        let rough = self.rough_leaves(&surface, &errors, &by_leaf, pool);
-        Ok(Round { surface, errors, uv: data.uv.clone(), rough, smoothing })
+        self.over(mesh, &mut KnownSums::default(), (smoothing, &membranes), pool, watch)
     }
 
     /// With some cells split; None if there are none that may be.

@@ -183,3 +183,66 @@ fn refusals_name_the_offender() {
     let cancelled = fit_points(&uv, &values, 1, &default, &mut control).unwrap_err();
     assert_eq!(cancelled.kind(), ErrorKind::Cancelled);
 }
+
+fn smooth<'a>(tolerance: f64) -> PhtOptions<'a> {
+    PhtOptions { continuity: Continuity::C2, ..with_tolerance(tolerance) }
+}
+
+#[test]
+fn fits_with_two_continuous_derivatives_keep_the_tolerance_with_fewer_coefficients() {
+    for value in [1e-1, 1e-2, 1e-3, 1e-4] {
+        let fit = fit_hill(6000, &smooth(value));
+        let (report, surface) = (&fit.report, &fit.surface);
+        assert_eq!(report.stop, StopReason::ToleranceMet, "{value:e}");
+        assert!(report.max_error <= value * report.diagonal, "{value:e}: {report:?}");
+        assert_eq!((surface.continuity(), report.coefficient_count), (2, surface.coefficient_count()));
+        assert!(report.coefficient_count <= report.refined_coefficient_count);
+        let once = fit_hill(6000, &with_tolerance(value)).report.coefficient_count;
+        // of few cells four functions a line are as many as two jets
+        assert!(value > 1e-3 || report.coefficient_count < once, "{value:e}: {report:?}, {once}");
+    }
+}
+
+#[test]
+fn a_coarsened_fit_keeps_the_tolerance_and_the_grade() {
+    for value in [1e-2, 1e-3, 1e-4] {
+        let fine = fit_hill(6000, &with_tolerance(value));
+        let coarse = fit_hill(6000, &PhtOptions { coarsening: Coarsening::On, ..with_tolerance(value) });
+        let report = &coarse.report;
+        assert_eq!(report.refined_coefficient_count, fine.report.coefficient_count);
+        assert!(report.max_error <= value * report.diagonal, "{value:e}: {report:?}");
+        assert!(report.coefficient_count <= fine.report.coefficient_count);
+        let mesh = coarse.surface.mesh();
+        for leaf in mesh.leaves() {
+            for neighbour in mesh.neighbours(leaf) {
+                assert!(mesh.cell(leaf).level.abs_diff(mesh.cell(neighbour).level) <= 1);
+            }
+        }
+    }
+}
+
+#[test]
+fn fits_with_two_continuous_derivatives_do_not_depend_on_the_number_of_threads() {
+    let (mesh, _) = samples::bumps([40, 50], 6, 2).unwrap();
+    let fit = |threads| fit_mesh(&mesh, &smooth(1e-3), &mut Control::new(threads)).unwrap();
+    let (one, three) = (fit(1), fit(3));
+    assert_eq!(one.surface, three.surface);
+    assert_eq!(one.errors, three.errors);
+    assert!(one.report.max_error <= one.report.tolerance);
+}
+
+#[test]
+fn fixed_points_are_met_by_surfaces_with_two_continuous_derivatives() {
+    let uv = places(3000, 8);
+    let mut values: Vec<f64> = uv.iter().map(|&uv| hill(uv)).collect();
+    values[100] += 1e-3;
+    let demands = Demands { fixed: &[7, 100], ..Demands::default() };
+    let options = PhtOptions { demands, ..smooth(1e-2) };
+    let fit = fit_points(&uv, &values, 1, &options, &mut Control::new(1)).unwrap();
+    assert!(fit.report.max_fixed_error <= 1e-12 * fit.report.diagonal, "{:?}", fit.report);
+    let (mesh, _) = samples::bumps([20, 20], 6, 2).unwrap();
+    let demands = Demands { symmetry: Symmetry::Found, ..Demands::default() };
+    let error = fit_mesh(&mesh, &PhtOptions { demands, ..smooth(1e-2) }, &mut Control::new(1)).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::InvalidArgument);
+    assert!(error.to_string().contains("symmetry"), "{error}");
+}

@@ -19,8 +19,12 @@ impl PhtSurface {
     /// of them cannot be split.
     pub fn split(&mut self, cells: &[Cell]) -> Result<(), PhtError> {
         self.mesh.clone().split_all(cells)?;
+        let is_smooth = self.smooth.is_some();
         for (index, &cell) in cells.iter().enumerate() {
             self.split_node(self.mesh.splittable(index, cell)?);
+        }
+        if is_smooth {
+            self.renew_smooth()?;
         }
         Ok(())
     }
@@ -58,7 +62,7 @@ impl PhtSurface {
             let vertex = topology.vertices[topology.basis[rank] as usize];
             changed.jets.insert(vertex, memory::copied(jet));
         }
-        changed.view = OnceLock::new();
+        (changed.smooth, changed.view) = (None, OnceLock::new());
         changed.view.get_or_init(|| View::new(&changed, topology.clone()));
         changed.check_weights()?;
         *self = changed;
@@ -111,7 +115,7 @@ impl PhtSurface {
         let mesh = &self.mesh;
         let new = edges.into_iter().filter(|&(vertex, _)| mesh.role(vertex) == Role::Basis);
         self.jets.extend(new.chain([middle]));
-        self.view = OnceLock::new();
+        (self.smooth, self.view) = (None, OnceLock::new());
     }
 
     pub(super) fn merge_node(&mut self, node: NodeId) {
@@ -122,7 +126,7 @@ impl PhtSurface {
                 self.jets.remove(&vertex);
             }
         }
-        self.view = OnceLock::new();
+        (self.smooth, self.view) = (None, OnceLock::new());
     }
 }
 

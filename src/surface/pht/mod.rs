@@ -12,6 +12,9 @@
 //! both are cubics fixed by the ends. A surface with weights keeps the jets of (w x, w y, .., w): all that
 //! follows is linear in them.
 //!
+//! Splines that are C2 have control points of truncated hierarchical B-splines ([`TruncatedBasis`]), of which their jets are
+//! made.
+//!
 //! Control points ([`Basis`]) and Bezier ordinates are derived. Splitting a cell stores what was there, so old
 //! jets and control points never change; merging it is the exact inverse.
 
@@ -28,6 +31,7 @@ mod stitch;
 mod tensor;
 #[cfg(test)]
 mod tests;
+mod truncated;
 
 pub use basis::{Basis, BezierForm, LocalExtraction};
 pub use convert::ConvertOptions;
@@ -35,6 +39,7 @@ pub use error::PhtError;
 pub use expansion::{Matrix, all_jets, expansions};
 pub use simplify::Simplification;
 pub use stitch::{BorderSide, stitch};
+pub use truncated::{LeafFunctions, TruncatedBasis};
 
 use super::{Domain, Kind, Patches, Region, Surface};
 use crate::bezier::BezierPatch;
@@ -54,6 +59,8 @@ pub struct PhtSurface {
     mesh: TMesh,
     /// The jet of each basis vertex: four rows of `width` numbers.
     jets: BTreeMap<Vertex, Vec<f64>>,
+    /// The control points of a spline that is C2, of which the jets are made; None for others.
+    smooth: Option<Vec<f64>>,
     region: Region,
     /// Tables and Bezier ordinates, made when first needed after a change.
     view: OnceLock<View>,
@@ -62,12 +69,13 @@ pub struct PhtSurface {
 /// Tables and ordinates are not copied: most copies are made to be changed.
 impl Clone for PhtSurface {
     fn clone(&self) -> Self {
-        let Self { dim, is_rational, mesh, jets, region, view: _ } = self;
+        let Self { dim, is_rational, mesh, jets, smooth, region, view: _ } = self;
         Self {
             dim: *dim,
             is_rational: *is_rational,
             mesh: mesh.clone(),
             jets: jets.clone(),
+            smooth: smooth.clone(),
             region: region.clone(),
             view: OnceLock::new(),
         }
@@ -80,6 +88,7 @@ impl PartialEq for PhtSurface {
             && self.is_rational == other.is_rational
             && self.mesh == other.mesh
             && self.jets == other.jets
+            && self.smooth == other.smooth
             && self.region == other.region
     }
 }
@@ -120,7 +129,8 @@ impl PhtSurface {
         }
         let vertices = topology.basis.iter().map(|&vertex| topology.vertices[vertex as usize]);
         let jets = vertices.zip(jets.chunks_exact(length).map(<[f64]>::to_vec)).collect();
-        let surface = Self { dim, is_rational, mesh, jets, region: Region::default(), view: OnceLock::new() };
+        let (smooth, region) = (None, Region::default());
+        let surface = Self { dim, is_rational, mesh, jets, smooth, region, view: OnceLock::new() };
         surface.view.get_or_init(|| View::new(&surface, topology));
         Ok(surface)
     }
@@ -187,7 +197,7 @@ impl Surface for PhtSurface {
     }
 
     fn coefficient_count(&self) -> usize {
-        ROWS * self.jets.len()
+        self.smooth.as_ref().map_or(ROWS * self.jets.len(), |points| points.len() / self.dim)
     }
 
     fn region(&self) -> &Region {

@@ -1,6 +1,7 @@
 mod basis;
 mod convert;
 mod edit;
+mod truncated;
 
 use super::*;
 use crate::knots::KnotVector;
