@@ -14,6 +14,7 @@ mod bilinear;
 mod complex;
 mod cube;
 mod error;
+mod mesh_layout;
 mod node_map;
 pub mod of_features;
 pub mod of_mesh;

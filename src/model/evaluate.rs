@@ -1,6 +1,5 @@
 //! Batches of points on faces: see [`surface::evaluate`](crate::surface::evaluate) for quantities, rules and flags.
 
-use super::field::by_face;
 use super::{Carrier, FaceId, Model};
 use crate::control::Pool;
 use crate::failure::{Classify, ErrorKind};
@@ -150,6 +149,16 @@ pub(super) fn of_all(error: EvalError, group: &[usize]) -> EvalError {
         EvalError::Outside { index, u, v } => EvalError::Outside { index: group[index], u, v },
         other => other,
     }
+}
+
+/// The points on each face that has any, face after face.
+pub(super) fn by_face(faces: &[u32], count: usize) -> Result<Vec<Vec<usize>>, ModelEvalError> {
+    if let Some(index) = faces.iter().position(|&face| face as usize >= count) {
+        return Err(ModelEvalError::NoFace { index, face: faces[index], count });
+    }
+    let mut order: Vec<usize> = (0..faces.len()).collect();
+    order.sort_by_key(|&index| faces[index]);
+    Ok(order.chunk_by(|&a, &b| faces[a] == faces[b]).map(<[usize]>::to_vec).collect())
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Fields on models: values of any dimension over the faces, smooth where the faces are.
 
+use super::evaluate::by_face;
 use super::{FaceId, Model, ModelEvalError, ModelValues};
 use crate::control::Pool;
 use crate::query::gradient::{GradientError, field_gradient};
@@ -149,14 +150,4 @@ impl crate::failure::Classify for FieldGradientError {
             Self::Gradient(error) => error.index(),
         }
     }
-}
-
-/// The points on each face that has any, face after face.
-pub(super) fn by_face(faces: &[u32], count: usize) -> Result<Vec<Vec<usize>>, ModelEvalError> {
-    if let Some(index) = faces.iter().position(|&face| face as usize >= count) {
-        return Err(ModelEvalError::NoFace { index, face: faces[index], count });
-    }
-    let mut order: Vec<usize> = (0..faces.len()).collect();
-    order.sort_by_key(|&index| faces[index]);
-    Ok(order.chunk_by(|&a, &b| faces[a] == faces[b]).map(<[usize]>::to_vec).collect())
 }

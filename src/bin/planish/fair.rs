@@ -1,6 +1,6 @@
 //! `planish fair`.
 
-use crate::fit::with_bar;
+use crate::bar::with_bar;
 use crate::output::{self, Table};
 use crate::step::StepArguments;
 use crate::{Failure, Given, Outcome};

@@ -2,12 +2,14 @@
 //!
 //! Exit code 0: done, and the tolerance met; 2: done, but the tolerance not met; 1: any error.
 
+mod bar;
 mod convert;
 mod d1rc;
 mod decimate;
 mod eval;
 mod fair;
 mod fit;
+mod fit_options;
 mod info;
 mod input;
 mod manual;
@@ -20,6 +22,7 @@ mod sample;
 mod skin;
 mod step;
 mod topics;
+mod verdict;
 
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;
@@ -44,7 +47,7 @@ More by subject: planish help topics";
 #[allow(clippy::large_enum_variant, reason = "there is one in a run")]
 enum Command {
     /// Fit a surface to a mesh file (OFF, OBJ, PLY, STL) and report how close it came.
-    Fit(fit::FitArguments),
+    Fit(fit_options::FitArguments),
     /// Skin rows of points by one surface and report how close it came.
     Skin(skin::SkinArguments),
     /// Make a mesh of fewer nodes by collapsing edges; sharp edges and the boundary stay.

@@ -1,9 +1,11 @@
 //! `planish fit` where a mesh becomes a model: a solid of patches that meet smoothly.
 
-use crate::fit::{FitArguments, LayoutName, with_bar};
+use crate::bar::with_bar;
+use crate::fit_options::{FitArguments, LayoutName, tolerance};
 use crate::output::{self, Table};
 use crate::picture::{Picture, View};
 use crate::step::Step;
+use crate::verdict::{remarks, verdict, written};
 use crate::{Failure, Outcome};
 use glam::DVec3;
 use planish::Control;
@@ -75,7 +77,7 @@ fn labels(mesh: &Mesh, arguments: &FitArguments) -> Result<Vec<u32>, Failure> {
 }
 
 fn options<'a>(arguments: &FitArguments, labels: &'a [u32]) -> MeshModelOptions<'a> {
-    let mut fit = ModelOptions::default().with_tolerance(crate::fit::tolerance(arguments));
+    let mut fit = ModelOptions::default().with_tolerance(tolerance(arguments));
     if arguments.smoothing > 0.0 {
         fit.smoothing = arguments.smoothing;
     }
@@ -183,11 +185,11 @@ fn table(arguments: &FitArguments, mesh: &Mesh, repairs: &MeshRepairs, fit: &Mod
     }
     let map: f64 = fit.components.iter().map(|component| component.map_seconds).sum();
     table.row("seconds", format!("{map:.2} map, {:.2} fit, {:.2} in all", report.fit_seconds, fit.seconds));
-    table.row("result", crate::fit::verdict(report.remarks, report.stop));
-    for remark in crate::fit::remarks(report.remarks) {
+    table.row("result", verdict(report.remarks, report.stop));
+    for remark in remarks(report.remarks) {
         table.row("remark", remark);
     }
-    for path in crate::fit::written(arguments) {
+    for path in written(arguments) {
         table.row("written", path);
     }
     table.to_string()
@@ -242,13 +244,13 @@ fn json_report(
         "free_count": report.free_count,
         "deepest_level": report.deepest_level,
         "passes": report.passes,
-        "stop": crate::fit::verdict(report.remarks, report.stop),
+        "stop": verdict(report.remarks, report.stop),
         "fit_seconds": report.fit_seconds,
         "seconds": fit.seconds,
         "mesh_crossings": report.mesh_crossings,
         "crossings": report.crossings,
-        "remarks": crate::fit::remarks(report.remarks),
+        "remarks": remarks(report.remarks),
         "repaired": output::repairs(repairs),
-        "written": crate::fit::written(arguments),
+        "written": written(arguments),
     })
 }

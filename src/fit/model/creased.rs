@@ -13,9 +13,9 @@
 use super::bodies::Body;
 use super::constraints::{Constraints, PlaneEquation, nearest_in};
 use super::error::ModelFitError;
+use super::mesh_model::{Component, ComponentReport, MeshModelOptions, Piece, Spot};
 use super::options::ModelOptions;
 use super::report::mesh_volume;
-use super::whole::{Component, ComponentReport, MeshModelOptions, Piece, Spot};
 use super::{LayoutFit, NodePlaces, fit_with_creases};
 use crate::control::Control;
 use crate::fit::common::report::Remarks;

@@ -3,8 +3,7 @@
 //! Neither the error, nor the volume, nor a check of the topology sees a fold: a patch may run over itself within the
 //! tolerance of all samples.
 
-use super::least_squares::CellPlace;
-use super::samples::{ByCell, Samples};
+use super::samples::{ByCell, CellPlace, Samples};
 use crate::control::Pool;
 use crate::layout::Place;
 use crate::surface::Surface;

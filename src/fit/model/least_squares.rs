@@ -9,7 +9,7 @@
 //! components. The few enclosure equations are met by a dense Schur complement `K = C A^-1 C^T`, twice, so that what is left is
 //! rounding.
 
-use super::samples::ByCell;
+use super::samples::{ByCell, CellPlace};
 use crate::control::{Pool, Watch};
 use crate::fit::common::FitError;
 use crate::fit::common::hermite_cell::{CellSums, Membrane, weights};
@@ -24,13 +24,17 @@ use sprs::CsMat;
 
 /// Unknowns of a cell.
 const CELL: usize = 16;
+
 /// Components of a point.
 const DIM: usize = 3;
+
 /// What is added to the unit diagonal, so that a direction without data and energy stays where it is: far below any
 /// data, far above rounding.
 const DIAGONAL: f64 = 1e-13;
+
 /// Cells summed in one piece of work.
 const PIECE: usize = 32;
+
 /// Pieces between two looks at whether to go on.
 const PIECES: usize = 16;
 
@@ -41,13 +45,6 @@ pub(super) struct Targets {
     pub uv: Vec<DVec2>,
     pub points: Vec<DVec3>,
     pub weights: Vec<f64>,
-}
-
-/// A cell of all patches together.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct CellPlace {
-    pub min: DVec2,
-    pub size: f64,
 }
 
 /// What a space makes of the unknowns of each cell, and the pattern of its matrix.

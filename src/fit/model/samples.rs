@@ -5,7 +5,6 @@
 //! are unfolded into one plane; the few that lie over more are left out. The middle of an edge of a crease lies on the
 //! crease too.
 
-use super::least_squares::CellPlace;
 use super::locks::{Lock, feature_at, halfway, lock, same_places};
 use crate::control::Pool;
 use crate::layout::{Layout, Place, cube_place};
@@ -15,6 +14,13 @@ use crate::mesh::Mesh;
 use crate::surface::g1::Space;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+
+/// A cell of all patches together.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CellPlace {
+    pub min: DVec2,
+    pub size: f64,
+}
 
 /// Where the nodes of a mesh lie on a layout.
 #[derive(Debug, Clone, Copy)]

@@ -11,6 +11,7 @@
 //! ```
 
 mod adaptive;
+mod candidate;
 mod closing;
 mod lines;
 mod measure;

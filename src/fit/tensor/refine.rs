@@ -1,6 +1,6 @@
 //! The outer loop: double the grid in the direction that helps more, until the tolerance is met.
 
-use super::single_grid::{Candidate, Fitted};
+use super::candidate::{Candidate, Fitted};
 use super::{FitError, Problem, TensorFit};
 use crate::control::{Control, Pool};
 use crate::fit::common::errors::max_distance;

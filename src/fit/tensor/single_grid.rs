@@ -1,9 +1,9 @@
 //! The fit on one grid: least squares at a fixed smoothing, the ladder of smoothings, the measure.
 
+use super::candidate::Candidate;
 use super::tame::Emptiness;
 use super::{Ends, FitError, Method, Problem, SMOOTHING_LADDER};
 use crate::control::{Pool, Watch};
-use crate::fit::common::errors::DataErrors;
 use crate::fit::common::samples::{in_cells, interior_weight};
 use crate::fit::common::tame::{CutCells, TENSE_WITHIN};
 use crate::fit::common::uniform::energy::EnergyTerm;
@@ -15,37 +15,6 @@ use crate::linalg::{Conditions, SymbolicCholesky};
 use crate::surface::Surface;
 use crate::surface::tensor::TensorSurface;
 use std::borrow::Cow;
-
-/// A surface on some grid, measured.
-pub(super) struct Candidate {
-    pub grid: [UniformGrid; 2],
-    pub surface: TensorSurface,
-    pub errors: DataErrors,
-    pub smoothing: f64,
-    pub coefficient_count: usize,
-}
-
-/// A surface over any knots, measured at the data.
-pub(super) struct Fitted {
-    pub surface: TensorSurface,
-    pub errors: DataErrors,
-    pub smoothing: f64,
-    pub coefficient_count: usize,
-}
-
-impl From<Candidate> for Fitted {
-    fn from(candidate: Candidate) -> Self {
-        let Candidate { surface, errors, smoothing, coefficient_count, .. } = candidate;
-        Self { surface, errors, smoothing, coefficient_count }
-    }
-}
-
-impl Candidate {
-    /// Knots along u and v.
-    pub(super) fn counts(&self) -> [usize; 2] {
-        self.grid.map(|grid| grid.count)
-    }
-}
 
 impl Problem<'_> {
     /// The grid over the data with this many knots.

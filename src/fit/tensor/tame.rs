@@ -1,6 +1,6 @@
 //! Cells without data, and what is done where the surface runs wild over them.
 
-use super::single_grid::Candidate;
+use super::candidate::Candidate;
 use super::{FitError, Method, Problem};
 use crate::control::{Control, Pool};
 use crate::fit::common::tame::{CutCells, FARTHEST, FINER_BEYOND, Standing, excursion, is_wild, tamed};

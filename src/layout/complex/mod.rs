@@ -20,7 +20,7 @@ mod search;
 #[cfg(test)]
 mod tests;
 
-use super::of_mesh::{LayoutKind, MeshLayout, MeshLayoutError, MeshLayoutOptions, MeshLayoutReport};
+use super::mesh_layout::{LayoutKind, MeshLayout, MeshLayoutError, MeshLayoutOptions, MeshLayoutReport};
 use super::{Layout, NodeMap, Place, Side};
 use crate::Control;
 use crate::mesh::Mesh;

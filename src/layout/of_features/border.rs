@@ -1,7 +1,8 @@
 //! The borders of a piece with the vertices of the layout on them.
 
-use super::division::{Division, STRAIGHT, Stop, outline};
+use super::division::{STRAIGHT, outline};
 use super::pieces::{Line, Piece, Run};
+use super::places::{Division, Stop};
 use super::polygon::Corner;
 
 /// A vertex of the layout on a border, as the region on one side sees it.

@@ -6,6 +6,7 @@
 //! parity holds, as long as the cost of all fillings (`polygon`) falls.
 
 use super::pieces::{Line, Piece};
+use super::places::{Division, Stop, place};
 use super::polygon::{Corner, Polygon};
 use crate::Control;
 use crate::control::Cancelled;
@@ -17,96 +18,47 @@ use std::f64::consts::FRAC_PI_2;
 
 /// Edges of a closed chain at the start.
 const CLOSED_EDGES: u32 = 4;
+
 /// Fewest: arcs of a quarter turn, which cubics follow closely.
 const LEAST_CLOSED: u32 = 4;
+
 /// Fewest of a loop: two quads of a ring must not have both ends of an edge in common.
 const LEAST_LOOP: u32 = 3;
+
 /// A chain that turns by more than this gets one more edge: 120 degrees.
 const TURN_PER_EDGE: f64 = 2.1;
+
 /// Chains get no more edges than at the start and these.
 const MOST_MORE: u32 = 4;
+
 /// Borders up to this length are filled to learn their cost.
 const MOST_FILLED: u32 = 10;
+
 /// Quads that are tried for that.
 const STEPS: usize = 20_000;
+
 /// A border that cannot be filled costs as much as many that can.
 const UNFILLED: f64 = 1e3;
+
 /// Of rings: the share of an edge of their borders, and of a difference between both loops.
 const EDGE_COST: f64 = 0.05;
+
 const UNEQUAL_COST: f64 = 0.4;
+
 /// Of other regions: the share of an edge, more than that of any filling, so that none is made long for its own sake.
 const LONG_EDGE_COST: f64 = 0.15;
+
 /// Rounds over all changes.
 const ROUNDS: usize = 12;
+
 /// Quarter turns of a vertex inside a chain, and the quads it needs.
 pub(super) const STRAIGHT: Corner = Corner { angle: 2.0, need: 2 };
+
 /// Up to these angles, in quarter turns, one and two patches meet in a corner.
 const MOST_ANGLES: [f64; 2] = [150.0 / 90.0, 300.0 / 90.0];
+
 /// Quads around the end of a chain inside a region.
 const DART_NEED: u32 = 3;
-
-/// A vertex of the layout on a chain.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub(super) enum Stop {
-    /// A corner of the features, by its node.
-    Corner(u32),
-    /// Inside a chain, by its rank among the chain's vertices.
-    OnChain { chain: u32, rank: u32 },
-}
-
-impl Stop {
-    /// Whether it is the middle of an edge that was halved.
-    pub(super) fn is_middle(self) -> bool {
-        matches!(self, Self::OnChain { rank, .. } if rank % 2 == 1)
-    }
-}
-
-/// The vertices of the layout along each chain.
-#[derive(Debug, Clone)]
-pub(super) struct Division {
-    /// By chain: lengths along it in increasing order, with both ends; of a closed chain without the first again. Empty
-    /// for a chain beside no patch.
-    pub lengths: Vec<Vec<f64>>,
-}
-
-impl Division {
-    /// Edges of the layout along a chain.
-    pub(super) fn edge_count(&self, chain: u32, line: &Line) -> usize {
-        let count = self.lengths[chain as usize].len();
-        if line.is_closed { count } else { count.saturating_sub(1) }
-    }
-
-    /// With a vertex in the middle of every edge.
-    pub(super) fn halved(&self, lines: &[Line]) -> Self {
-        let halved = |(chain, line): (u32, &Line)| {
-            let count = self.edge_count(chain, line);
-            let ends = |edge: usize| {
-                let [from, to] = self.span(chain, edge, line);
-                [from, 0.5 * (from + to)]
-            };
-            let last = self.lengths[chain as usize].last().filter(|_| !line.is_closed);
-            (0..count).flat_map(ends).chain(last.copied()).collect()
-        };
-        Self { lengths: (0..).zip(lines).map(halved).collect() }
-    }
-
-    /// The lengths at which an edge begins and ends; the last of a closed chain ends beyond its length.
-    pub(super) fn span(&self, chain: u32, edge: usize, line: &Line) -> [f64; 2] {
-        let lengths = &self.lengths[chain as usize];
-        let end = lengths.get(edge + 1).copied().unwrap_or_else(|| lengths[0] + line.length());
-        [lengths[edge], end]
-    }
-
-    /// The vertex of some rank on a chain.
-    pub(super) fn stop(&self, chain: u32, rank: usize, line: &Line) -> Stop {
-        let count = self.lengths[chain as usize].len();
-        match line.is_closed {
-            false if rank == 0 => Stop::Corner(line.nodes[0]),
-            false if rank + 1 == count => Stop::Corner(line.nodes[line.nodes.len() - 1]),
-            _ => Stop::OnChain { chain, rank: (rank % count) as u32 },
-        }
-    }
-}
 
 /// A run of a border.
 #[derive(Debug, Clone, Copy)]
@@ -148,7 +100,7 @@ pub(super) fn divide(
     let mut counts = Counts::new(mesh, pieces, lines);
     counts.make_even();
     counts.improve(control)?;
-    Ok(super::places::place(pieces, lines, &counts.of_chains))
+    Ok(place(pieces, lines, &counts.of_chains))
 }
 
 struct Counts<'a> {

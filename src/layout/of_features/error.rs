@@ -1,9 +1,9 @@
 //! Why a layout over regions cannot be made.
 
 use super::super::LayoutError;
-use super::super::of_mesh::MeshLayoutError;
 use crate::control::Cancelled;
 use crate::failure::{Classify, ErrorKind};
+use crate::layout::mesh_layout::MeshLayoutError;
 use crate::mesh::{CutError, MeshError};
 
 /// Regions have no layout.

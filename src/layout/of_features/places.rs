@@ -3,7 +3,6 @@
 //! Edges of a chain are equally long, up to the node nearest to each end. A closed chain may begin anywhere: where its
 //! vertices lie nearest to those of other loops around the same regions.
 
-use super::division::Division;
 use super::pieces::{Line, Piece, Run};
 use crate::mesh::Mesh;
 use std::cmp::Reverse;
@@ -11,6 +10,69 @@ use std::collections::BinaryHeap;
 
 /// A vertex moves to a node if that is no further than this part of an edge.
 const REACH: f64 = 0.25;
+
+/// A vertex of the layout on a chain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(super) enum Stop {
+    /// A corner of the features, by its node.
+    Corner(u32),
+    /// Inside a chain, by its rank among the chain's vertices.
+    OnChain { chain: u32, rank: u32 },
+}
+
+impl Stop {
+    /// Whether it is the middle of an edge that was halved.
+    pub(super) fn is_middle(self) -> bool {
+        matches!(self, Self::OnChain { rank, .. } if rank % 2 == 1)
+    }
+}
+
+/// The vertices of the layout along each chain.
+#[derive(Debug, Clone)]
+pub(super) struct Division {
+    /// By chain: lengths along it in increasing order, with both ends; of a closed chain without the first again. Empty
+    /// for a chain beside no patch.
+    pub lengths: Vec<Vec<f64>>,
+}
+
+impl Division {
+    /// Edges of the layout along a chain.
+    pub(super) fn edge_count(&self, chain: u32, line: &Line) -> usize {
+        let count = self.lengths[chain as usize].len();
+        if line.is_closed { count } else { count.saturating_sub(1) }
+    }
+
+    /// With a vertex in the middle of every edge.
+    pub(super) fn halved(&self, lines: &[Line]) -> Self {
+        let halved = |(chain, line): (u32, &Line)| {
+            let count = self.edge_count(chain, line);
+            let ends = |edge: usize| {
+                let [from, to] = self.span(chain, edge, line);
+                [from, 0.5 * (from + to)]
+            };
+            let last = self.lengths[chain as usize].last().filter(|_| !line.is_closed);
+            (0..count).flat_map(ends).chain(last.copied()).collect()
+        };
+        Self { lengths: (0..).zip(lines).map(halved).collect() }
+    }
+
+    /// The lengths at which an edge begins and ends; the last of a closed chain ends beyond its length.
+    pub(super) fn span(&self, chain: u32, edge: usize, line: &Line) -> [f64; 2] {
+        let lengths = &self.lengths[chain as usize];
+        let end = lengths.get(edge + 1).copied().unwrap_or_else(|| lengths[0] + line.length());
+        [lengths[edge], end]
+    }
+
+    /// The vertex of some rank on a chain.
+    pub(super) fn stop(&self, chain: u32, rank: usize, line: &Line) -> Stop {
+        let count = self.lengths[chain as usize].len();
+        match line.is_closed {
+            false if rank == 0 => Stop::Corner(line.nodes[0]),
+            false if rank + 1 == count => Stop::Corner(line.nodes[line.nodes.len() - 1]),
+            _ => Stop::OnChain { chain, rank: (rank % count) as u32 },
+        }
+    }
+}
 
 /// Places the vertices of chains with so many edges.
 pub(super) fn place(pieces: &[Piece], lines: &[Line], counts: &[u32]) -> Division {

@@ -15,8 +15,8 @@ mod predict;
 mod remove;
 mod tame;
 
+use super::candidate::Fitted;
 use super::lines::Lines;
-use super::single_grid::Fitted;
 use super::{FitError, Knots, Method, Problem, TensorFit};
 use crate::control::Control;
 use crate::fit::common::report::StopReason;
