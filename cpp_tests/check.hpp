@@ -5,6 +5,7 @@
 #include <planish.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <string>
@@ -96,9 +97,14 @@ class untouched {
   std::vector<char> copy_;
 };
 
+// All tests, or those whose name has the text that PLANISH_TEST is set to.
 inline int run() {
+  const char *wanted = std::getenv("PLANISH_TEST");
   int failed = 0;
+  std::size_t count = 0;
   for (const test &t : tests()) {
+    if (wanted && !std::strstr(t.name, wanted)) continue;
+    ++count;
     const int before = failures;
     try {
       t.body();
@@ -112,8 +118,8 @@ inline int run() {
     }
     std::fflush(stdout);
   }
-  std::printf("%zu tests, %d failed\n", tests().size(), failed);
-  return failed != 0;
+  std::printf("%zu tests, %d failed\n", count, failed);
+  return failed != 0 || count == 0;
 }
 
 } // namespace check

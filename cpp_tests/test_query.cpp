@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <thread>
 #include <vector>
 
 static const double nan_ = std::numeric_limits<double>::quiet_NaN();
@@ -274,6 +275,42 @@ TEST(Tessellate, RefusesByName) {
   CHECK_FAILS(planish_surface_tessellate(surface.get(), nullptr, &mesh), PLANISH_STATUS_DEGENERATE, -1, "no area");
   CHECK_FAILS(planish_tessellate_options_init(nullptr, sizeof options), null, -1, "options is NULL");
   CHECK(mesh == sentinel<planish_mesh>());
+}
+
+// What threads of the caller's get of one surface at once, each in its first calls.
+TEST(Query, ServesManyThreadsAtOnce) {
+  const Surface square = sheet(true);
+  planish_pht_convert_options convert;
+  CHECK(planish_pht_convert_options_init(&convert, sizeof convert) == PLANISH_STATUS_OK);
+  planish_surface *made = nullptr;
+  CHECK(planish_pht_from_surface(square.get(), &convert, &made) == PLANISH_STATUS_OK);
+  const Surface pht(made);
+  const Mesh mesh = raised(0.25);
+  planish_project_options project = project_options();
+  planish_deviation_options deviate = deviation_options();
+  planish_tessellate_options tessellate = tessellate_options();
+  project.thread_count = deviate.thread_count = tessellate.thread_count = 1;
+  for (const Surface *surface : {&square, &pht}) {
+    std::vector<int> wrong(4, 0);
+    std::vector<std::thread> threads;
+    for (std::size_t t = 0; t < wrong.size(); ++t) {
+      threads.emplace_back([&, t] {
+        const double uv[2] = {0.1, 0.9}, point[3] = {0.1, 0.9, 0.25};
+        double place[3], foot[2], distance = -1;
+        planish_mesh *triangles = nullptr;
+        planish_deviation_report report = {};
+        report.struct_size = sizeof report;
+        wrong[t] += planish_surface_eval(surface->get(), uv, 1, nullptr, place) != PLANISH_STATUS_OK;
+        wrong[t] += planish_surface_project(surface->get(), point, 1, &project, foot, &distance) != PLANISH_STATUS_OK;
+        wrong[t] += std::fabs(distance - 0.25) > 1e-12;
+        wrong[t] += planish_surface_tessellate(surface->get(), &tessellate, &triangles) < 0;
+        planish_mesh_free(triangles);
+        wrong[t] += planish_surface_deviation(surface->get(), mesh.get(), &deviate, nullptr, 0, &report) < 0;
+      });
+    }
+    for (std::thread &thread : threads) thread.join();
+    for (int count : wrong) CHECK_EQUAL(count, 0);
+  }
 }
 
 int main() { return check::run(); }
