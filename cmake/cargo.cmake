@@ -85,14 +85,14 @@ endif()
 separate_arguments(_more_flags NATIVE_COMMAND "${PLANISH_CARGO_FLAGS}")
 set(_environment "CARGO_TARGET_DIR=${_target_dir}")
 if(PLANISH_TRIM_PATHS)
-  # sources of dependencies are named by the messages of panics; the library names its own below its root
+  # messages of panics name the sources of dependencies, and code that they generate; the library names its own below its root
   set(_cargo_home "$ENV{HOME}/.cargo")
   if(DEFINED ENV{CARGO_HOME})
     set(_cargo_home "$ENV{CARGO_HOME}")
   endif()
   set(_rustflags "$ENV{RUSTFLAGS}")
   if(NOT _rustflags MATCHES "--remap-path-prefix") # scripts/paths has done it, and the same flags share one cache
-    string(STRIP "${_rustflags} --remap-path-prefix=${_cargo_home}=/cargo" _rustflags)
+    string(STRIP "${_rustflags} --remap-path-prefix=${_cargo_home}=/cargo --remap-path-prefix=${_target_dir}=/target" _rustflags)
   endif()
   list(APPEND _environment "RUSTFLAGS=${_rustflags}")
 endif()
