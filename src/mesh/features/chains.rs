@@ -9,6 +9,9 @@ use std::collections::BTreeSet;
 /// Cosine of the largest turn of a chain that is made longer: 45 degrees.
 const LEAST_STRAIGHTNESS: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
+/// Borders of fewer nodes may turn at all of them: polygons.
+const JAGGED: usize = 24;
+
 /// The net of feature edges.
 pub(super) struct Net<'a> {
     mesh: &'a Mesh,
@@ -21,12 +24,16 @@ pub(super) struct Net<'a> {
 impl<'a> Net<'a> {
     pub(super) fn new(mesh: &'a Mesh, is_sharp: impl Fn(HalfEdge) -> bool, kept: Vec<bool>) -> Self {
         let mut net = Self { mesh, ends: memory::filled(BTreeSet::new(), mesh.points().len()), kept };
-        for edge in half_edges(mesh) {
-            if net.kept[edge.index()] || is_sharp(edge) {
-                net.insert(edge.origin(mesh.triangles()), edge.target(mesh.triangles()));
-            }
-        }
+        let kept = net.kept.clone();
+        net.add(|edge| kept[edge.index()] || is_sharp(edge));
         net
+    }
+
+    /// Adds edges.
+    pub(super) fn add(&mut self, is_feature: impl Fn(HalfEdge) -> bool) {
+        for edge in half_edges(self.mesh).filter(|&edge| is_feature(edge)) {
+            self.insert(edge.origin(self.mesh.triangles()), edge.target(self.mesh.triangles()));
+        }
     }
 
     fn insert(&mut self, a: u32, b: u32) {
@@ -88,6 +95,85 @@ impl<'a> Net<'a> {
         }
     }
 
+    /// Lets chains that end go on along edges that fade, straight ahead, if they come to another feature; returns how many
+    /// edges were added.
+    pub(super) fn join(&mut self, turns: &[f64], is_fading: impl Fn(HalfEdge) -> bool) -> usize {
+        let mut added = 0;
+        for node in self.loose_ends() {
+            // an end may have been met by another chain meanwhile
+            let Some(from) = self.only(node) else { continue };
+            let way = self.way_ahead([from, node], turns, &is_fading);
+            added += way.len().saturating_sub(1);
+            way.windows(2).for_each(|pair| self.insert(pair[0], pair[1]));
+        }
+        added
+    }
+
+    /// The nodes from the end of a chain straight ahead to another feature; empty if the way leads to none.
+    fn way_ahead(
+        &self,
+        [mut from, end]: [u32; 2],
+        turns: &[f64],
+        is_fading: impl Fn(HalfEdge) -> bool,
+    ) -> Vec<u32> {
+        let mut way = vec![end];
+        loop {
+            let node = way[way.len() - 1];
+            let ahead = self.mesh.outgoing(node).filter_map(|edge| {
+                let to = edge.target(self.mesh.triangles());
+                let straightness = self.straightness([from, node, to]);
+                (straightness > LEAST_STRAIGHTNESS).then_some((
+                    turns[edge.index()] * straightness.powi(3),
+                    edge,
+                    to,
+                ))
+            });
+            let Some((_, edge, to)) = ahead.max_by(|a, b| a.0.total_cmp(&b.0)) else { return Vec::new() };
+            let (arrives, returns) = (!self.ends[to as usize].is_empty(), way.contains(&to));
+            if returns || !(arrives || is_fading(edge)) {
+                return Vec::new();
+            }
+            way.push(to);
+            if arrives {
+                return way;
+            }
+            from = node;
+        }
+    }
+
+    /// Drops chains, from one node to the next that has not two edges, until none is to be dropped any more.
+    pub(super) fn drop_chains(&mut self, is_dropped: impl Fn(&Self, &Chain) -> bool) {
+        loop {
+            let junctions =
+                (0..self.ends.len() as u32).filter(|&node| ![0, 2].contains(&self.ends[node as usize].len()));
+            let chains = self.chains(&junctions.collect_vec());
+            let dropped: Vec<Chain> = chains.into_iter().filter(|chain| is_dropped(self, chain)).collect();
+            if dropped.is_empty() {
+                return;
+            }
+            for [a, b] in dropped.iter().flat_map(edges) {
+                self.remove(a, b);
+            }
+        }
+    }
+
+    /// Whether no edge of a chain is sharp, or kept whatever happens.
+    pub(super) fn is_blunt(&self, chain: &Chain, is_sharp: impl Fn(HalfEdge) -> bool) -> bool {
+        let stays = |edge: HalfEdge| self.kept[edge.index()] || is_sharp(edge);
+        !edges(chain).any(|[a, b]| self.mesh.edge_between(a, b).is_some_and(stays))
+    }
+
+    /// Whether a chain ends in nothing.
+    pub(super) fn is_loose(&self, chain: &Chain) -> bool {
+        let ends = [chain.nodes.first(), chain.nodes.last()].into_iter().flatten();
+        !chain.is_closed && ends.into_iter().any(|&end| self.only(end).is_some())
+    }
+
+    /// The length of a chain.
+    pub(super) fn length_of(&self, chain: &Chain) -> f64 {
+        edges(chain).map(|[a, b]| self.length(a, b)).sum()
+    }
+
     /// Drops bits that end in nothing and are shorter than a length; returns how many edges went.
     pub(super) fn drop_bits(&mut self, least_length: f64) -> usize {
         let mut dropped = 0;
@@ -141,11 +227,21 @@ impl<'a> Net<'a> {
         dropped
     }
 
+    /// The nodes of borders that turn at more than one of four: the seams of triangles that were cut through, not of a part.
+    pub(super) fn jagged_borders(&self, most_turn: f64) -> BTreeSet<u32> {
+        const FEW: usize = 4;
+        let turns = |node: &&u32| self.turn(**node, 1).is_some_and(|turn| turn > most_turn);
+        let is_jagged = |nodes: &&Vec<u32>| {
+            FEW * nodes.iter().filter(turns).count() > nodes.len() && nodes.len() > JAGGED
+        };
+        self.mesh.loops().iter().filter(is_jagged).flatten().copied().collect()
+    }
+
     /// Nodes with another number of feature edges than two, or with a turn, seen over so many edges on both sides, and
     /// pinched ones.
-    pub(super) fn corners(&self, most_turn: f64, reach: usize) -> Vec<u32> {
+    pub(super) fn corners(&self, most_turn: f64, reach: impl Fn(u32) -> usize) -> Vec<u32> {
         let turns: Vec<Option<f64>> =
-            (0..self.ends.len() as u32).map(|node| self.turn(node, reach)).collect_vec();
+            (0..self.ends.len() as u32).map(|node| self.turn(node, reach(node))).collect_vec();
         // a chain through a pinched node would leave its fan of triangles, and its regions
         let pinched = self.mesh.pinched_nodes();
         let is_corner = |node: u32| match turns[node as usize] {
@@ -154,7 +250,7 @@ impl<'a> Net<'a> {
             // seen from afar, all nodes about a corner turn: it is the one that turns most
             Some(turn) => {
                 turn > most_turn
-                    && self.about(node, reach - 1).all(|other| {
+                    && self.about(node, reach(node) - 1).all(|other| {
                         turns[other as usize].is_none_or(|other_turn| (turn, node) >= (other_turn, other))
                     })
             }
@@ -220,4 +316,11 @@ impl<'a> Net<'a> {
         }
         chains
     }
+}
+
+/// The edges of a chain, two nodes each.
+fn edges(chain: &Chain) -> impl Iterator<Item = [u32; 2]> + '_ {
+    let after = chain.nodes.iter().cycle().skip(1);
+    let count = chain.nodes.len() - usize::from(!chain.is_closed);
+    chain.nodes.iter().zip(after).take(count).map(|(&a, &b)| [a, b])
 }

@@ -6,12 +6,14 @@
 //!     x -- d                        o  a chain's end goes on along edges that turn less, but still turn
 //!                                   d  a bit that ends in nothing and is short: dropped
 //! ```
-//! Feature edges are those whose facets turn by more than an angle, edges between different labels, edges given, and
-//! the border. Normals of noisy facets are filtered first (`noise`).
+//! Feature edges are those whose facets turn by more than an angle, blunter ones that stand out from the surface beside
+//! them and divide it (`ridges`), edges between different labels, edges given, and the border. Normals of noisy facets
+//! are filtered first (`noise`).
 
 mod chains;
 mod noise;
 mod regions;
+mod ridges;
 #[cfg(test)]
 mod tests;
 
@@ -22,6 +24,7 @@ use crate::memory::CollectVec;
 use chains::Net;
 use glam::DVec3;
 pub use regions::{Region, Regions, Side};
+use ridges::Facets;
 use std::f64::consts::PI;
 
 /// How features are found. Angles are in radians.
@@ -29,8 +32,9 @@ use std::f64::consts::PI;
 pub struct FeatureOptions<'a> {
     /// Edges whose facets turn by more than this are features; none for only those given. Default 0.7, 40 degrees.
     pub sharp_angle: Option<f64>,
-    /// Chains that end go on along edges whose facets turn by more than this. Default 0.26, 15 degrees; at pi, or without a
-    /// `sharp_angle`, none does.
+    /// Chains that end go on along edges whose facets turn by more than this, and chains of such edges that stand out from the
+    /// surface beside them are features if they divide it: they close, or run from feature to feature. Default 0.26, 15
+    /// degrees; at pi, or without a `sharp_angle`, nothing of this happens.
     pub weak_angle: f64,
     /// Where a chain turns by more than this it has a corner. Default 0.6, 34 degrees.
     pub corner_angle: f64,
@@ -131,7 +135,7 @@ pub struct Features {
     pub corners: Vec<u32>,
     /// Edges among them that lie on the border.
     pub border_count: usize,
-    /// Edges by which chains were made longer.
+    /// Edges by which chains were made longer, also those along which they fade out up to the next feature.
     pub prolonged_count: usize,
     /// Edges that were dropped in short bits.
     pub dropped_count: usize,
@@ -199,6 +203,7 @@ impl Classify for FeatureError {
 }
 
 /// Edges over which a chain's turn is seen under noise: a tenth of an edge length turns single edges by 0.3, three by 0.1.
+/// Borders that run in zigzag around equal triangles turn single edges by 1, three by 0.3.
 const NOISY_REACH: usize = 3;
 
 impl Mesh {
@@ -211,14 +216,33 @@ impl Mesh {
     fn features(&self, options: &FeatureOptions) -> Features {
         let noise = noise::estimate(self);
         let is_noisy = options.filter_noise && noise > noise::WORTH_FILTERING;
-        let turns = turns(self, is_noisy);
+        let normals = facet_normals(self, is_noisy);
+        let turns = turns(self, &normals);
         let kept = given_edges(self, options);
-        let is_sharp = |edge: &HalfEdge| options.sharp_angle.is_some_and(|angle| turns[edge.index()] > angle);
-        let mut net = Net::new(self, |edge| is_sharp(&edge), kept);
-        let is_searched = options.sharp_angle.is_some();
-        let prolonged_count = if is_searched { net.prolong(&turns, options.weak_angle) } else { 0 };
+        let sharp_angle = options.sharp_angle.unwrap_or(PI);
+        let is_sharp = |edge: HalfEdge| turns[edge.index()] > sharp_angle;
+        let mut net = Net::new(self, is_sharp, kept);
+        let mut prolonged_count = 0;
+        if options.sharp_angle.is_some() {
+            prolonged_count += net.prolong(&turns, options.weak_angle);
+        }
+        if options.sharp_angle.is_some() && options.weak_angle < PI {
+            let facets = Facets { mesh: self, normals: &normals, turns: &turns, sharp_angle };
+            net.add(|edge| {
+                turns[edge.index()] > options.weak_angle && facets.ratio(edge) > ridges::LEAST_RATIO
+            });
+            net.drop_chains(|net, chain| {
+                net.is_blunt(chain, is_sharp) && net.length_of(chain) < ridges::LEAST_LENGTH * self.diagonal()
+            });
+            prolonged_count += net.prolong(&turns, options.weak_angle);
+            prolonged_count += net.join(&turns, |edge| facets.ratio(edge) > ridges::FADING_RATIO);
+            net.drop_chains(|net, chain| net.is_blunt(chain, is_sharp) && net.is_loose(chain));
+        }
         let dropped_count = net.drop_slivers() + net.drop_bits(options.least_length * self.diagonal());
-        let corners = net.corners(options.corner_angle, if is_noisy { NOISY_REACH } else { 1 });
+        let jagged = net.jagged_borders(options.corner_angle);
+        let corners = net.corners(options.corner_angle, |node| {
+            if is_noisy || jagged.contains(&node) { NOISY_REACH } else { 1 }
+        });
         Features {
             edges: net.edges(),
             chains: net.chains(&corners),
@@ -231,13 +255,14 @@ impl Mesh {
     }
 }
 
+/// The normal of each facet, without noise.
+fn facet_normals(mesh: &Mesh, is_noisy: bool) -> Vec<DVec3> {
+    let normals = mesh.triangles().iter().map(|t| normal(mesh.points(), t).normalize_or_zero()).collect_vec();
+    if is_noisy { noise::filtered(mesh, normals) } else { normals }
+}
+
 /// By half-edge: the angle by which the facets at it turn; 0 at the border and where one has no area.
-fn turns(mesh: &Mesh, is_noisy: bool) -> Vec<f64> {
-    let mut normals: Vec<DVec3> =
-        mesh.triangles().iter().map(|t| normal(mesh.points(), t).normalize_or_zero()).collect_vec();
-    if is_noisy {
-        normals = noise::filtered(mesh, normals);
-    }
+fn turns(mesh: &Mesh, normals: &[DVec3]) -> Vec<f64> {
     let turn = |edge: HalfEdge| {
         let [m, n] = [edge, mesh.topology().twin(edge)?].map(|edge| normals[edge.triangle()]);
         Some(m.cross(n).length().atan2(m.dot(n)))

@@ -166,9 +166,9 @@ fn borders_labels_and_given_edges_are_features() {
 
 #[test]
 fn chains_go_on_along_weak_edges_and_short_bits_go() {
-    // a roof whose ridge flattens out: 60 degrees at one end, 10 at the other
-    let (n, m) = (20, 10);
-    let slope = |x: f64| (60.0 - 50.0 * x / f64::from(n)).to_radians() / 2.0;
+    // a roof whose ridge flattens out: 60 degrees at one end, none from the middle on
+    let (n, m) = (40, 10);
+    let slope = |x: f64| (60.0 - 2.5 * x).max(0.0).to_radians() / 2.0;
     let mut points = Vec::new();
     for i in 0..=n {
         for j in -m..=m {
@@ -339,4 +339,38 @@ fn regions_part_at_pinched_nodes() {
         regions_of(&mesh, FeatureOptions { corner_angle: PI, ..FeatureOptions::default() });
     assert_eq!((features.corners, regions.regions.len()), (vec![0], 2));
     assert!(regions.regions.iter().all(|region| region.loops.len() == 1 && region.loops[0].len() == 1));
+}
+
+/// A block whose top is a roof: it rises towards the middle of y by a slope that falls from one end of x to the other as
+/// `slopes` do.
+fn roofed(size: [u32; 3], slopes: [f64; 2]) -> Mesh {
+    let mesh = block(size);
+    let [length, width, height] = size.map(f64::from);
+    let lifted = |p: &DVec3| {
+        let slope = slopes[0] + (slopes[1] - slopes[0]) * p.x / length;
+        let rise = if p.z == height { slope * (0.5 * width - (p.y - 0.5 * width).abs()) } else { 0.0 };
+        *p + rise * DVec3::Z
+    };
+    Mesh::new(mesh.points().iter().map(lifted).collect(), mesh.triangles().to_vec()).unwrap()
+}
+
+#[test]
+fn blunt_ridges_that_divide_a_surface_are_features() {
+    let size = [20, 16, 12];
+    let expected = sides(&block(size), size).len() + size[0] as usize;
+    // a turn of 20 degrees along the ridge, and one that fades out towards the other end
+    let slope = 10.0_f64.to_radians().tan();
+    for slopes in [[slope; 2], [slope, 0.0], [slope, 0.2 * slope]] {
+        let mesh = roofed(size, slopes);
+        let features = find(&mesh, FeatureOptions::default());
+        assert_eq!(features.edges.len(), expected, "{slopes:?}");
+        assert_eq!((features.chains.len(), features.corners.len()), (15, 10), "{slopes:?}");
+        assert_eq!(features.regions(&mesh).regions.len(), 7, "{slopes:?}");
+        // who looks for sharp edges alone finds those
+        let sharp_only = find(&mesh, FeatureOptions::default().with_weak_angle(PI));
+        assert_eq!(sharp_only.edges.len(), expected - size[0] as usize, "{slopes:?}");
+    }
+    // walls of 20 sides turn by 18 degrees at every edge: round, not ridged
+    let mesh = cylinder(20, 8);
+    assert_eq!(find(&mesh, FeatureOptions::default()).chains.len(), 2);
 }
