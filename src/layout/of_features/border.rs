@@ -1,7 +1,7 @@
 //! The borders of a piece with the vertices of the layout on them.
 
 use super::division::{STRAIGHT, outline};
-use super::pieces::{Line, Piece, Run};
+use super::pieces::{Line, Run, Sheet};
 use super::places::{Division, Stop};
 use super::polygon::Corner;
 
@@ -9,6 +9,8 @@ use super::polygon::Corner;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BorderStop {
     pub stop: Stop,
+    /// The node there; none for the middle of an edge that is halved.
+    pub node: Option<u32>,
     pub corner: Corner,
     /// The length along the loop.
     pub at: f64,
@@ -25,7 +27,7 @@ pub(super) struct ChainEdge {
     pub is_forward: bool,
 }
 
-/// A loop of a piece.
+/// A loop of a sheet.
 #[derive(Debug, Clone)]
 pub(super) struct Loop {
     /// In order along it.
@@ -35,19 +37,22 @@ pub(super) struct Loop {
     pub length: f64,
 }
 
-/// The loops of a piece.
-pub(super) fn loops(piece: &Piece, lines: &[Line], division: &Division) -> Vec<Loop> {
-    (0..piece.loops.len()).map(|index| border(piece, index, lines, division)).collect()
+/// Part of a loop below which two lengths along it are one.
+const ROUNDING: f64 = 1e-12;
+
+/// The loops of a piece that has nodes at all ends of edges.
+pub(super) fn loops(sheet: &Sheet, lines: &[Line], division: &Division) -> Vec<Loop> {
+    (0..sheet.loops.len()).map(|index| border(sheet, index, lines, division)).collect()
 }
 
-fn border(piece: &Piece, index: usize, lines: &[Line], division: &Division) -> Loop {
-    let corners = outline(piece, index, lines);
+fn border(sheet: &Sheet, index: usize, lines: &[Line], division: &Division) -> Loop {
+    let corners = outline(sheet, index, lines);
     let (mut stops, mut nodes, mut offset) = (Vec::new(), Vec::new(), 0.0);
-    for (run, side) in piece.loops[index].iter().zip(corners) {
+    for (run, side) in sheet.loops[index].iter().zip(corners) {
         let line = &lines[run.chain as usize];
         let along = |length: f64| offset + if run.is_forward { length } else { line.length() - length };
         let of_run = run.nodes.iter().zip(&run.lengths).map(|(&node, &length)| (node, along(length)));
-        nodes.extend(of_run.take(line.edge_count()));
+        nodes.extend(of_run.take(run.nodes.len() - 1));
         let mut of_run = stops_of_run(run, line, division);
         of_run.iter_mut().for_each(|stop| stop.at += offset);
         if let (Some(corner), Some(first)) = (side.corner, of_run.first_mut()) {
@@ -55,6 +60,16 @@ fn border(piece: &Piece, index: usize, lines: &[Line], division: &Division) -> L
         }
         stops.extend(of_run);
         offset += line.length();
+    }
+    // lengths of one place, reckoned along a chain and against it, differ by rounding
+    for stop in &mut stops {
+        let is_there = |at: f64| {
+            let off = (at - stop.at).abs();
+            off.min(offset - off) <= ROUNDING * offset
+        };
+        if let Some(&(node, at)) = nodes.iter().find(|&&(_, at)| is_there(at)) {
+            (stop.node, stop.at) = (Some(node), at);
+        }
     }
     Loop { stops, nodes, length: offset }
 }
@@ -66,6 +81,7 @@ fn stops_of_run(run: &Run, line: &Line, division: &Division) -> Vec<BorderStop> 
     let edges = division.edge_count(chain, line);
     let stop = |rank: usize, at: f64, edge: usize| BorderStop {
         stop: division.stop(chain, rank, line),
+        node: None,
         corner: STRAIGHT,
         at,
         edge: ChainEdge { chain, rank: edge as u32, is_forward },

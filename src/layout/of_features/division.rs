@@ -5,7 +5,7 @@
 //! the regions (a T-join, J. Edmonds, E. Johnson 1973). Then counts change, two or three chains at a time so that the
 //! parity holds, as long as the cost of all fillings (`polygon`) falls.
 
-use super::pieces::{Line, Piece};
+use super::pieces::{Line, Piece, Sheet};
 use super::places::{Division, Stop, place};
 use super::polygon::{Corner, Polygon};
 use crate::Control;
@@ -24,6 +24,9 @@ const LEAST_CLOSED: u32 = 4;
 
 /// Fewest of a loop: two quads of a ring must not have both ends of an edge in common.
 const LEAST_LOOP: u32 = 3;
+
+/// No edge of a loop is longer than so many of its mean edges.
+const LONGEST_EDGE: f64 = 2.0;
 
 /// A chain that turns by more than this gets one more edge: 120 degrees.
 const TURN_PER_EDGE: f64 = 2.1;
@@ -70,14 +73,14 @@ pub(super) struct Side {
 }
 
 /// The runs of a loop.
-pub(super) fn outline(piece: &Piece, index: usize, lines: &[Line]) -> Vec<Side> {
-    let runs = &piece.loops[index];
+pub(super) fn outline(sheet: &Sheet, index: usize, lines: &[Line]) -> Vec<Side> {
+    let runs = &sheet.loops[index];
     let corner = |k: usize| {
         let (before, run) = (&runs[(k + runs.len() - 1) % runs.len()], &runs[k]);
         if lines[run.chain as usize].is_closed {
             return None;
         }
-        let angle = inner_angle(&piece.mesh, run.nodes[0]) / FRAC_PI_2;
+        let angle = inner_angle(&sheet.mesh, run.nodes[0]) / FRAC_PI_2;
         let is_dart = before.chain == run.chain && before.is_forward != run.is_forward;
         let need = if is_dart {
             DART_NEED
@@ -122,7 +125,9 @@ impl<'a> Counts<'a> {
     fn new(mesh: &Mesh, pieces: &[Piece], lines: &'a [Line]) -> Self {
         let outlines: Vec<Vec<Vec<Side>>> = pieces
             .iter()
-            .map(|piece| (0..piece.loops.len()).map(|index| outline(piece, index, lines)).collect())
+            .map(|Piece { sheet, .. }| {
+                (0..sheet.loops.len()).map(|index| outline(sheet, index, lines)).collect()
+            })
             .collect();
         let mut beside: Vec<Vec<u32>> = vec![Vec::new(); lines.len()];
         for (number, loops) in (0..).zip(&outlines) {
@@ -132,7 +137,11 @@ impl<'a> Counts<'a> {
             [a, b] if a == b => Vec::new(),
             _ => of_chain.clone(),
         };
-        let least: Vec<u32> = lines.iter().map(|line| least_count(mesh, line)).collect();
+        let mut least: Vec<u32> = lines.iter().map(|line| least_count(mesh, line)).collect();
+        for sides in outlines.iter().flatten() {
+            balance(sides, &mut least, lines);
+            lengthen(sides, &mut least, lines);
+        }
         let start = |(line, least): (&Line, &u32)| if line.is_closed { CLOSED_EDGES } else { *least };
         let mut of_chains: Vec<u32> = lines.iter().zip(&least).map(start).collect();
         for (count, beside) in of_chains.iter_mut().zip(&beside) {
@@ -353,6 +362,30 @@ fn polygon(sides: &[Side], counts: &[u32], lines: &[Line]) -> Polygon {
         }
     }
     Polygon { groups: (0..vertices.len() as u32).collect(), vertices, corners }
+}
+
+/// Raises the fewest edges of chains that are much longer than the others of a loop: quads beside a long edge end in short
+/// ones.
+fn balance(sides: &[Side], least: &mut [u32], lines: &[Line]) {
+    let count: u32 = sides.iter().map(|side| least[side.chain as usize]).sum();
+    let length: f64 = sides.iter().map(|side| lines[side.chain as usize].length()).sum();
+    let longest = LONGEST_EDGE * length / f64::from(count.max(1));
+    for chain in sides.iter().map(|side| side.chain as usize) {
+        least[chain] = least[chain].max((lines[chain].length() / longest).ceil() as u32);
+    }
+}
+
+/// Raises the fewest edges of the longest chain of a loop until the loop has enough: one around a chain with two loose ends
+/// would have two.
+fn lengthen(sides: &[Side], least: &mut [u32], lines: &[Line]) {
+    let longest = sides.iter().map(|side| side.chain).max_by(|&a, &b| {
+        let [a, b] = [a, b].map(|chain| lines[chain as usize].length());
+        a.total_cmp(&b)
+    });
+    let Some(longest) = longest else { return };
+    while sides.iter().map(|side| least[side.chain as usize]).sum::<u32>() < LEAST_LOOP {
+        least[longest as usize] += 1;
+    }
 }
 
 /// Fewest edges of a chain.

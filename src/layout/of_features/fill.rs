@@ -7,7 +7,7 @@
 
 use super::FeatureLayoutError;
 use super::border::Loop;
-use super::pieces::Piece;
+use super::pieces::Sheet;
 use super::polygon::{Filling, Polygon};
 use crate::Control;
 use crate::control::{Cancelled, Stage};
@@ -22,7 +22,7 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 use std::f64::consts::TAU;
 
-/// Quads over a piece. Vertices are the stops of its loops, one loop after the other, and then those inside.
+/// Quads over a sheet. Vertices are the stops of its loops, one loop after the other, and then those inside.
 #[derive(Debug, Clone)]
 pub(super) struct Quads {
     pub corners: Vec<[u32; 4]>,
@@ -49,21 +49,21 @@ const DRAWING_ROUNDS: usize = 300;
 
 /// The best quads over a piece of few loops and stops; none if it is none, or there are none.
 pub(super) fn fill(
-    piece: &Piece,
+    sheet: &Sheet,
     loops: &[Loop],
     control: &mut Control,
 ) -> Result<Option<Quads>, FeatureLayoutError> {
     let sides: usize = loops.iter().map(|border| border.stops.len()).sum();
-    if loops.is_empty() || piece.mesh.genus() > 0 || sides + 2 * (loops.len() - 1) > MOST_SIDES {
+    if loops.is_empty() || sheet.mesh.genus() > 0 || sides + 2 * (loops.len() - 1) > MOST_SIDES {
         return Ok(None);
     }
-    let Some(ways) = ways(piece, loops) else { return Ok(None) };
+    let Some(ways) = ways(sheet, loops) else { return Ok(None) };
     let is_way = |edge: HalfEdge| {
-        let [a, b] = [edge.origin(piece.mesh.triangles()), edge.target(piece.mesh.triangles())];
+        let [a, b] = [edge.origin(sheet.mesh.triangles()), edge.target(sheet.mesh.triangles())];
         ways.iter().any(|way| way.contains(&[a.min(b), a.max(b)]))
     };
-    let all: Vec<u32> = (0..piece.mesh.triangles().len() as u32).collect();
-    let disk = piece.mesh.cut_out(&all, is_way)?;
+    let all: Vec<u32> = (0..sheet.mesh.triangles().len() as u32).collect();
+    let disk = sheet.mesh.cut_out(&all, is_way)?;
     if !disk.mesh.is_disk() || disk.mesh.loops().len() != 1 {
         return Ok(None);
     }
@@ -71,7 +71,7 @@ pub(super) fn fill(
     let Some(filling) = outline.polygon(loops).filled(STEPS) else { return Ok(None) };
     let Some(uv) = drawn(&disk.mesh, &outline, control)? else { return Ok(None) };
     let Some(places) = places(&filling, &outline, &uv) else { return Ok(None) };
-    let mut of_piece = vec![None; piece.mesh.points().len()];
+    let mut of_piece = vec![None; sheet.mesh.points().len()];
     for (&node, place) in disk.nodes.iter().zip(places) {
         of_piece[node as usize].get_or_insert(place);
     }
@@ -82,17 +82,15 @@ pub(super) fn fill(
 /// The edges of a way, the smaller node first.
 type Way = BTreeSet<[u32; 2]>;
 
-/// Shortest ways that join all loops, from stop to stop through the inside; none if a stop lies between nodes.
-fn ways(piece: &Piece, loops: &[Loop]) -> Option<Vec<Way>> {
-    let mesh = &piece.mesh;
+/// Shortest ways that join all loops, from stop to stop through the inside; none if some loop cannot be reached so.
+fn ways(sheet: &Sheet, loops: &[Loop]) -> Option<Vec<Way>> {
+    let mesh = &sheet.mesh;
     // by node: the loop, and the price of a way that ends there
     let mut ends: BTreeMap<u32, (usize, f64)> = BTreeMap::new();
     for (index, border) in loops.iter().enumerate() {
         for stop in &border.stops {
-            if let Some(&(node, _)) = border.nodes.iter().find(|&&(_, at)| at == stop.at) {
-                let price = if stop.corner.angle < NARROW { NARROW_PRICE } else { 1.0 };
-                ends.insert(node, (index, price));
-            }
+            let price = if stop.corner.angle < NARROW { NARROW_PRICE } else { 1.0 };
+            ends.extend(stop.node.map(|node| (node, (index, price))));
         }
     }
     let mut is_closed: Vec<bool> =
@@ -218,8 +216,10 @@ impl Outline {
             let numbered = || (first_stops[index]..).zip(&border.stops);
             if let Some(way) = way {
                 // the way ends at a stop, or goes on
-                let here =
-                    place.contains_key(&to).then(|| numbered().find(|(_, stop)| stop.at == end)).flatten();
+                let here = place
+                    .contains_key(&to)
+                    .then(|| numbered().find(|(_, stop)| stop.node == Some(to)))
+                    .flatten();
                 items.extend(
                     here.map(|(stop, _)| (length + step, Item::Stop { stop, way: Some(way as u32) })),
                 );

@@ -5,7 +5,7 @@
 //!
 //! 1. Regions are cut out of the mesh (`pieces`).
 //! 2. Chains are divided into edges, so that every region has an even border and good quads (`division`, `places`).
-//! 3. Each region is filled with quads: the best of all ways to do so (`border`, `polygon`, `fill`), or where it has too
+//! 3. Each region gets nodes where those edges end (`stops`), and is filled with quads: the best of all ways to do so (`border`, `polygon`, `fill`), or where it has too
 //!    many corners, loops or limbs for that, its base complex (`over`).
 //! 4. The nodes of each region are relaxed over its quads; those on chains stay where their length along it says.
 
@@ -17,6 +17,7 @@ mod over;
 mod pieces;
 mod places;
 mod polygon;
+mod stops;
 #[cfg(test)]
 mod tests;
 
@@ -29,7 +30,7 @@ use crate::mesh::{Features, Mesh, Regions};
 use border::{ChainEdge, Loop};
 use fill::Quads;
 use over::Halving;
-use pieces::{Line, Piece};
+use pieces::{Line, Piece, Sheet};
 use places::{Division, Stop};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -188,15 +189,17 @@ fn lay_out(
     options: &FeatureLayoutOptions,
     control: &mut Control,
 ) -> Result<FeatureLayout, FeatureLayoutError> {
-    let whole_area: f64 = pieces.iter().map(|piece| area(&piece.mesh)).sum();
+    let whole_area: f64 = pieces.iter().map(|piece| area(&piece.sheet.mesh)).sum();
     let mut assembly = Assembly::new(lines, division, halving);
     for (number, piece) in pieces.iter().enumerate() {
         let [from, to] = [number, number + 1].map(|k| 0.2 + 0.8 * k as f64 / pieces.len() as f64);
         control.set_stage(from, to);
-        let loops = border::loops(piece, lines, division);
-        let wanted = (options.patches as f64 * area(&piece.mesh) / whole_area).ceil() as usize;
-        let filled = assembly.best(piece, &loops, wanted, options.sweeps, control)?;
-        assembly.add(piece, &loops, filled);
+        let sheet = piece.sheet.with_stops(lines, division, halving)?;
+        let loops = border::loops(&sheet, lines, division);
+        let wanted = (options.patches as f64 * area(&sheet.mesh) / whole_area).ceil() as usize;
+        let mut filled = assembly.best(&sheet, &loops, wanted, options.sweeps, control)?;
+        filled.places.truncate(piece.nodes.len());
+        assembly.add(sheet.region, &loops, filled);
     }
     assembly.finish(mesh, pieces)
 }
@@ -282,42 +285,43 @@ impl<'a> Assembly<'a> {
     /// so many patches.
     fn best(
         &self,
-        piece: &Piece,
+        sheet: &Sheet,
         loops: &[Loop],
         patches: usize,
         sweeps: usize,
         control: &mut Control,
     ) -> Result<Filled, FeatureLayoutError> {
         if loops.is_empty() {
-            let quads = over::closed(piece, control)?;
-            return self.relaxed(piece, loops, quads, sweeps, control);
+            let quads = over::closed(sheet, control)?;
+            return self.relaxed(sheet, loops, quads, sweeps, control);
         }
-        let few = match fill::fill(piece, loops, control)? {
-            Some(quads) => self.candidate(piece, loops, quads, sweeps, control)?,
+        let few = match fill::fill(sheet, loops, control)? {
+            Some(quads) => self.candidate(sheet, loops, quads, sweeps, control)?,
             None => None,
         };
         if let Some(few) = few.as_ref().filter(|few| few.rank() == 0 && few.quality.energy <= GOOD_ENERGY) {
             return Ok(few.clone());
         }
         let sides: usize = loops.iter().map(|border| border.stops.len()).sum();
-        let many = match over::over(piece, loops, patches.max(sides / 2 + 1), self.halving, control)? {
-            Some(quads) => self.candidate(piece, loops, quads, sweeps, control)?,
+        let many = match over::over(sheet, loops, patches.max(sides / 2 + 1), self.halving, control)? {
+            Some(quads) => self.candidate(sheet, loops, quads, sweeps, control)?,
             None => None,
         };
         let is_worth_it = |few: &Filled, many: &Filled| {
+            let share = if many.corners.len() > few.corners.len() { WORTH_PATCHES } else { 1.0 };
             many.rank() < few.rank()
-                || (many.rank() == few.rank() && many.quality.energy < WORTH_PATCHES * few.quality.energy)
+                || (many.rank() == few.rank() && many.quality.energy < share * few.quality.energy)
         };
         match (few, many) {
             (Some(few), Some(many)) => Ok(if is_worth_it(&few, &many) { many } else { few }),
-            (few, many) => few.or(many).ok_or(FeatureLayoutError::NoLayout { region: piece.region as usize }),
+            (few, many) => few.or(many).ok_or(FeatureLayoutError::NoLayout { region: sheet.region as usize }),
         }
     }
 
     /// A piece relaxed over quads, if they make a layout: no quad may meet a vertex twice, from both sides of a chain.
     fn candidate(
         &self,
-        piece: &Piece,
+        sheet: &Sheet,
         loops: &[Loop],
         quads: Quads,
         sweeps: usize,
@@ -331,7 +335,7 @@ impl<'a> Assembly<'a> {
         if quads.corners.iter().any(meets_twice) {
             return Ok(None);
         }
-        match self.relaxed(piece, loops, quads, sweeps, control) {
+        match self.relaxed(sheet, loops, quads, sweeps, control) {
             Ok(filled) => Ok(Some(filled)),
             Err(FeatureLayoutError::Layout(_)) => Ok(None),
             Err(error) => Err(error),
@@ -341,7 +345,7 @@ impl<'a> Assembly<'a> {
     /// Relaxes the nodes of a piece over quads.
     fn relaxed(
         &self,
-        piece: &Piece,
+        sheet: &Sheet,
         loops: &[Loop],
         quads: Quads,
         sweeps: usize,
@@ -357,13 +361,13 @@ impl<'a> Assembly<'a> {
             angles[corner.quad as usize][corner.side as usize]
         })?;
         let sides = border_sides(&stops, &edges);
-        self.place_border(piece, &sides, &mut places);
-        let quality = complex::relax_all(&piece.mesh, &local, &mut places, fine, sweeps, control)?;
+        self.place_border(sheet, &sides, &mut places);
+        let quality = complex::relax_all(&sheet.mesh, &local, &mut places, fine, sweeps, control)?;
         Ok(Filled { corners, edges, angles, sides, places, quality, splits, doublets })
     }
 
     /// Adds a piece with its quads.
-    fn add(&mut self, piece: &Piece, loops: &[Loop], filled: Filled) {
+    fn add(&mut self, region: u32, loops: &[Loop], filled: Filled) {
         let stops: Vec<_> = loops.iter().flat_map(|border| &border.stops).collect();
         let Filled { corners, edges, angles, sides, places, quality, splits, doublets } = filled;
         self.energy += quality.energy * corners.len() as f64;
@@ -371,7 +375,7 @@ impl<'a> Assembly<'a> {
         self.report.spread_nodes += quality.spread;
         self.report.splits += splits;
         self.report.doublets += doublets;
-        let region = piece.region as usize;
+        let region = region as usize;
         self.report.patches.resize(self.report.patches.len().max(region + 1), 0);
         self.report.patches[region] = corners.len();
 
@@ -411,10 +415,10 @@ impl<'a> Assembly<'a> {
     }
 
     /// Gives nodes on chains the places that their lengths say.
-    fn place_border(&self, piece: &Piece, sides: &BTreeMap<Side, ChainEdge>, places: &mut [Option<Place>]) {
+    fn place_border(&self, sheet: &Sheet, sides: &BTreeMap<Side, ChainEdge>, places: &mut [Option<Place>]) {
         let side_of: BTreeMap<(u32, u32, bool), Side> =
             sides.iter().map(|(&side, edge)| ((edge.chain, edge.rank, edge.is_forward), side)).collect();
-        for run in piece.loops.iter().flatten() {
+        for run in sheet.loops.iter().flatten() {
             let line = &self.lines[run.chain as usize];
             let edges = self.division.edge_count(run.chain, line);
             for (&node, &length) in run.nodes.iter().zip(&run.lengths) {
@@ -515,8 +519,8 @@ fn cut_mesh(mesh: &Mesh, pieces: &[Piece]) -> Result<CutMesh, FeatureLayoutError
     for piece in pieces {
         let first = nodes.len() as u32;
         nodes.extend(&piece.nodes);
-        regions.extend(piece.nodes.iter().map(|_| piece.region));
-        triangles.extend(piece.mesh.triangles().iter().map(|corners| corners.map(|node| node + first)));
+        regions.extend(piece.nodes.iter().map(|_| piece.sheet.region));
+        triangles.extend(piece.sheet.mesh.triangles().iter().map(|corners| corners.map(|node| node + first)));
         origins.extend(&piece.triangles);
     }
     let points = nodes.iter().map(|&node| mesh.points()[node as usize]).collect();

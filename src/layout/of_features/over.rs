@@ -3,7 +3,7 @@
 use super::FeatureLayoutError;
 use super::border::Loop;
 use super::fill::Quads;
-use super::pieces::Piece;
+use super::pieces::Sheet;
 use crate::Control;
 use crate::layout::Side;
 use crate::layout::complex::{self, Over};
@@ -21,7 +21,7 @@ pub(super) enum Halving {
 
 /// About so many quads over a piece; none if a stop lies between nodes, or there is no such complex.
 pub(super) fn over(
-    piece: &Piece,
+    sheet: &Sheet,
     loops: &[Loop],
     patches: usize,
     halving: Halving,
@@ -36,16 +36,14 @@ pub(super) fn over(
             if halving == Halving::Yes && stop.stop.is_middle() {
                 continue;
             }
-            let Some(&(node, _)) = border.nodes.iter().find(|&&(_, at)| at == stop.at) else {
-                return Ok(None);
-            };
+            let Some(node) = stop.node else { return Ok(None) };
             needs.insert(node, stop.corner.need);
             stop_of.insert(node, first + rank);
         }
     }
     let made = match halving {
-        Halving::No => complex::make_over(&piece.mesh, &needs, patches, control)?,
-        Halving::Yes => complex::make_halved(&piece.mesh, &needs, patches, control)?,
+        Halving::No => complex::make_over(&sheet.mesh, &needs, patches, control)?,
+        Halving::Yes => complex::make_halved(&sheet.mesh, &needs, patches, control)?,
     };
     Ok(made.and_then(|made| numbered(made, &stop_of, &next)))
 }
@@ -103,8 +101,8 @@ fn numbered(made: Over, stop_of: &BTreeMap<u32, u32>, next: &[u32]) -> Option<Qu
 }
 
 /// Quads over a piece without a border.
-pub(super) fn closed(piece: &Piece, control: &mut Control) -> Result<Quads, FeatureLayoutError> {
-    let made = layout_of_mesh(&piece.mesh, &MeshLayoutOptions::default(), control)?;
+pub(super) fn closed(sheet: &Sheet, control: &mut Control) -> Result<Quads, FeatureLayoutError> {
+    let made = layout_of_mesh(&sheet.mesh, &MeshLayoutOptions::default(), control)?;
     let edge = |quad: u32, side: u8| made.layout.edge_of(Side { quad, side }).edge;
     let count = made.layout.quads().len() as u32;
     Ok(Quads {

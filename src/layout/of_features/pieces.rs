@@ -44,16 +44,22 @@ pub(super) struct Run {
     pub lengths: Vec<f64>,
 }
 
-/// A region as a mesh of its own.
+/// A region as an open surface by itself.
 #[derive(Debug, Clone)]
-pub(super) struct Piece {
+pub(super) struct Sheet {
     pub region: u32,
     pub mesh: Mesh,
+    pub loops: Vec<Vec<Run>>,
+}
+
+/// A region cut out of the mesh.
+#[derive(Debug, Clone)]
+pub(super) struct Piece {
+    pub sheet: Sheet,
     /// By node: which one of the whole mesh it is.
     pub nodes: Vec<u32>,
     /// By triangle the same.
     pub triangles: Vec<u32>,
-    pub loops: Vec<Vec<Run>>,
 }
 
 /// The pieces of some regions.
@@ -76,13 +82,8 @@ pub(super) fn pieces(
         for nodes in cut.mesh.loops() {
             loops.push(runs(nodes, &cut.nodes, lines, &place_of_edge));
         }
-        pieces.push(Piece {
-            region,
-            mesh: cut.mesh,
-            nodes: cut.nodes,
-            triangles: part.triangles.clone(),
-            loops,
-        });
+        let sheet = Sheet { region, mesh: cut.mesh, loops };
+        pieces.push(Piece { sheet, nodes: cut.nodes, triangles: part.triangles.clone() });
     }
     Ok(pieces)
 }

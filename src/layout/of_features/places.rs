@@ -3,7 +3,7 @@
 //! Edges of a chain are equally long, up to the node nearest to each end. A closed chain may begin anywhere: where its
 //! vertices lie nearest to those of other loops around the same regions.
 
-use super::pieces::{Line, Piece, Run};
+use super::pieces::{Line, Piece, Run, Sheet};
 use crate::mesh::Mesh;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -83,10 +83,9 @@ pub(super) fn place(pieces: &[Piece], lines: &[Line], counts: &[u32]) -> Divisio
         }
     }
     let closed = |pieces: &[Piece]| {
-        let runs = pieces
-            .iter()
-            .enumerate()
-            .flat_map(|(number, piece)| piece.loops.iter().flatten().map(move |run| (number, run.chain)));
+        let runs = pieces.iter().enumerate().flat_map(|(number, piece)| {
+            piece.sheet.loops.iter().flatten().map(move |run| (number, run.chain))
+        });
         runs.filter(|&(_, chain)| lines[chain as usize].is_closed).collect::<Vec<_>>()
     };
     let mut waiting = closed(pieces);
@@ -94,10 +93,10 @@ pub(super) fn place(pieces: &[Piece], lines: &[Line], counts: &[u32]) -> Divisio
     // first those beside something that has its place
     while let Some(&first) = waiting.first() {
         let ready =
-            waiting.iter().copied().find(|&(piece, _)| !anchors(&pieces[piece], &division).is_empty());
+            waiting.iter().copied().find(|&(piece, _)| !anchors(&pieces[piece].sheet, &division).is_empty());
         let (piece, chain) = ready.unwrap_or(first);
         let begin = match ready {
-            Some(_) => best_begin(&pieces[piece], chain, lines, counts[chain as usize], &division),
+            Some(_) => best_begin(&pieces[piece].sheet, chain, lines, counts[chain as usize], &division),
             None => 0.0,
         };
         division.lengths[chain as usize] = even(&lines[chain as usize], begin, counts[chain as usize]);
@@ -129,7 +128,7 @@ fn even(line: &Line, begin: f64, count: u32) -> Vec<f64> {
 }
 
 /// Nodes of a piece at which a vertex of the layout is known.
-fn anchors(piece: &Piece, division: &Division) -> Vec<u32> {
+fn anchors(sheet: &Sheet, division: &Division) -> Vec<u32> {
     let of_run = |run: &Run| {
         let lengths = &division.lengths[run.chain as usize];
         let is_stop = |length: f64| lengths.contains(&length);
@@ -141,17 +140,17 @@ fn anchors(piece: &Piece, division: &Division) -> Vec<u32> {
             .collect()
     };
     let mut nodes: Vec<u32> =
-        piece.loops.iter().flatten().flat_map(|run| -> Vec<u32> { of_run(run) }).collect();
+        sheet.loops.iter().flatten().flat_map(|run| -> Vec<u32> { of_run(run) }).collect();
     nodes.sort_unstable();
     nodes.dedup();
     nodes
 }
 
 /// The length at which a closed chain should begin: its vertices are then nearest to the anchors of a piece.
-fn best_begin(piece: &Piece, chain: u32, lines: &[Line], count: u32, division: &Division) -> f64 {
+fn best_begin(sheet: &Sheet, chain: u32, lines: &[Line], count: u32, division: &Division) -> f64 {
     let line = &lines[chain as usize];
-    let distances = distances(&piece.mesh, &anchors(piece, division));
-    let runs = piece.loops.iter().flatten().filter(|run| run.chain == chain);
+    let distances = distances(&sheet.mesh, &anchors(sheet, division));
+    let runs = sheet.loops.iter().flatten().filter(|run| run.chain == chain);
     let mut of_nodes: Vec<(f64, f64)> = runs
         .flat_map(|run| run.lengths.iter().zip(&run.nodes))
         .map(|(&length, &node)| (length, distances[node as usize]))

@@ -354,3 +354,38 @@ fn refusals_name_the_offender() {
     assert_eq!(error, FeatureLayoutError::RegionCount { given: 4, count: 3 });
     assert_eq!(error.kind(), ErrorKind::InvalidArgument);
 }
+
+#[test]
+fn coarse_chains_get_nodes_where_vertices_lie() {
+    // rims of six edges in four parts: two vertices of each lie halfway between nodes
+    let wall = line([1.0, 0.0], [1.0, 2.0], 4);
+    let profile = [vec![[0.0, 0.0]], wall.collect(), vec![[1.0, 2.0], [0.0, 2.0]]].concat();
+    // walls turn by 60 degrees, and so do the rims, without an edge or a corner there
+    let options =
+        FeatureOptions { corner_angle: 1.2, ..FeatureOptions::default().with_sharp_angle(Some(1.4)) };
+    let part = Part::new(turned(6, &profile), options);
+    let Part { mesh, features, regions, has_patches } = &part;
+    let lines: Vec<Line> = features.chains.iter().map(|chain| Line::new(mesh, chain)).collect();
+    let pieces = pieces::pieces(mesh, features, regions, &lines, has_patches).unwrap();
+    let division = division::divide(mesh, &pieces, &lines, &mut Control::new(1)).unwrap();
+    let [piece] = &pieces[..] else { panic!("one wall") };
+    let sheet = piece.sheet.with_stops(&lines, &division, Halving::No).unwrap();
+    let added = sheet.mesh.points().len() - piece.nodes.len();
+    assert_eq!(added, 4);
+    assert_eq!(sheet.mesh.triangles().len(), piece.triangles.len() + added);
+    assert_eq!(sheet.mesh.points()[..piece.nodes.len()], *piece.sheet.mesh.points());
+    assert!((area(&sheet.mesh) / area(&piece.sheet.mesh) - 1.0).abs() <= 1e-14);
+    for border in border::loops(&sheet, &lines, &division) {
+        assert_eq!(border.stops.len(), 4);
+        let edge = border.length / 6.0;
+        for stop in &border.stops {
+            let place = sheet.mesh.points()[stop.node.unwrap() as usize];
+            let is_between = ((stop.at / edge).fract() - 0.5).abs() < 1e-9;
+            // halfway along a side of the hexagon, or at its corner
+            let radius = if is_between { 0.75_f64.sqrt() } else { 1.0 };
+            assert!((place.truncate().length() - radius).abs() <= 1e-14, "{stop:?} at {place}");
+        }
+    }
+    let made = part.sound();
+    assert_eq!(made.layout.quads().len(), 4);
+}

@@ -17,23 +17,27 @@ use glam::DVec3;
 /// A ridge turns by more than so many times what the surface beside it bends. On scanned heads and cast parts few edges do,
 /// and no three of them in a row.
 pub(super) const LEAST_RATIO: f64 = 4.0;
+
 /// A crease that fades out goes on as long as its edges turn by more than so many times; along a round wall they turn once.
 pub(super) const FADING_RATIO: f64 = 1.5;
+
 /// Ridges shorter than this part of the diagonal are accidents of the triangulation.
 pub(super) const LEAST_LENGTH: f64 = 0.07;
+
 /// Surfaces bend by no less: rounding of coordinates in single precision.
 const LEAST_BEND: f64 = 1e-4;
+
 /// An edge that is sharp and turns by more than so many times another bounds the surface beside it.
 const BOUND: f64 = 2.0;
 
 /// The facets of a mesh as ridges are looked for.
 pub(super) struct Facets<'a> {
-    pub(super) mesh: &'a Mesh,
+    pub mesh: &'a Mesh,
     /// By facet.
-    pub(super) normals: &'a [DVec3],
+    pub normals: &'a [DVec3],
     /// By half-edge.
-    pub(super) turns: &'a [f64],
-    pub(super) sharp_angle: f64,
+    pub turns: &'a [f64],
+    pub sharp_angle: f64,
 }
 
 impl Facets<'_> {
