@@ -72,6 +72,8 @@ pub struct Patchwork<'a> {
     pub surfaces: &'a [PhtSurface],
     /// What closes it where the layout has borders.
     pub planes: Option<&'a Planes>,
+    /// What the caller calls each patch; empty for nothing, which is 0.
+    pub labels: &'a [u32],
     /// The solid, by its number among the pieces, in which this piece bounds a void: its fronts look into it.
     pub void_in: Option<usize>,
 }
@@ -178,6 +180,8 @@ struct Stitching<'a> {
     vertices: BTreeMap<Corner, VertexId>,
     edges: BTreeMap<Piece, KnownEdge>,
     planes: Option<&'a Planes>,
+    /// By patch.
+    labels: &'a [u32],
     /// Edges of the layout in the loops of planes.
     rims: BTreeSet<u32>,
 }
@@ -211,6 +215,7 @@ impl<'a> Stitching<'a> {
         });
         let mut stitching = Self {
             planes: piece.planes,
+            labels: piece.labels,
             rims: rims.collect(),
             layout: piece.layout,
             tiles,
@@ -273,7 +278,9 @@ impl<'a> Stitching<'a> {
             }
             let domain = surface.domain();
             let surface = builder.surface(surface);
-            faces[quad as usize].push((domain, builder.face(surface, vec![bound])));
+            let label = self.labels.get(quad as usize).copied().unwrap_or(0);
+            let face = Face { surface, is_forward: true, bounds: vec![bound], label };
+            faces[quad as usize].push((domain, builder.add_face(face)));
         }
         faces
     }

@@ -191,8 +191,13 @@ fn a_cylinder_is_its_wall_between_two_planes() {
             assert!(off <= 16.0 * f64::EPSILON, "slip {slip}: {off:e}");
         }
 
-        let piece =
-            Patchwork { layout: &layout, surfaces: &fit.surfaces, planes: Some(&planes), void_in: None };
+        let piece = Patchwork {
+            layout: &layout,
+            surfaces: &fit.surfaces,
+            planes: Some(&planes),
+            labels: &[],
+            void_in: None,
+        };
         let model = of_patches(&[piece], 1).unwrap().model;
         assert_eq!((model.shells().len(), model.shells()[0].role), (1, Role::Solid));
         assert_eq!(model.euler_characteristic(), 2);
@@ -356,4 +361,30 @@ fn parts_become_patches_between_planes() {
     check_part("holed plate", &holed_plate(), [6, 1], [12.0 - disk, 2.0 * (12.0 - disk) + sides], 0);
     let shaft = [1.36 * PI, (2.0 + 2.0 + 1.2) * PI];
     check_part("stepped shaft", &stepped_shaft(), [3, 2], shaft, 2);
+}
+
+#[test]
+fn faces_have_the_labels_of_their_regions() {
+    let mesh = cylinder();
+    let middle = |t: &[u32; 3]| t.iter().map(|&node| mesh.points()[node as usize]).sum::<DVec3>() / 3.0;
+    let label = |middle: DVec3| match middle.z {
+        low if low < 1e-9 => 7,
+        high if high > 2.0 - 1e-9 => 8,
+        _ if middle.y > 0.0 => 5,
+        _ => 6,
+    };
+    let labels: Vec<u32> = mesh.triangles().iter().map(|t| label(middle(t))).collect();
+    let features = crate::mesh::FeatureOptions::default().with_labels(&labels);
+    let options = MeshModelOptions { exact: false, features, ..MeshModelOptions::default() };
+    let fit = fit_mesh(&mesh, &options, &mut Control::new(1)).unwrap();
+    assert!(fit.report.max_error <= fit.report.tolerance, "{:?}", fit.report);
+    let count = |label: u32| fit.model.faces().iter().filter(|face| face.label == label).count();
+    assert_eq!((count(7), count(8)), (1, 1));
+    assert!(count(5) > 0 && count(6) > 0 && count(0) == 0);
+    // the map back: inside a region a node lies on a face of its label
+    for (node, place) in fit.places.iter().enumerate() {
+        let around: Vec<u32> = mesh.outgoing(node as u32).map(|edge| labels[edge.triangle()]).collect();
+        let is_inside = around.iter().all(|&label| label == around[0]);
+        assert!(!is_inside || fit.model.face(place.unwrap().0).label == around[0], "node {node}");
+    }
 }

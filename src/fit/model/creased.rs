@@ -53,7 +53,7 @@ pub(super) fn over_features(
     }
     let planes =
         regions.regions.iter().map(|region| plane_of(mesh, region, PLANE_SHARE * tolerance)).collect();
-    let part = Part { mesh, features: &features, regions: &regions };
+    let part = Part { mesh, features: &features, regions: &regions, labels: options.features.labels };
     let fit = part.fit(planes, (&options.fit, tolerance), control)?;
     let component = fit.component(body, &part);
     check_shell(&component.piece, mesh.loops().is_empty(), options.level_spread)?;
@@ -62,8 +62,8 @@ pub(super) fn over_features(
 
 /// Refuses patches and planes that do not make one shell, closed where the mesh is.
 fn check_shell(piece: &Piece, is_closed: bool, level_spread: u32) -> Result<(), ModelError> {
-    let Piece { layout, surfaces, planes } = piece;
-    let patchwork = Patchwork { layout, surfaces, planes: Some(planes), void_in: None };
+    let Piece { layout, surfaces, planes, labels } = piece;
+    let patchwork = Patchwork { layout, surfaces, planes: Some(planes), labels, void_in: None };
     let model = of_patches(&[patchwork], level_spread)?.model;
     match model.edge_ids().find(|&edge| model.is_free(edge)) {
         Some(edge) if is_closed => Err(ModelError::FreeEdge { shell: 0, edge: edge.index() }),
@@ -146,6 +146,7 @@ impl CreasedFit {
         (report.worst_node, report.diagonal) = (worst, part.mesh.diagonal());
         report.mesh_volume = mesh_volume(part.mesh);
         report.remarks.add_if(report.max_error > report.tolerance, Remarks::TOLERANCE_NOT_MET);
+        let labels = part.labels_of_patches(&made.report.patches);
         let report = ComponentReport {
             genus: part.mesh.genus(),
             layout: Some(LayoutKind::Complex),
@@ -158,7 +159,7 @@ impl CreasedFit {
             map_seconds: made.report.seconds,
             fit: report,
         };
-        let piece = Piece { layout: made.layout, surfaces: fit.surfaces, planes };
+        let piece = Piece { layout: made.layout, surfaces: fit.surfaces, planes, labels };
         Component { piece, spots, errors, report }
     }
 }
@@ -169,6 +170,8 @@ struct Part<'a> {
     mesh: &'a Mesh,
     features: &'a Features,
     regions: &'a Regions,
+    /// By triangle, or none.
+    labels: &'a [u32],
 }
 
 impl Part<'_> {
@@ -179,7 +182,7 @@ impl Part<'_> {
         (options, tolerance): (&ModelOptions, f64),
         control: &mut Control,
     ) -> Result<CreasedFit, ModelFitError> {
-        let Self { mesh, features, regions } = *self;
+        let Self { mesh, features, regions, .. } = *self;
         self.keep_bounded(&mut planes, tolerance);
         let has_patches: Vec<bool> = planes.iter().map(Option::is_none).collect();
         let made = control.within(0.0, LAYOUT_SHARE, |control| {
@@ -228,6 +231,18 @@ impl Part<'_> {
         !chain.is_closed && chain.nodes.iter().map(off).fold(0.0, f64::max) <= tolerance
     }
 
+    /// The label of a region; 0 without labels.
+    fn label(&self, region: u32) -> u32 {
+        let first = self.regions.regions[region as usize].triangles[0];
+        self.labels.get(first as usize).copied().unwrap_or(0)
+    }
+
+    /// The label of each patch, region after region; none without labels.
+    fn labels_of_patches(&self, counts: &[usize]) -> Vec<u32> {
+        let of_region = |(region, &count)| std::iter::repeat_n(self.label(region), count);
+        if self.labels.is_empty() { Vec::new() } else { (0..).zip(counts).flat_map(of_region).collect() }
+    }
+
     /// The planes of the regions around a node.
     fn planes_at(&self, node: u32, planes: &BTreeMap<u32, u32>) -> Vec<u32> {
         let around = self
@@ -274,7 +289,7 @@ impl Part<'_> {
                 .or_else(|| Frame::new(origin, plane.normal, plane.normal.any_orthonormal_vector()))
                 .expect("a direction at right angles to the normal");
             let loops = loops.iter().map(|sides| sides.iter().flat_map(|side| rims.of(side)).collect());
-            PlaneFace { plane: Plane(frame), loops: loops.collect(), label: 0 }
+            PlaneFace { plane: Plane(frame), loops: loops.collect(), label: self.label(region) }
         });
         let faces = faces.collect();
         Planes { vertices: rims.further, faces }

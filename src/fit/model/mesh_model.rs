@@ -87,6 +87,8 @@ pub struct Piece {
     pub surfaces: Vec<PhtSurface>,
     /// What closes them where the layout has borders.
     pub planes: Planes,
+    /// By patch the label of the region that it covers; empty without labels, or where patches run over them.
+    pub labels: Vec<u32>,
 }
 
 /// Where a node of a component lies.
@@ -109,7 +111,7 @@ pub(super) struct Component {
 impl Component {
     pub(super) fn smooth(layout: Layout, fit: LayoutFit, report: ComponentReport) -> Self {
         let spots = fit.places.into_iter().map(|place| place.map(Spot::Patch)).collect();
-        let piece = Piece { layout, surfaces: fit.surfaces, planes: Planes::default() };
+        let piece = Piece { layout, surfaces: fit.surfaces, planes: Planes::default(), labels: Vec::new() };
         Self { piece, spots, errors: fit.errors, report }
     }
 }

@@ -184,6 +184,7 @@ fn shells(
             layout: &piece.layout,
             surfaces: &piece.surfaces,
             planes: Some(&piece.planes),
+            labels: &piece.labels,
             void_in: body.void_in,
         })
         .collect();

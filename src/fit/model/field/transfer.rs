@@ -58,7 +58,7 @@ impl ModelTransfer {
             .map(|piece| {
                 let surfaces = &shape.surface.patches()[first..first + piece.meshes.len()];
                 first += surfaces.len();
-                Patchwork { layout: &piece.layout, surfaces, planes: None, void_in: None }
+                Patchwork { layout: &piece.layout, surfaces, planes: None, labels: &[], void_in: None }
             })
             .collect();
         let stitched = of_patches(&patchworks, LEVEL_SPREAD).map_err(FieldError::from)?;

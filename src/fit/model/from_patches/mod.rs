@@ -312,7 +312,13 @@ pub fn smooth_from_patches(
     let patchworks: Vec<Patchwork> = pieces
         .iter()
         .zip(&smooth)
-        .map(|(piece, surfaces)| Patchwork { layout: &piece.layout, surfaces, planes: None, void_in: None })
+        .map(|(piece, surfaces)| Patchwork {
+            layout: &piece.layout,
+            surfaces,
+            planes: None,
+            labels: &[],
+            void_in: None,
+        })
         .collect();
     let stitched = of_patches(&patchworks, options.level_spread)?;
     let origin = Origin {
