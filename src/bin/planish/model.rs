@@ -142,6 +142,8 @@ fn table(arguments: &FitArguments, mesh: &Mesh, repairs: &MeshRepairs, fit: &Mod
             Some(_) => format!("base complex, map energy {:.3}", component.map_energy),
         };
         let mut parts = vec![format!("genus {}", component.genus), layout];
+        let has_both = component.layout.is_some() && component.exact_faces > 0;
+        parts.extend(has_both.then(|| format!("{} planes beside patches", component.exact_faces)));
         parts.extend((component.fold_count > 0).then(|| format!("{} folds", component.fold_count)));
         parts.extend(component.void_in.map(|outer| format!("void in {outer}")));
         parts.extend(component.is_turned.then(|| "was inside out, turned".to_owned()));

@@ -86,6 +86,25 @@ pub(crate) struct Picture {
     depths: Vec<f64>,
 }
 
+/// Cosine of the angle up to which facets are shaded as one round surface: 40 degrees, as sharp edges are found.
+const LEAST_ROUND: f64 = 0.766;
+
+/// Twice the area of each facet, along its normal.
+fn facet_normals(mesh: &Mesh) -> Vec<DVec3> {
+    let normal = |triangle: &[u32; 3]| {
+        let [a, b, c] = triangle.map(|node| mesh.points()[node as usize]);
+        (b - a).cross(c - a)
+    };
+    mesh.triangles().iter().map(normal).collect()
+}
+
+/// The mean normal at a node of the facets around it that go on smoothly from one of them.
+fn normal_beside(mesh: &Mesh, facets: &[DVec3], node: u32, facet: DVec3) -> DVec3 {
+    let goes_on = |other: &DVec3| other.dot(facet) >= LEAST_ROUND * other.length() * facet.length();
+    let around = mesh.outgoing(node).map(|edge| facets[edge.triangle()]);
+    around.filter(goes_on).sum::<DVec3>().normalize_or_zero()
+}
+
 impl Picture {
     /// Towards the viewer, and a light beside it: what stripes of equal brightness are measured with.
     pub(crate) fn light(&self) -> DVec3 {
@@ -140,11 +159,12 @@ impl Picture {
         value: impl Fn(usize) -> f64,
         color: impl Fn(DVec3, f64) -> [f64; 3],
     ) {
-        let normals = mesh.node_normals();
-        for triangle in mesh.triangles() {
+        let facets = facet_normals(mesh);
+        for (triangle, facet) in mesh.triangles().iter().zip(&facets) {
             let corners = triangle.map(|node| {
+                let normal = normal_beside(mesh, &facets, node, *facet);
                 let node = node as usize;
-                (self.project(mesh.points()[node]), self.axes * normals[node], value(node))
+                (self.project(mesh.points()[node]), self.axes * normal, value(node))
             });
             self.fill(corners, &color);
         }
