@@ -10,6 +10,7 @@
 #include <CGAL/Eigen_solver_traits.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/border.h>
+#include <CGAL/Polygon_mesh_processing/detect_features.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Simple_cartesian.h>
@@ -20,6 +21,8 @@
 #include <CGAL/Surface_mesh_parameterization/parameterize.h>
 #include <Eigen/SparseLU>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <vector>
@@ -123,6 +126,69 @@ TEST(Cgal, ModelsEncloseTheirVolumeAndDoNotMeetThemselves) {
   CHECK_NEAR(CGAL::to_double(pmp::volume(theirs)), measure.volume, 2e-2 * volume);
   std::printf("model of %zu triangles: volume %.6f, by CGAL %.6f\n", std::size_t{theirs.number_of_faces()}, measure.volume,
               volume);
+}
+
+// A bar of radius 1 between z = -1 and 1, 4 n nodes around: the cube, its squares across z drawn round.
+static SurfaceMesh bar(std::uint32_t n) {
+  shapes::arrays all = shapes::ball(n);
+  for (std::size_t k = 0; k < all.point_count(); ++k) {
+    double *p = &all.points[3 * k];
+    const double most = std::max({std::fabs(p[0]), std::fabs(p[1]), std::fabs(p[2])});
+    const double across = std::max(std::fabs(p[0]), std::fabs(p[1])), length = std::hypot(p[0], p[1]);
+    const double stretch = length > 0 ? across / (length * most) : 0;
+    p[0] *= stretch;
+    p[1] *= stretch;
+    p[2] /= most;
+  }
+  return to_cgal(all);
+}
+
+// Sharp edges are those of CGAL at the same angle, and the faces between them enclose the part's volume without meeting
+// themselves, as exact faces and as patches.
+TEST(Cgal, FeaturesAreItsSharpEdgesAndModelsKeepThem) {
+  namespace pmp = CGAL::Polygon_mesh_processing;
+  using Exact = CGAL::Exact_predicates_inexact_constructions_kernel;
+  using ExactMesh = CGAL::Surface_mesh<Exact::Point_3>;
+  const std::uint32_t n = 15;
+  SurfaceMesh theirs = bar(n);
+  const planish::mesh mesh = from_cgal(theirs);
+  const auto is_sharp = theirs.add_property_map<SurfaceMesh::Edge_index, bool>("e:sharp", false).first;
+  pmp::detect_sharp_edges(theirs, 40, is_sharp);
+  std::vector<std::array<std::uint32_t, 2>> expected;
+  for (const auto edge : theirs.edges()) {
+    if (!is_sharp[edge]) continue;
+    const std::uint32_t a = theirs.vertex(edge, 0).idx(), b = theirs.vertex(edge, 1).idx();
+    expected.push_back({std::min(a, b), std::max(a, b)});
+  }
+  std::sort(expected.begin(), expected.end());
+  CHECK_EQUAL(expected.size(), 8u * n);
+  CHECK(mesh.find_features() == expected);
+
+  const double pi = 3.14159265358979323846;
+  for (const std::uint32_t exact : {1u, 0u}) {
+    auto options = planish::defaults<planish_model_options>();
+    options.exact = exact;
+    const planish::fitted_model fit = planish::model_fit(mesh, options);
+    CHECK(fit.status == PLANISH_STATUS_OK);
+    const planish_measure_report measure = fit.model.measure();
+    CHECK_EQUAL(measure.free_edge_count, 0u);
+    CHECK_NEAR(measure.volume, 2 * pi, 5e-4 * 2 * pi);
+    auto fine = planish::defaults<planish_tessellate_options>();
+    fine.chord_tolerance = 1e-4 * measure.diagonal;
+    const planish::mesh triangles = fit.model.tessellate(fine);
+    ExactMesh solid;
+    for (const planish::point3 &p : triangles.points()) solid.add_vertex(Exact::Point_3(p[0], p[1], p[2]));
+    for (const planish::triangle &t : triangles.triangles()) {
+      const auto node = [&](std::size_t k) { return ExactMesh::Vertex_index(t[k]); };
+      CHECK(solid.add_face(node(0), node(1), node(2)) != ExactMesh::null_face());
+    }
+    CHECK(CGAL::is_closed(solid));
+    CHECK(!pmp::does_self_intersect(solid));
+    // a layer as thick as the chords are off
+    const double volume = CGAL::to_double(pmp::volume(solid));
+    CHECK_NEAR(volume, measure.volume, 2 * fine.chord_tolerance * measure.area);
+    std::printf("bar of %zu faces: volume %.6f, by CGAL %.6f\n", fit.model.face_count(), measure.volume, volume);
+  }
 }
 
 #ifdef HAS_DISTANCE
