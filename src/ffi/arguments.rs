@@ -196,8 +196,14 @@ pub(super) unsafe fn slice<'a, T>(at: *const T, len: usize, name: &'static str) 
 /// An array that is written; what it holds may be read, so `T` must be a number, for which any bits will do.
 /// NULL is fine if it is empty.
 ///
+/// `&mut [T]` and not `&mut [MaybeUninit<T>]`, though callers in C need not have written there: the core fills slices of
+/// numbers. That is sound because the memory comes in through a C function. The compiler cannot know that nobody wrote
+/// there and must take it for some bits, and any bits are a number. It would not be for memory that Rust code allocates
+/// and leaves uninitialized, so Rust callers of these functions must fill it first (said below), and no release links the
+/// library with optimization across languages.
+///
 /// # Safety
-/// `at` is NULL or points to `len` elements that nobody else uses for `'a`.
+/// `at` is NULL or points to `len` elements that nobody else uses for `'a`; memory of Rust's has been written.
 pub(super) unsafe fn slice_mut<'a, T>(at: *mut T, len: usize, name: &'static str) -> Argument<&'a mut [T]> {
     if len == 0 {
         return Ok(&mut []);
