@@ -13,6 +13,8 @@ use crate::fit::common::signs::{PROBES, signs};
 
 /// A score so many times the least ends the search: it grows with the square of the weight from there on.
 const HOPELESS: f64 = 4.0;
+/// A surface that follows all data but this share of them goes through them: nothing is left that would tell it from noise.
+const LEAST_FREEDOM: f64 = 1e-2;
 /// Powers of ten beside the best one that are tried at last.
 const BESIDE: [f64; 2] = [-0.5, 0.5];
 
@@ -27,7 +29,7 @@ impl Problem<'_> {
         let mut weights = self.reference.weights();
         let Some(balance) = self.balance(&weights) else { return Ok(lowest.displacement) };
         let signs = signs(weights.len());
-        let mut best = (f64::INFINITY, 0.0);
+        let mut best = (f64::INFINITY, f64::from(*POWERS.end()));
         let count = (POWERS.count() + BESIDE.len()) as f64;
         for (k, power) in POWERS.map(f64::from).enumerate() {
             let score = self.score(balance * 10.0_f64.powf(power), &signs, control)?;
@@ -64,7 +66,11 @@ impl Problem<'_> {
         let followed = self.solve_rows(&factor, &self.reference.pull_of(signs, PROBES), PROBES);
         let trace = self.reference.product(&followed, signs, PROBES) / PROBES as f64;
         let count = weights.len() as f64;
+        let freedom = 1.0 - trace / count;
+        if freedom < LEAST_FREEDOM {
+            return Ok(f64::INFINITY);
+        }
         let square = self.reference.deviations(&d).iter().map(|miss| miss * miss).sum::<f64>() / count;
-        Ok(square / (1.0 - trace / count).max(f64::EPSILON).powi(2))
+        Ok(square / freedom.powi(2))
     }
 }
