@@ -1,10 +1,10 @@
 //! Fields fitted again and again.
 
 use super::arguments::{
-    ArgumentError, ReportOut, array_len, choice, copy_rows, deref, deref_mut, options, out, rows_mut, slice,
-    slice_mut, stride,
+    ArgumentError, Record, ReportOut, array_len, choice, copy_rows, deref, deref_mut, options, out, rows_mut,
+    slice, slice_mut, stride,
 };
-use super::choices::{planish_ends, planish_energy, planish_tolerance_scale};
+use super::choices::{missing, planish_ends, planish_energy, planish_missing, planish_tolerance_scale};
 use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;
 use super::model::planish_model;
@@ -127,6 +127,11 @@ record! {
         pub grid_v: u32,
         /// Threads to keep, at most 1024; 0 (default) for all cores. Results do not depend on it.
         pub thread_count: u32,
+        /// A planish_missing: whether values of fields that are NaN are refused or missing. A field that lacks other values
+        /// than the one before costs a factorization. Not for fields over models. Default PLANISH_MISSING_REFUSED.
+        pub missing: u32 = planish_missing::Refused as u32,
+        /// 0.
+        pub reserved: u32,
     }
 }
 
@@ -139,6 +144,10 @@ pub(super) unsafe fn with_field_options<R: Send>(
     count: usize,
     work: impl FnOnce(&FieldOptions, Option<SampleField>, &mut Control) -> R + Send,
 ) -> Result<R, Failure> {
+    if given.reserved != 0 {
+        let record = planish_field_options::NAME;
+        return Err(ArgumentError::Reserved { record, given: given.reserved }.into());
+    }
     // SAFETY: the caller's promises.
     unsafe {
         let parameterize: planish_parameterize_options = options(given.parameterize)?;
@@ -175,6 +184,7 @@ pub(super) unsafe fn with_field_options<R: Send>(
             energy: choice(given.energy, &[Energy::Beam, Energy::Plate], "energy")?,
             weights,
             is_known: is_known.as_deref(),
+            missing: missing(given.missing)?,
             parameterize: parameterize.to_core()?,
         };
         with_control(given.thread_count, listener!(given), |control| work(&core, sample, control))

@@ -51,6 +51,7 @@ fn find(
         buffer: options.buffer,
         weights: options.weights,
         regularize: Regularize::Never,
+        missing: options.missing,
         parameterize: options.parameterize,
         ..TensorOptions::default()
     };

@@ -9,6 +9,7 @@ use crate::mesh::Mesh;
 use glam::{DVec2, DVec3};
 
 /// A place inside a triangle.
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct InteriorPlace {
     pub nodes: [usize; 3],
     /// How it weighs the nodes.

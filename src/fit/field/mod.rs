@@ -10,30 +10,29 @@
 mod error;
 mod options;
 mod right_side;
+mod solver;
 pub mod transfer;
 
 pub use error::FieldError;
 pub use options::{FieldGrid, FieldOptions};
 
-use super::common::checks::{check_parameters, check_values};
+use super::common::checks::check_parameters;
 use super::common::errors::{DataErrors, data_errors};
 use super::common::report::{FitReport, Goal, Remarks, StopReason, Tolerance};
 use super::common::samples::{InteriorPlace, interior_places};
-use super::common::uniform::Energy;
 use super::common::uniform::grid::{UniformBasis, UniformGrid};
-use super::common::uniform::normal_equations::{NormalEquations, Samples, TensorBasis};
+use super::common::uniform::normal_equations::TensorBasis;
 use super::common::{FitError, NodeParameters, Regularize, node_parameters, trims};
-use crate::control::{Control, Pool, Stage, Watch};
+use crate::control::{Control, Pool, Stage};
 use crate::geometry::Bounds;
 use crate::knots::KnotVector;
-use crate::linalg::Cholesky;
 use crate::memory::{self, CollectVec};
 use crate::mesh::Mesh;
 use crate::surface::tensor::{Axis, TensorSurface};
 use crate::surface::{Domain, Region, Surface};
 use glam::DVec2;
-use right_side::{RightSide, Scratch};
-use std::sync::Mutex;
+use right_side::Scratch;
+use solver::{Chosen, Partly, Parts, Solver};
 use std::time::Instant;
 
 /// Most knots along one direction of [`FieldGrid::Auto`].
@@ -45,19 +44,15 @@ const NODES_PER_COEFFICIENT: usize = 4;
 #[derive(Debug)]
 pub struct FieldFitter {
     uv: Vec<DVec2>,
-    /// Nodes with values, in order; None when all have.
-    known: Option<Vec<u32>>,
-    basis: TensorBasis,
+    parts: Parts,
     knots: [KnotVector; 2],
     region: Region,
-    right_side: RightSide,
-    factor: Cholesky,
-    smoothing: f64,
+    /// For fields with values at all nodes that may have some.
+    solver: Solver,
+    partly: Partly,
     tolerance: Tolerance,
     map_remarks: Remarks,
     pool: Pool,
-    /// What calls have used and others may use again.
-    scratch: Mutex<Vec<Scratch>>,
 }
 
 /// Nodes over the parameter plane, for fields that are to be fitted on them.
@@ -154,11 +149,8 @@ impl FieldFitter {
         let [u, v] = grid.map(|grid| UniformBasis { grid, ends: options.ends });
         let basis = TensorBasis { u, v };
         let places = mesh.map_or(Vec::new(), |mesh| known_places(mesh, &uv, &grid, options));
-        let data = right_side::Data::new(&uv, known.as_deref(), options.weights, places, options.smoothing);
-        let (factor, right_side) = control.watch(|pool, watch| -> Result<_, FitError> {
-            let factor = factor(&basis, &data, options.smoothing, energy, pool, watch)?;
-            Ok((factor, RightSide::new(&basis, data, pool)))
-        })??;
+        let parts = Parts::new(basis, options, energy, places);
+        let solver = control.watch(|pool, watch| parts.solver(&uv, known, pool, watch))??;
         control.report(1.0, f64::NAN)?;
         let knots = knots_of(&grid)?;
         let ((u0, u1), (v0, v1)) = (knots[0].domain(), knots[1].domain());
@@ -167,17 +159,14 @@ impl FieldFitter {
         let region = Region { data_box: Some(data_box), trims, ..Region::default() };
         Ok(Self {
             uv,
-            known,
-            basis,
+            parts,
             knots,
             region,
-            right_side,
-            factor,
-            smoothing: options.smoothing,
+            solver,
+            partly: Partly::new(options.missing, data_box),
             tolerance: options.tolerance,
             map_remarks: remarks,
             pool: Pool::new(control.thread_count()),
-            scratch: Mutex::default(),
         })
     }
 
@@ -193,14 +182,18 @@ impl FieldFitter {
 
     /// Knots along u and v.
     pub fn grid(&self) -> [usize; 2] {
-        [self.basis.u.grid.count, self.basis.v.grid.count]
+        [self.basis().u.grid.count, self.basis().v.grid.count]
+    }
+
+    fn basis(&self) -> &TensorBasis {
+        &self.parts.basis
     }
 
     /// Fits rows of `dim` numbers, one a node.
     pub fn fit(&self, values: &[f64], dim: usize) -> Result<TensorSurface, FieldError> {
-        self.check(values, dim)?;
-        self.with_scratch(dim, |scratch| {
-            self.solve(values, dim, scratch);
+        let solver = self.checked(values, dim)?;
+        solver.with_scratch(self.basis(), dim, |scratch| {
+            self.solve(&solver, values, scratch);
             let [u, v] = self.knots.clone();
             let surface = TensorSurface::new(dim, u, v, scratch.control_points.clone(), None);
             let mut surface = surface.map_err(|_| FitError::Singular)?;
@@ -212,7 +205,7 @@ impl FieldFitter {
     /// Turns a surface of [`FieldFitter::fit`] into that of other values, in its place: no memory is asked for
     /// that grows with the nodes or the grid, once a field of this `dim` has been fitted.
     pub fn update(&self, surface: &mut TensorSurface, values: &[f64], dim: usize) -> Result<(), FieldError> {
-        self.check(values, dim)?;
+        let solver = self.checked(values, dim)?;
         let [u, v] = &self.knots;
         let is_ours = surface.dim() == dim
             && surface.weights().is_none()
@@ -221,8 +214,8 @@ impl FieldFitter {
         if !is_ours {
             return Err(FieldError::OtherGrid);
         }
-        self.with_scratch(dim, |scratch| {
-            self.solve(values, dim, scratch);
+        solver.with_scratch(self.basis(), dim, |scratch| {
+            self.solve(&solver, values, scratch);
             surface.set_control_points(&scratch.control_points).map_err(|_| FitError::Singular.into())
         })
     }
@@ -235,16 +228,18 @@ impl FieldFitter {
         dim: usize,
     ) -> Result<FieldReport, FieldError> {
         let start = Instant::now();
-        self.check(values, dim)?;
-        let bounds = self.bounds(values, dim);
+        self.pool.check_process()?;
+        let part = self.check_numbers(values, dim)?;
+        let known = part.as_deref().or(self.solver.known.as_deref());
+        let bounds = bounds(known, values, dim);
         let goal = Goal::new(&self.tolerance, &bounds);
-        let errors = self.errors(surface, values, dim);
+        let errors = self.errors(surface, known, values, dim);
         let [grid_u, grid_v] = self.grid();
         let mut fit = FitReport {
             grid_u,
             grid_v,
-            coefficient_count: self.basis.len(),
-            smoothing: self.smoothing,
+            coefficient_count: self.basis().len(),
+            smoothing: self.parts.smoothing,
             seconds: start.elapsed().as_secs_f64(),
             ..FitReport::new(&errors, &goal, StopReason::FixedGrid, 1)
         };
@@ -252,36 +247,25 @@ impl FieldFitter {
         Ok(FieldReport { fit, errors: errors.each })
     }
 
-    fn solve(&self, values: &[f64], dim: usize, scratch: &mut Scratch) {
-        self.right_side.frame(values, dim, scratch);
-        self.right_side.assemble(values, dim, &self.basis, scratch, &self.pool);
-        self.factor.solve_in(&mut scratch.columns, dim, &mut scratch.memory);
-        scratch.write_control_points(&self.basis, dim);
+    fn solve(&self, solver: &Solver, values: &[f64], scratch: &mut Scratch) {
+        let dim = scratch.dim;
+        solver.right_side.frame(values, dim, scratch);
+        solver.right_side.assemble(values, dim, self.basis(), scratch, &self.pool);
+        solver.factor.solve_in(&mut scratch.columns, dim, &mut scratch.memory);
+        scratch.write_control_points(self.basis(), dim);
     }
 
-    /// Runs `work` with memory of an earlier call of the same `dim`, or new one.
-    fn with_scratch<R>(&self, dim: usize, work: impl FnOnce(&mut Scratch) -> R) -> R {
-        let kept = || self.scratch.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        let found = {
-            let mut kept = kept();
-            kept.iter().position(|scratch| scratch.dim == dim).map(|place| kept.swap_remove(place))
-        };
-        let mut scratch = found
-            .unwrap_or_else(|| Scratch::new(&self.basis, &self.right_side, dim, self.factor.memory(dim)));
-        let result = work(&mut scratch);
-        kept().push(scratch);
-        result
-    }
-
-    fn check(&self, values: &[f64], dim: usize) -> Result<(), FieldError> {
+    /// Checks values, and chooses the equations of the nodes that have some.
+    fn checked(&self, values: &[f64], dim: usize) -> Result<Chosen<'_>, FieldError> {
         self.pool.check_process()?;
-        Ok(self.check_numbers(values, dim)?)
+        Ok(match self.check_numbers(values, dim)? {
+            None => Chosen::Whole(&self.solver),
+            Some(known) => Chosen::Part(self.partly.solver(&self.parts, &self.uv, known, &self.pool)?),
+        })
     }
 
-    fn check_numbers(&self, values: &[f64], dim: usize) -> Result<(), FitError> {
-        let Some(known) = &self.known else {
-            return check_values(self.uv.len(), values, dim, None);
-        };
+    /// Checks values; the nodes that have some, where they are not all that may have.
+    fn check_numbers(&self, values: &[f64], dim: usize) -> Result<Option<Vec<u32>>, FitError> {
         if dim == 0 {
             return Err(FitError::Option { option: "dim", value: 0.0, range: "at least 1" });
         }
@@ -289,30 +273,24 @@ impl FieldFitter {
         if values.len() != expected {
             return Err(FitError::Count { what: "the values", count: values.len(), expected });
         }
+        let part = self.partly.known_of(&self.solver, values, dim);
+        let known = part.as_deref().unwrap_or(self.solver.right_side.nodes());
         let is_finite = |node: usize| values[node * dim..][..dim].iter().all(|x| x.is_finite());
         match known.iter().find(|&&node| !is_finite(node as usize)) {
             Some(&node) => Err(FitError::ValuesNotFinite { index: node as usize }),
-            None => Ok(()),
-        }
-    }
-
-    fn bounds(&self, values: &[f64], dim: usize) -> Bounds {
-        match &self.known {
-            None => Bounds::of_rows(values, dim),
-            Some(known) => {
-                let rows: Vec<f64> = known
-                    .iter()
-                    .flat_map(|&node| &values[node as usize * dim..][..dim])
-                    .copied()
-                    .collect_vec();
-                Bounds::of_rows(&rows, dim)
-            }
+            None => Ok(part),
         }
     }
 
     /// The errors of all nodes, NaN where there is no value; sums over the others.
-    fn errors(&self, surface: &TensorSurface, values: &[f64], dim: usize) -> DataErrors {
-        let Some(known) = &self.known else {
+    fn errors(
+        &self,
+        surface: &TensorSurface,
+        known: Option<&[u32]>,
+        values: &[f64],
+        dim: usize,
+    ) -> DataErrors {
+        let Some(known) = known else {
             return data_errors(surface, &self.uv, values, &self.pool);
         };
         let uv: Vec<DVec2> = known.iter().map(|&node| self.uv[node as usize]).collect_vec();
@@ -364,22 +342,12 @@ fn bearable_count(known_count: usize) -> usize {
     doubled.take_while(|&count| count == 2 || is_bearable(count)).last().unwrap_or(2)
 }
 
-fn factor(
-    basis: &TensorBasis,
-    data: &right_side::Data,
-    smoothing: f64,
-    energy: Energy,
-    pool: &Pool,
-    watch: &Watch,
-) -> Result<Cholesky, FitError> {
-    let nothing = memory::filled(0.0, data.uv.len());
-    let samples = Samples { uv: &data.uv, values: &nothing, dim: 1, weights: Some(&data.weights) };
-    let equations = NormalEquations::assemble(*basis, &samples, pool);
-    watch.check()?;
-    let symbolic = equations.analyse();
-    watch.check()?;
-    let terms = energy.terms(&basis.u, &basis.v);
-    equations.factor(&symbolic, smoothing / 12.0, &terms).map_err(|_| FitError::Singular)
+/// The box of the values that there are.
+fn bounds(known: Option<&[u32]>, values: &[f64], dim: usize) -> Bounds {
+    let Some(known) = known else { return Bounds::of_rows(values, dim) };
+    let rows: Vec<f64> =
+        known.iter().flat_map(|&node| &values[node as usize * dim..][..dim]).copied().collect_vec();
+    Bounds::of_rows(&rows, dim)
 }
 
 #[cfg(test)]

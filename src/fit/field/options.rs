@@ -1,11 +1,11 @@
 //! What a field fitter may be asked for.
 
-use crate::fit::common::FitError;
 use crate::fit::common::checks::{
     check_buffer, check_count, check_grid, check_smoothing, check_tolerance, check_weights,
 };
 use crate::fit::common::report::Tolerance;
 use crate::fit::common::uniform::{Ends, Energy};
+use crate::fit::common::{FitError, Missing};
 use crate::options::with_fields;
 use crate::parameterize::ParameterizeOptions;
 
@@ -37,6 +37,9 @@ pub struct FieldOptions<'a> {
     pub weights: Option<&'a [f64]>,
     /// Which nodes have values; the values of the others are not looked at.
     pub is_known: Option<&'a [bool]>,
+    /// What values mean that are NaN: with [`Missing::Skipped`] each fit leaves out nodes without a value, and factors
+    /// their equations anew where they are not those of the fit before.
+    pub missing: Missing,
     /// How a mesh without parameters gets them.
     pub parameterize: ParameterizeOptions,
 }
@@ -52,6 +55,7 @@ impl Default for FieldOptions<'_> {
             energy: Energy::default(),
             weights: None,
             is_known: None,
+            missing: Missing::default(),
             parameterize: ParameterizeOptions::TENSOR,
         }
     }
@@ -67,6 +71,7 @@ impl<'a> FieldOptions<'a> {
         with_energy energy: Energy,
         with_weights weights: Option<&'a [f64]>,
         with_is_known is_known: Option<&'a [bool]>,
+        with_missing missing: Missing,
         with_parameterize parameterize: ParameterizeOptions,
     }
 

@@ -1,7 +1,8 @@
 //! Fitted fields: the same as single fits, linear in the values, and good at gaps.
 
 use super::*;
-use crate::failure::Classify;
+use crate::failure::{Classify, ErrorKind};
+use crate::fit::common::Missing;
 use crate::fit::common::uniform::Ends;
 use crate::fit::tensor::{TensorOptions, fit_field};
 use crate::samples::{self, Random};
@@ -108,6 +109,39 @@ fn nodes_without_values_do_not_count() {
     surface.eval_rows(&uv, 0, &mut rows);
     let worst = rows.iter().zip(&exact).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     assert!(worst < 2e-3 * report.fit.diagonal, "{worst}");
+}
+
+#[test]
+fn values_that_are_missing_are_left_out_field_by_field() {
+    let mesh = samples::curved_notch(2).unwrap();
+    let uv = mesh.parameters().unwrap().to_vec();
+    let whole = waves(&uv, 0.0);
+    let skipping = fixed([33, 33]).with_missing(Missing::Skipped);
+    let fitter = FieldFitter::on_mesh(&mesh, &skipping, &mut Control::new(2)).unwrap();
+    let plain = FieldFitter::on_mesh(&mesh, &fixed([33, 33]), &mut Control::new(2)).unwrap();
+    for missing in [3, 5, 5, 8] {
+        // a field that lacks values is fitted as by a fitter that knows where it has some
+        let is_known: Vec<bool> = (0..uv.len()).map(|node| node % 9 != missing).collect();
+        let mut values = whole.clone();
+        (0..uv.len()).filter(|&node| !is_known[node]).for_each(|node| values[2 * node + 1] = f64::NAN);
+        let surface = fitter.fit(&values, 2).unwrap();
+        let knowing = fixed([33, 33]).with_is_known(Some(&is_known));
+        let knowing = FieldFitter::on_mesh(&mesh, &knowing, &mut Control::new(1)).unwrap();
+        assert_eq!(surface, knowing.fit(&values, 2).unwrap(), "{missing}");
+        let report = fitter.measure(&surface, &values, 2).unwrap();
+        let expected = knowing.measure(&surface, &values, 2).unwrap();
+        assert_eq!(report.fit.max_error, expected.fit.max_error);
+        assert!(report.errors.iter().zip(&is_known).all(|(error, known)| error.is_nan() != *known));
+        assert_eq!(fitter.fit(&whole, 2).unwrap(), plain.fit(&whole, 2).unwrap());
+        let error = plain.fit(&values, 2).unwrap_err();
+        assert_eq!(error.index(), Some(missing), "{error}");
+    }
+    let mut infinite = whole.clone();
+    infinite[14] = f64::INFINITY;
+    assert_eq!(fitter.fit(&infinite, 2).unwrap_err().index(), Some(7));
+    let nothing = vec![f64::NAN; whole.len()];
+    let error = fitter.fit(&nothing, 2).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::InvalidArgument, "{error}");
 }
 
 #[test]

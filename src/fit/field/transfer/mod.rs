@@ -26,6 +26,7 @@ use crate::control::{Control, Pool, Stage};
 use crate::fit::common::FitError;
 use crate::fit::common::checks::check_rows;
 use crate::fit::common::report::{FitReport, ToleranceScale};
+use crate::linalg::Cholesky;
 use crate::memory::{self, CollectVec};
 use crate::mesh::Mesh;
 use crate::options::with_fields;
@@ -165,7 +166,7 @@ impl Transfer {
         })?;
         let (surface, distances, report) = shape.report(options, distances)?;
         let at_targets = Data::plain(&parameters);
-        let targets_side = RightSide::new(&fitter.basis, at_targets, &fitter.pool);
+        let targets_side = RightSide::new(fitter.basis(), at_targets, &fitter.pool);
         let transfer = Self {
             fitter,
             shape: surface,
@@ -183,21 +184,17 @@ impl Transfer {
         &self.shape
     }
 
-    fn sources(&self) -> &RightSide {
-        &self.fitter.right_side
-    }
-
     /// `T0` from the source to the targets, and its transpose from the targets to the source: the matrix between the
     /// two is symmetric.
     fn carry(
         &self,
-        from: &RightSide,
-        to: &RightSide,
+        factor: &Cholesky,
+        [from, to]: [&RightSide; 2],
         values: &[f64],
         scratch: &mut Scratch,
         out: &mut [f64],
     ) {
-        let FieldFitter { basis, factor, pool, .. } = &self.fitter;
+        let (basis, pool) = (self.fitter.basis(), &self.fitter.pool);
         from.assemble(values, scratch.dim, basis, scratch, pool);
         factor.solve_in(&mut scratch.columns, scratch.dim, &mut scratch.memory);
         to.transpose(basis, scratch, out, pool);
@@ -222,14 +219,15 @@ impl Carry for Transfer {
     }
 
     fn apply(&self, values: &[f64], dim: usize, out: &mut [f64]) -> Result<(), TransferError> {
-        self.fitter.check(values, dim)?;
+        let solver = self.fitter.checked(values, dim)?;
         check_room("the values at the targets", out, self.target_count(), dim)?;
-        self.fitter.with_scratch(dim, |scratch| {
-            let nodes = self.sources().nodes();
+        solver.with_scratch(self.fitter.basis(), dim, |scratch| {
+            let sources = &solver.right_side;
+            let nodes = sources.nodes();
             let share = 1.0 / nodes.len() as f64;
             let at = |k: usize| nodes.iter().map(move |&node| values[node as usize * dim + k]);
             scratch.set_center((0..dim).map(|k| share * sum(at(k))));
-            self.carry(self.sources(), &self.targets, values, scratch, out);
+            self.carry(&solver.factor, [sources, &self.targets], values, scratch, out);
             for row in out.chunks_exact_mut(dim) {
                 row.iter_mut().zip(scratch.center()).for_each(|(x, c)| *x += c);
             }
@@ -240,10 +238,12 @@ impl Carry for Transfer {
     fn apply_transpose(&self, forces: &[f64], dim: usize, out: &mut [f64]) -> Result<(), TransferError> {
         check_rows(self.target_count(), forces, dim)?;
         check_room("the forces at the nodes", out, self.source_count(), dim)?;
-        self.fitter.with_scratch(dim, |scratch| {
+        let solver = &self.fitter.solver;
+        solver.with_scratch(self.fitter.basis(), dim, |scratch| {
+            let sources = &solver.right_side;
             scratch.set_center(std::iter::repeat_n(0.0, dim));
-            self.carry(&self.targets, self.sources(), forces, scratch, out);
-            let nodes = self.sources().nodes();
+            self.carry(&solver.factor, [&self.targets, sources], forces, scratch, out);
+            let nodes = sources.nodes();
             let share = 1.0 / nodes.len() as f64;
             for k in 0..dim {
                 let given = sum(forces.iter().skip(k).step_by(dim).copied());

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::failure::Classify;
+use crate::fit::common::Missing;
 use crate::fit::field::FieldGrid;
 use crate::samples::{self, Random};
 use crate::surface::Surface;
@@ -130,6 +131,14 @@ fn nodes_without_values_take_no_part() {
     // heights are linear in the parameters, which the fit reproduces: each is that of the foot point
     let error = out.iter().zip(target.points()).map(|(x, p)| (x - p.z).abs()).fold(0.0, f64::max);
     assert!(error <= farthest + 1e-9 && farthest < 1e-3, "{error} {farthest}");
+    // a transfer that is not told where there are values finds out
+    let field = fixed([9, 9]).field.with_missing(Missing::Skipped);
+    let skipping = between(&source, &target, &TransferOptions { field, ..TransferOptions::default() });
+    let mut found = vec![0.0; 5000];
+    skipping.apply(&values, 1, &mut found).unwrap();
+    // the targets lie where the shape of all nodes is
+    let apart = out.iter().zip(&found).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    assert!(apart <= 2.0 * farthest + 1e-9, "{apart}");
     let mut back = vec![0.0; 3000];
     transfer.apply_transpose(&out, 1, &mut back).unwrap();
     assert!(back.iter().zip(&is_known).all(|(x, &known)| known || *x == 0.0));

@@ -15,9 +15,10 @@ mod tests;
 pub mod transfer;
 
 use crate::control::{Control, Pool, Stage};
-use crate::fit::common::FitError;
+use crate::fit::common::checks::check_unused;
 use crate::fit::common::errors::summarize;
 use crate::fit::common::report::{FitReport, Goal, Remarks, StopReason, Tolerance};
+use crate::fit::common::{FitError, Missing};
 use crate::fit::field::{FieldError, FieldGrid, FieldOptions, FieldReport};
 use crate::fit::found_grid::SampleField;
 use crate::geometry::Bounds;
@@ -82,6 +83,7 @@ impl ModelFieldFitter {
             return Err(FitError::Count { what: "the nodes of the mesh", count, expected }.into());
         }
         options.check(node_count)?;
+        check_unused(options.missing == Missing::default(), "missing", "the fitter of fields over a model")?;
         if let FieldGrid::Fixed([count, _]) = options.grid {
             let range = "0: patches have cells of their own";
             return Err(FitError::Option { option: "grid_u", value: count as f64, range }.into());
