@@ -14,6 +14,7 @@ use crate::surface::pht::PhtSurface;
 use crate::surface::tensor::{Axis, TensorSurface};
 use crate::tmesh::Vertex;
 use glam::DVec2;
+use nalgebra::{Matrix3, Vector3};
 
 /// A surface beyond a side.
 #[derive(Debug, Clone, Copy)]
@@ -75,6 +76,9 @@ const SAME_CORNER: f64 = 1e-12;
 const TOO_NEAR: f64 = 0.3;
 /// Data within this share of the range of a side tell how fast the surface leaves it.
 const NEAR_SIDE: f64 = 0.15;
+/// Least eigenvalue of the products of three powers of the ways of data, as a share of the largest: half of what data at
+/// three distances, evenly apart, have.
+const LEAST_EIGENVALUE: f64 = 1e-4;
 
 /// How smooth the curves of sides must be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -163,6 +167,8 @@ struct SideData<'a> {
     side: usize,
     joints: SideJoints,
     range: [f64; 2],
+    /// The range across the side.
+    width: f64,
     /// Parameter along the side, share of the range across, value, number.
     near: Vec<(f64, f64, &'a [f64], usize)>,
 }
@@ -183,7 +189,13 @@ impl<'a> SideData<'a> {
         let near =
             uv.iter().enumerate().map(|(k, uv)| (uv[1 - axis], from_side(uv), &values[k * dim..][..dim], k));
         let near = near.filter(|(_, share, ..)| *share <= NEAR_SIDE).collect();
-        Self { side, joints, range: [data_box.min[1 - axis], data_box.max[1 - axis]], near }
+        Self {
+            side,
+            joints,
+            range: [data_box.min[1 - axis], data_box.max[1 - axis]],
+            width: size[axis],
+            near,
+        }
     }
 
     fn on_side(&self) -> impl Iterator<Item = &(f64, f64, &'a [f64], usize)> {
@@ -264,18 +276,31 @@ impl<'a> SideData<'a> {
         })
     }
 
-    /// How much faster than the neighbour's parameter the data near the side run away from it.
+    /// How much faster than the neighbour's parameter the data near the side run away from it, along its slope `g`:
+    /// ```text
+    /// value - place = g (k x + a x^2 + b x^3),    x the way of a datum from the side
+    /// ```
+    /// by least squares, in which `a` and `b` take up that the surface bends.
     fn speed(&self, side: &GivenSide) -> Option<f64> {
         let slopes = side.across.as_ref()?;
-        let (mut along, mut square) = (0.0, 0.0);
+        let (mut matrix, mut right) = (Matrix3::zeros(), Vector3::zeros());
         for &(t, share, value, _) in self.near.iter().filter(|(_, share, ..)| *share > ON_SIDE) {
             let (place, slope) = (side.curve.eval(t), slopes.eval(t));
-            for k in 0..value.len() {
-                along += (value[k] - place[k]) * slope[k] * share;
-                square += slope[k] * slope[k] * share * share;
-            }
+            let square: f64 = slope.iter().map(|g| g * g).sum();
+            let along: f64 = (0..value.len()).map(|k| (value[k] - place[k]) * slope[k]).sum();
+            let x = share / NEAR_SIDE;
+            let powers = Vector3::new(x, x * x, x * x * x);
+            matrix += square * powers * powers.transpose();
+            right += along * powers;
         }
-        (along > 0.0 && square > 0.0).then(|| along / square)
+        // with data at one or two distances bending cannot be told from speed
+        let eigenvalues = matrix.symmetric_eigenvalues();
+        let tells_bending = eigenvalues.min() > LEAST_EIGENVALUE * eigenvalues.max();
+        let speed = match matrix.cholesky().filter(|_| tells_bending) {
+            Some(factor) => factor.solve(&right).x,
+            None => right.x / matrix[(0, 0)],
+        };
+        (speed > 0.0 && speed.is_finite()).then(|| speed / (NEAR_SIDE * self.width))
     }
 
     /// Refuses a curve that is not where the data are.

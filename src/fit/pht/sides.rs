@@ -140,6 +140,9 @@ mod tests {
     use crate::surface::{Surface, normal};
     use glam::{DVec2, DVec3};
 
+    /// Parameters are as large as they are.
+    const RANGE: DVec2 = DVec2::new(7.0, 0.2);
+
     /// A shell over x from 0 to 2.
     fn shell(x: f64, y: f64) -> [f64; 3] {
         [x, y + 0.1 * x * y, 0.3 * (1.7 * x).sin() * (1.0 + y) + 0.2 * (3.0 * y).cos()]
@@ -150,7 +153,7 @@ mod tests {
         let place = |k: u32| DVec2::new(f64::from(k / 40), f64::from(k % 40)) / 39.0;
         let uv: Vec<DVec2> = (0..1600).map(|k| place(k * 7 % 1600)).collect();
         let values = uv.iter().flat_map(|uv| shell(from + uv.x, uv.y)).collect();
-        (uv, values)
+        (uv.into_iter().map(|uv| RANGE * uv).collect(), values)
     }
 
     fn options<'a>() -> PhtOptions<'a> {
@@ -159,7 +162,7 @@ mod tests {
     }
 
     fn rows(surface: &dyn Surface, u: f64) -> Vec<[DVec3; 3]> {
-        let uv: Vec<DVec2> = (0..=100).map(|k| DVec2::new(u, f64::from(k) / 100.0)).collect();
+        let uv: Vec<DVec2> = (0..=100).map(|k| RANGE * DVec2::new(u, f64::from(k) / 100.0)).collect();
         let mut rows = vec![0.0; 9 * uv.len()];
         surface.eval_rows(&uv, 1, &mut rows);
         rows.chunks(9).map(|row| [0, 3, 6].map(|k| DVec3::from_slice(&row[k..]))).collect()
@@ -204,7 +207,7 @@ mod tests {
         let sides =
             Sides { curves: [Some(&low), Some(&high), Some(&before), Some(&after)], ..Sides::default() };
         let tolerance = Tolerance { value: 2e-3, scale: ToleranceScale::Relative };
-        let inner = uv.iter().position(|uv| uv.distance(DVec2::splat(0.4)) < 0.02).unwrap();
+        let inner = uv.iter().position(|uv| (uv / RANGE).distance(DVec2::splat(0.4)) < 0.02).unwrap();
         let fixed = [inner as u32];
         let demands = Demands { fixed: &fixed, ..Demands::default() };
         let options = PhtOptions { sides, tolerance, demands, ..options() };

@@ -73,6 +73,9 @@ mod tests {
     use glam::DVec2;
     use glam::DVec3;
 
+    /// Parameters are as large as they are.
+    const RANGE: DVec2 = DVec2::new(7.0, 0.2);
+
     /// A shell over x from 0 to 2.
     fn shell(x: f64, y: f64) -> [f64; 3] {
         [x, y + 0.1 * x * y, 0.3 * (1.7 * x).sin() * (1.0 + y) + 0.2 * (3.0 * y).cos()]
@@ -83,7 +86,7 @@ mod tests {
         let uv: Vec<DVec2> =
             (0..40 * 40).map(|k| DVec2::new(f64::from(k / 40), f64::from(k % 40)) / 39.0).collect();
         let values = uv.iter().flat_map(|uv| shell(from + uv.x, uv.y)).collect();
-        (uv, values)
+        (uv.into_iter().map(|uv| RANGE * uv).collect(), values)
     }
 
     fn options<'a>() -> TensorOptions<'a> {
@@ -92,7 +95,7 @@ mod tests {
     }
 
     fn rows(surface: &TensorSurface, u: f64) -> Vec<[DVec3; 3]> {
-        let uv: Vec<DVec2> = (0..=100).map(|k| DVec2::new(u, f64::from(k) / 100.0)).collect();
+        let uv: Vec<DVec2> = (0..=100).map(|k| RANGE * DVec2::new(u, f64::from(k) / 100.0)).collect();
         let mut rows = vec![0.0; 9 * uv.len()];
         surface.eval_rows(&uv, 1, &mut rows);
         rows.chunks(9).map(|row| [0, 3, 6].map(|k| DVec3::from_slice(&row[k..]))).collect()
