@@ -853,7 +853,7 @@ module planish_records
 
   !> How fields are fitted.
   type, bind(c), public :: planish_field_options
-    integer(c_size_t) :: struct_size = 10 * word + 48
+    integer(c_size_t) :: struct_size = 10 * word + 56
     !> What reports compare the errors with, positive, measured in tolerance_scale
     real(c_double) :: tolerance = 1e-3_c_double
     real(c_double) :: smoothing = 1e-6_c_double !! Weight of the bending energy, positive
@@ -883,6 +883,9 @@ module planish_records
     !> Knots along v, 2 to 8193; 0 (default, then grid_u too) for as many as the nodes bear, at most 129
     integer(c_int32_t) :: grid_v = 0
     integer(c_int32_t) :: thread_count = 0 !! Threads to keep, at most 1024; 0 (default) for all cores
+    !> A planish_missing: whether values of fields that are NaN are refused or missing
+    integer(c_int32_t) :: missing = PLANISH_MISSING_REFUSED
+    integer(c_int32_t) :: reserved = 0
   end type
 
   !> How gradients are computed.

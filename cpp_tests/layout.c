@@ -307,7 +307,9 @@ FOLLOWS(planish_field_options, ends, energy);
 FOLLOWS(planish_field_options, energy, grid_u);
 FOLLOWS(planish_field_options, grid_u, grid_v);
 FOLLOWS(planish_field_options, grid_v, thread_count);
-LAST(planish_field_options, thread_count);
+FOLLOWS(planish_field_options, thread_count, missing);
+FOLLOWS(planish_field_options, missing, reserved);
+LAST(planish_field_options, reserved);
 
 FIRST(planish_gradient_options);
 FOLLOWS(planish_gradient_options, struct_size, uv_stride);

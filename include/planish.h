@@ -2406,6 +2406,15 @@ typedef struct planish_field_options {
      * Threads to keep, at most 1024; 0 (default) for all cores. Results do not depend on it.
      */
     uint32_t thread_count;
+    /**
+     * A planish_missing: whether values of fields that are NaN are refused or missing. A field that lacks other values
+     * than the one before costs a factorization. Not for fields over models. Default PLANISH_MISSING_REFUSED.
+     */
+    uint32_t missing;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
 } planish_field_options;
 
 /**

@@ -798,12 +798,15 @@ class planish_field_options(Structure):
         ("grid_u", c_uint32),
         ("grid_v", c_uint32),
         ("thread_count", c_uint32),
+        ("missing", c_uint32),
+        ("reserved", c_uint32),
     ]
     choices = {
         "out_stage": "planish_stage",
         "tolerance_scale": "planish_tolerance_scale",
         "ends": "planish_ends",
         "energy": "planish_energy",
+        "missing": "planish_missing",
     }
     elements = {
         "weights": c_double,
@@ -1752,7 +1755,7 @@ SIZES = {
     planish_patch: 72,
     planish_convert_options: 48,
     planish_tensor_options: 304,
-    planish_field_options: 128,
+    planish_field_options: 136,
     planish_gradient_options: 24,
     planish_smooth_options: 88,
     planish_smooth_report: 160,

@@ -35,7 +35,7 @@ use crate::linalg::{Cholesky, SymbolicCholesky};
 use crate::options::with_fields;
 use crate::surface::tensor::Axis;
 use crate::surface::{AnySurface, Domain};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use quadratic::{CellForms, Pattern};
 use reference::Reference;
 use space::Space;
@@ -169,8 +169,11 @@ pub fn fair(
     };
     let (tolerance, _) = options.tolerance.absolute(&bounds);
     control.enter(Stage::Fit);
-    let problem =
+    let mut problem =
         control.watch(|_, watch| Problem::new(&space, data, tolerance, options.energy, watch))??;
+    if let Some(data) = &data {
+        problem.normals = prediction::normals(surface.as_surface(), data.uv);
+    }
     let mut report = FairReport { tolerance, diagonal: bounds.diagonal(), ..FairReport::default() };
     report.energy_before = problem.energy_of_surface();
     report.energy_after = report.energy_before;
@@ -254,6 +257,8 @@ struct Problem<'a> {
     /// Its product with the control points.
     gradient: Vec<f64>,
     reference: Reference<'a>,
+    /// Of the surface in space at its data; otherwise none.
+    normals: Vec<DVec3>,
     symbolic: SymbolicCholesky,
 }
 
@@ -282,7 +287,7 @@ impl<'a> Problem<'a> {
         let gradient = pattern.product(&matrix, &centered, space.dim);
         let symbolic = SymbolicCholesky::new(&pattern.matrix(pattern.zeros()).view(), None);
         let reference = Reference::new(space, data, tolerance, &forms, lengths, watch)?;
-        Ok(Self { space, pattern, energy: matrix, gradient, reference, symbolic })
+        Ok(Self { space, pattern, energy: matrix, gradient, reference, normals: Vec::new(), symbolic })
     }
 
     /// The displacement of least energy that is found, zero if none is less than that of the surface.

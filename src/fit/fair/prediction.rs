@@ -5,11 +5,14 @@
 //! ```text
 //! minimize over lambda  (sum_n |s(u_n,v_n) - P_n|^2 / N) / (1 - trace(H) / N)^2,    trace(H) ~ mean of z^T H z
 //! ```
-//! H makes the values of the surface at the data of theirs, z is a column of signs.
+//! H makes the values of the surface at the data of theirs, z is a column of signs. In space only what lies across the
+//! surface counts: parameters that are feet on it follow its noise along it, and would speak for that.
 
 use super::{FairError, FairReport, Lowest, POWERS, Problem};
 use crate::control::{Control, Watch};
 use crate::fit::common::signs::{PROBES, signs};
+use crate::surface::{Surface, normal};
+use glam::{DVec2, DVec3};
 
 /// A score so many times the least ends the search: it grows with the square of the weight from there on.
 const HOPELESS: f64 = 4.0;
@@ -70,7 +73,27 @@ impl Problem<'_> {
         if freedom < LEAST_FREEDOM {
             return Ok(f64::INFINITY);
         }
-        let square = self.reference.deviations(&d).iter().map(|miss| miss * miss).sum::<f64>() / count;
-        Ok(square / freedom.powi(2))
+        Ok(self.squares_across(&d) / count / freedom.powi(2))
     }
+
+    /// The sum of the squares of what data are missed by after a displacement, in space across the surface that is given.
+    fn squares_across(&self, d: &[f64]) -> f64 {
+        let misses = self.reference.misses(d);
+        if self.normals.is_empty() {
+            return misses.iter().map(|x| x * x).sum();
+        }
+        let across = misses.chunks_exact(3).zip(&self.normals);
+        across.map(|(miss, normal)| DVec3::from_slice(miss).dot(*normal).powi(2)).sum()
+    }
+}
+
+/// The normals of a surface in space at the data; none for other surfaces.
+pub(crate) fn normals(surface: &dyn Surface, uv: &[DVec2]) -> Vec<DVec3> {
+    if surface.dim() != 3 {
+        return Vec::new();
+    }
+    let mut rows = vec![0.0; 9 * uv.len()];
+    surface.eval_rows(uv, 1, &mut rows);
+    let [su, sv] = [3, 6].map(|k| move |row: &[f64]| DVec3::from_slice(&row[k..]));
+    rows.chunks_exact(9).map(|row| normal(su(row), sv(row))).collect()
 }

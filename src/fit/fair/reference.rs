@@ -127,6 +127,11 @@ impl<'a> Reference<'a> {
         }
     }
 
+    /// By how much each datum is missed after a displacement: rows of `dim` numbers; empty without data.
+    pub(crate) fn misses(&self, d: &[f64]) -> Vec<f64> {
+        self.data.as_ref().map_or(Vec::new(), |data| data.rows_after(self.space, d, 1.0))
+    }
+
     /// The longest step along a displacement, at most 1, that stays within the tolerance.
     pub(super) fn longest_step(&self, d: &[f64]) -> f64 {
         let largest = |deviations: Vec<f64>| deviations.into_iter().fold(0.0, f64::max);
@@ -172,13 +177,19 @@ impl Data {
     }
 
     fn misses_after(&self, space: &Space, d: &[f64], step: f64) -> Vec<f64> {
-        let rows = self.cells.iter().zip(&self.shares).zip(self.misses.chunks_exact(space.dim));
-        let miss = |((&cell, shares), miss): ((&u32, &Vec<f64>), &[f64])| {
-            let mut miss = miss.to_vec();
-            add_point(space, cell, shares, d, step, &mut miss);
-            miss.iter().map(|x| x * x).sum::<f64>().sqrt()
-        };
-        rows.map(miss).collect()
+        let rows = self.rows_after(space, d, step);
+        rows.chunks_exact(space.dim).map(|miss| miss.iter().map(|x| x * x).sum::<f64>().sqrt()).collect()
+    }
+
+    /// By how much a displaced surface misses each datum: rows of `dim` numbers.
+    fn rows_after(&self, space: &Space, d: &[f64], step: f64) -> Vec<f64> {
+        let mut rows = self.misses.clone();
+        for ((&cell, shares), miss) in
+            self.cells.iter().zip(&self.shares).zip(rows.chunks_exact_mut(space.dim))
+        {
+            add_point(space, cell, shares, d, step, miss);
+        }
+        rows
     }
 }
 

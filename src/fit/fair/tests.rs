@@ -1,8 +1,10 @@
 use super::*;
+use crate::control::Pool;
 use crate::failure::{Classify, ErrorKind};
 use crate::fit::common::report::ToleranceScale;
 use crate::fit::{pht, tensor};
 use crate::knots::KnotVector;
+use crate::query::project::{ProjectOptions, Projector};
 use crate::samples::Random;
 use crate::surface::tensor::TensorSurface;
 use crate::surface::{Surface, normal};
@@ -90,6 +92,22 @@ fn noise_is_smoothed_within_the_tolerance_of_the_data() {
             (normal_deviation(surface.as_surface()), normal_deviation(faired.surface.as_surface()));
         println!("normals {before:.3e} -> {after:.3e}, {report:?}");
         assert!(after < 0.5 * before, "{before} {after} {report:?}");
+    }
+}
+
+#[test]
+fn parameters_that_are_feet_on_the_surface_do_not_speak_for_its_noise() {
+    let tolerance = 6e-3;
+    let (uv, values) = noisy(4000, 1e-3);
+    for surface in fits(&uv, &values, tolerance) {
+        let projector = Projector::new(surface.as_surface()).unwrap();
+        let feet = projector.project(&values, &ProjectOptions::default(), &Pool::new(1)).unwrap().uv;
+        let options = FairOptions::default().with_tolerance(absolute(tolerance));
+        let data = FairData { uv: &feet, values: &values };
+        let faired = fair(&surface, Some(data), &options, &mut Control::new(1)).unwrap();
+        let (before, after) =
+            (normal_deviation(surface.as_surface()), normal_deviation(faired.surface.as_surface()));
+        assert!(after < 0.5 * before, "{before} {after} {:?}", faired.report);
     }
 }
 
