@@ -231,6 +231,10 @@ const GOOD_ENERGY: f64 = 8.5;
 /// Beyond it, more are taken if they have no more than this part of the energy.
 const WORTH_PATCHES: f64 = 0.7;
 
+/// Halved cells are taken up to so many times the patches that are wanted: around ragged borders there are hundreds, which
+/// neither hold nodes enough nor can be relaxed in seconds.
+const MOST_HALVED: usize = 4;
+
 /// All pieces with their patches, put together.
 struct Assembly<'a> {
     lines: &'a [Line],
@@ -303,7 +307,9 @@ impl<'a> Assembly<'a> {
             return Ok(few.clone());
         }
         let sides: usize = loops.iter().map(|border| border.stops.len()).sum();
-        let many = match over::over(sheet, loops, patches.max(sides / 2 + 1), self.halving, control)? {
+        let over = over::over(sheet, loops, patches.max(sides / 2 + 1), self.halving, control)?;
+        let most = if self.halving == Halving::Yes { MOST_HALVED * patches } else { usize::MAX };
+        let many = match over.filter(|quads| quads.corners.len() <= most) {
             Some(quads) => self.candidate(sheet, loops, quads, sweeps, control)?,
             None => None,
         };
