@@ -203,7 +203,8 @@ impl<'a> Refinement<'a> {
             }
             Continuity::C2 => self.grow_smoothly(control)?,
         };
-        outcome.best = self.tamed(outcome.best, control)?;
+        let refined_count = outcome.best.refined_count;
+        outcome.best = Round { refined_count, ..self.tamed(outcome.best, control)? };
         Ok(self.finish(outcome, control))
     }
 
