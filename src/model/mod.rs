@@ -364,8 +364,11 @@ fn places(carrier: &Carrier, curve: &EdgeCurve, pcurve: Option<&Curve>, paramete
         Some(pcurve) => {
             let mut rows = vec![0.0; 2 * parameters.len()];
             pcurve.eval_rows(parameters, 0, &mut rows);
-            // rounding may leave the domain by a unit in the last place
-            rows.chunks_exact(2).map(|row| carrier.clamp(DVec2::from_slice(row))).collect()
+            // rounding may leave the domain by a unit in the last place; what runs along a parameter line stays on it
+            let controls = pcurve.control_points().chunks_exact(2).map(DVec2::from_slice);
+            let (min, max) = controls
+                .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(min, max), at| (min.min(at), max.max(at)));
+            rows.chunks_exact(2).map(|row| carrier.clamp(DVec2::from_slice(row).clamp(min, max))).collect()
         }
         None => carrier.locate_all(&curve.points(parameters)),
     }

@@ -13,6 +13,7 @@
 use super::{Carrier, Edge, FaceId, Model, Use};
 use crate::control::Pool;
 use crate::mesh::Mesh;
+use crate::query::crossings::crossed_triangles;
 use crate::query::tessellate::{TessellateError, TessellateOptions, distance_to_segment, least_angle};
 use crate::surface::Patches;
 use glam::{DVec2, DVec3};
@@ -37,6 +38,8 @@ pub struct ModelTessellation {
     pub smallest_angle: f64,
     /// Largest distance measured between the middle of a side and the surface or curve.
     pub chord_error: f64,
+    /// Pairs of triangles that cross.
+    pub crossings: usize,
 }
 
 /// Share of the diagonal that stands for a chord tolerance of 0.
@@ -48,6 +51,10 @@ const MAX_TRIALS: usize = 8;
 const FINER: f64 = 0.25;
 /// Sides are not halved any more once they are this short against the face: a fold or pole would go on for ever.
 const SHORTEST_SIDE: f64 = 1e-7;
+/// Times that faces whose triangles cross are triangulated again, [`FINER`] each time.
+const MAX_CROSSED: usize = 3;
+/// Least height of a triangle over a side of the bound, as a share of that side.
+const LEAST_HEIGHT: f64 = 0.05;
 /// Faces whose triangulations are kept until they are joined.
 const AT_ONCE: usize = 64;
 /// Most lines in each direction on whose crossings first nodes are set: where patches are, features may be.
@@ -66,16 +73,47 @@ impl Model {
         pool: &Pool,
     ) -> Result<ModelTessellation, TessellateError> {
         options.check()?;
-        let all: Vec<FaceId> = self.face_ids().collect();
         let automatic = CHORD_SHARE * self.diagonal();
         let chord = if options.chord_tolerance > 0.0 { options.chord_tolerance } else { automatic };
-        let mut chords = vec![chord; self.edges().len()];
+        let mut chords =
+            Chords { faces: vec![chord; self.faces().len()], edges: vec![chord; self.edges().len()] };
+        let mut best = self.tessellate_within(&mut chords, options, pool)?;
+        let mut crossed = best.count_crossings(pool)?;
+        for _ in 0..MAX_CROSSED {
+            if best.crossings == 0 {
+                break;
+            }
+            crossed.into_iter().for_each(|face| chords.divide(self, face));
+            let mut finer = match self.tessellate_within(&mut chords, options, pool) {
+                Ok(finer) => finer,
+                Err(cancelled @ TessellateError::Cancelled(_)) => return Err(cancelled),
+                // the coarser one will do
+                Err(_) => break,
+            };
+            crossed = finer.count_crossings(pool)?;
+            if finer.crossings >= best.crossings {
+                break;
+            }
+            best = finer;
+        }
+        Ok(best)
+    }
+
+    /// Triangulates a model with a chord of its own for each face and edge; edges whose polylines cross get shorter ones.
+    fn tessellate_within(
+        &self,
+        chords: &mut Chords,
+        options: &TessellateOptions,
+        pool: &Pool,
+    ) -> Result<ModelTessellation, TessellateError> {
+        let all: Vec<FaceId> = self.face_ids().collect();
         for trial in 0.. {
-            let mut nodes = Nodes::new(self, &chords, options)?;
+            let mut nodes = Nodes::new(self, &chords.edges, options)?;
             let mut crossing = None;
             for faces in all.chunks(AT_ONCE) {
                 pool.check()?;
                 let plane = |&face: &FaceId| {
+                    let chord = chords.faces[face.index()];
                     FacePlane::new(self, face, &nodes, options, chord).and_then(FacePlane::refined)
                 };
                 let planes: Vec<_> = pool.run(|| faces.par_iter().map(plane).collect());
@@ -85,8 +123,7 @@ impl Model {
                         Err(error @ TessellateError::CrossingTrims { .. }) => {
                             crossing = Some(error);
                             // polylines that cross have too few nodes
-                            let edges = self.face(face).bounds.iter().flatten().map(|coedge| coedge.edge);
-                            edges.for_each(|edge| chords[edge.index()] *= FINER);
+                            chords.divide_edges(self, face);
                         }
                         Err(error) => return Err(error),
                     }
@@ -100,6 +137,37 @@ impl Model {
             }
         }
         unreachable!("the loop ends by its trials")
+    }
+}
+
+/// How far triangles and polylines may be from their face or edge.
+struct Chords {
+    faces: Vec<f64>,
+    edges: Vec<f64>,
+}
+
+impl Chords {
+    fn divide(&mut self, model: &Model, face: FaceId) {
+        self.faces[face.index()] *= FINER;
+        self.divide_edges(model, face);
+    }
+
+    fn divide_edges(&mut self, model: &Model, face: FaceId) {
+        let edges = model.face(face).bounds.iter().flatten().map(|coedge| coedge.edge);
+        edges.for_each(|edge| self.edges[edge.index()] *= FINER);
+    }
+}
+
+impl ModelTessellation {
+    /// Counts the pairs of triangles that cross; returns their faces, ascending.
+    fn count_crossings(&mut self, pool: &Pool) -> Result<Vec<FaceId>, TessellateError> {
+        let (found, triangles) = crossed_triangles(&self.mesh, pool)?;
+        self.crossings = found.count;
+        let mut faces: Vec<FaceId> =
+            triangles.into_iter().map(|triangle| self.faces[triangle as usize]).collect();
+        faces.sort_unstable();
+        faces.dedup();
+        Ok(faces)
     }
 }
 
@@ -159,6 +227,7 @@ impl Nodes {
             edges: self.edges.into_iter().map(|(_, nodes)| nodes).collect(),
             smallest_angle: self.smallest_angle,
             chord_error: self.chord_error,
+            crossings: 0,
         })
     }
 }
@@ -362,6 +431,23 @@ impl<'a> FacePlane<'a> {
         *self.points.entry(vertex).or_insert_with(|| carrier.points(&[uv])[0])
     }
 
+    /// Whether a place is so near to a side of the bound, which cannot be halved, that a node there would make slivers,
+    /// and their middles more of them.
+    fn is_beside_bound(&self, uv: DVec2) -> bool {
+        let place = uv * self.stretch;
+        let point = Point2::new(place.x, place.y);
+        use spade::PositionInTriangulation::{OnEdge, OnFace};
+        let is_near = |side: spade::handles::DirectedEdgeHandle<_, _, _, _>| {
+            side.is_constraint_edge()
+                && side.distance_2(point) < LEAST_HEIGHT * LEAST_HEIGHT * side.length_2()
+        };
+        match self.triangulation.locate(point) {
+            OnFace(face) => self.triangulation.face(face).adjacent_edges().into_iter().any(is_near),
+            OnEdge(edge) => self.triangulation.directed_edge(edge).is_constraint_edge(),
+            _ => false,
+        }
+    }
+
     /// With the middles of all inner sides as nodes that need it.
     fn refined(mut self) -> Result<Self, TessellateError> {
         loop {
@@ -383,7 +469,8 @@ impl<'a> FacePlane<'a> {
                 let uv = (place(a) + place(b)) / 2.0;
                 let off = distance_to_segment(self.model.carrier(self.face).points(&[uv])[0], from, to);
                 let longest = self.options.max_edge_length;
-                if off > self.chord || (longest > 0.0 && from.distance(to) > longest) {
+                let is_rough = off > self.chord || (longest > 0.0 && from.distance(to) > longest);
+                if is_rough && !self.is_beside_bound(uv) {
                     middles.push(uv);
                 }
                 self.chord_error = self.chord_error.max(off);

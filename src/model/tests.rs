@@ -236,3 +236,17 @@ fn a_piece_of_a_cylinder_becomes_rational_arcs() {
         }
     }
 }
+
+#[test]
+fn what_runs_along_a_parameter_line_stays_on_it() {
+    let mut random = crate::samples::Random::new(3);
+    let edge = Curve::new(3, KnotVector::clamped(&[0.0, 1.0], 1).unwrap(), vec![0.0; 6]).unwrap();
+    let carrier = Carrier::Spline(wave());
+    for _ in 0..200 {
+        let (u, from, to) = (random.unit(), random.unit(), random.unit());
+        let pcurve = straight(&edge, [DVec2::new(u, from), DVec2::new(u, to)]);
+        let parameters: Vec<f64> = (0..=30).map(|k| f64::from(k) / 30.0).collect();
+        let places = places(&carrier, &EdgeCurve::Spline(edge.clone()), Some(&pcurve), &parameters);
+        assert!(places.iter().all(|at| at.x == u), "{u}");
+    }
+}

@@ -26,12 +26,17 @@ pub struct Crossings {
 
 /// Counts the pairs of triangles of a mesh that cross.
 pub fn crossings(mesh: &Mesh, pool: &Pool) -> Result<Crossings, Cancelled> {
+    crossed_triangles(mesh, pool).map(|(found, _)| found)
+}
+
+/// Counts the pairs of triangles of a mesh that cross, and tells which triangles those are, ascending.
+pub fn crossed_triangles(mesh: &Mesh, pool: &Pool) -> Result<(Crossings, Vec<u32>), Cancelled> {
     let tree = TriangleTree::new(mesh);
     let count = mesh.triangles().len() as u32;
     let pieces: Vec<u32> = (0..count).step_by(PIECE).collect();
-    let of_piece = |&start: &u32| -> Result<Crossings, Cancelled> {
+    let of_piece = |&start: &u32| -> Result<(Crossings, Vec<u32>), Cancelled> {
         pool.check()?;
-        let mut found = Crossings::default();
+        let (mut found, mut crossed) = (Crossings::default(), Vec::new());
         for triangle in start..count.min(start + PIECE as u32) {
             let corners = tree.corners(triangle);
             tree.for_each_near(corners, |other| {
@@ -39,17 +44,23 @@ pub fn crossings(mesh: &Mesh, pool: &Pool) -> Result<Crossings, Cancelled> {
                     found.count += 1;
                     let pair = [triangle, other];
                     found.first = Some(found.first.map_or(pair, |first| first.min(pair)));
+                    crossed.extend(pair);
                 }
             });
         }
-        Ok(found)
+        crossed.sort_unstable();
+        crossed.dedup();
+        Ok((found, crossed))
     };
-    let found: Result<Vec<Crossings>, Cancelled> = pool.run(|| pieces.par_iter().map(of_piece).collect());
-    let join = |all: Crossings, piece: Crossings| Crossings {
-        count: all.count + piece.count,
-        first: all.first.or(piece.first),
-    };
-    Ok(found?.into_iter().fold(Crossings::default(), join))
+    let of_pieces: Result<Vec<_>, Cancelled> = pool.run(|| pieces.par_iter().map(of_piece).collect());
+    let (mut all, mut crossed) = (Crossings::default(), Vec::new());
+    for (found, of_piece) in of_pieces? {
+        all = Crossings { count: all.count + found.count, first: all.first.or(found.first) };
+        crossed.extend(of_piece);
+    }
+    crossed.sort_unstable();
+    crossed.dedup();
+    Ok((all, crossed))
 }
 
 /// Whether an edge of one triangle pierces the other.
