@@ -110,24 +110,6 @@ impl<M: Borrow<Mesh>> TriangleTree<M> {
         }
     }
 
-    /// Calls `visit` with the triangles that a segment passes through, and the share of it before they do.
-    pub fn for_each_hit(&self, from: DVec3, to: DVec3, mut visit: impl FnMut(u32, f64)) {
-        let way = to - from;
-        self.for_each_near([from, to, from], |triangle| {
-            let [a, b, c] = self.corners(triangle);
-            let (u, v) = (b - a, c - a);
-            // T. Moeller, B. Trumbore, "Fast, minimum storage ray/triangle intersection", J. Graph. Tools 2 (1997)
-            let p = way.cross(v);
-            let determinant = u.dot(p);
-            let (t, q) = (from - a, (from - a).cross(u));
-            let [along_u, along_v, share] = [t.dot(p), way.dot(q), v.dot(q)].map(|x| x / determinant);
-            let is_inside = along_u >= 0.0 && along_v >= 0.0 && along_u + along_v <= 1.0;
-            if is_inside && (0.0..=1.0).contains(&share) {
-                visit(triangle, share);
-            }
-        });
-    }
-
     /// The place of the mesh nearest to a point; None for a mesh without triangles.
     pub fn nearest(&self, point: DVec3) -> Option<NearestTriangle> {
         let mut best = NearestTriangle { point: DVec3::NAN, distance: f64::INFINITY, triangle: 0 };

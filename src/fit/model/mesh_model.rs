@@ -159,6 +159,7 @@ impl ModelFit {
 pub(super) fn together(mesh: &Mesh, components: &[ComponentReport], errors: &[f64]) -> ModelReport {
     let fits = || components.iter().map(|component| &component.fit);
     let largest = |of: fn(&ModelReport) -> f64| fits().map(of).fold(0.0, f64::max);
+    let max_interior_error = largest(|fit| fit.max_interior_error);
     // nodes without triangles have none
     let known = summarize(errors.iter().map(|error| if error.is_nan() { 0.0 } else { *error }).collect());
     let used = errors.iter().filter(|error| !error.is_nan()).count().max(1) as f64;
@@ -172,8 +173,8 @@ pub(super) fn together(mesh: &Mesh, components: &[ComponentReport], errors: &[f6
         worst_node: known.worst_index,
         tolerance: largest(|fit| fit.tolerance),
         diagonal: mesh.diagonal(),
-        max_interior_error: largest(|fit| fit.max_interior_error),
-        facet_sagitta: largest(|fit| fit.facet_sagitta),
+        max_interior_error,
+        facet_sagitta: max_interior_error - largest(|fit| fit.max_interior_error - fit.facet_sagitta),
         max_back_distance: largest(|fit| fit.max_back_distance),
         normal_jump: largest(|fit| fit.normal_jump),
         gap: largest(|fit| fit.gap),

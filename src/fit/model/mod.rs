@@ -129,6 +129,8 @@ pub fn fit_with_creases(
         rounds: 0,
         stuck: 0,
         least_samples: options.min_samples,
+        least_error: f64::INFINITY,
+        folded_rounds: 0,
         idle_limit: refine::MOST_IDLE,
     };
     let outcome = run(&mut refinement, control)?;

@@ -60,6 +60,10 @@ pub(super) struct Refinement<'a> {
     pub stuck: usize,
     /// Cells with fewer samples are not split.
     pub least_samples: usize,
+    /// The least error of a round, folded or not.
+    pub(super) least_error: f64,
+    /// Rounds that had folds.
+    pub(super) folded_rounds: usize,
     /// Rounds without gain before the fit is given up.
     pub idle_limit: usize,
 }
@@ -115,6 +119,10 @@ impl Samples {
 
 /// Rounds that only move samples before cells with fewer of them are split, or a fit is given up.
 const MOST_STUCK: usize = 3;
+/// Rounds with folds before a fit is given up: what so many do not mend, stiffness does not.
+const MOST_FOLDED: usize = 12;
+/// Folds of smooth patches are mended once the error is no more than so many times the tolerance.
+const NEAR: f64 = 2.0;
 /// Rounds without gain before a fit is given up, while cells of no fewer samples are split.
 pub(super) const MOST_IDLE: usize = 3;
 
@@ -132,7 +140,12 @@ impl Rounds for Refinement<'_> {
     }
 
     fn error(&self, round: &Round) -> f64 {
-        if self.mends(round) { FOLD_PENALTY * round.error.max(self.tolerance) } else { round.error }
+        if round.folded.is_empty() {
+            return round.error;
+        }
+        // fewer folds are a gain
+        let share = round.folded.len() as f64 / round.by_cell.cell_count() as f64;
+        (FOLD_PENALTY + share) * round.error.max(self.tolerance)
     }
 
     fn tolerance(&self) -> f64 {
@@ -141,17 +154,24 @@ impl Rounds for Refinement<'_> {
 
     fn refine(&mut self, standing: &Standing<Round>, _: &Control) -> Next {
         let Some(round) = standing.round else { return Next::Stop(StopReason::Stagnated) };
-        let is_folded = self.mends(round);
+        let is_folded = !round.folded.is_empty();
         if round.error <= self.tolerance && !is_folded {
             return Next::Done;
         }
         if self.rounds >= self.options.max_rounds {
             return Next::Stop(StopReason::Limit);
         }
-        if standing.idle >= self.idle_limit && self.stuck == 0 {
+        // folds hide that a round is nearer than those before
+        if round.error < self.least_error {
+            self.least_error = round.error;
+            self.idle_limit = self.idle_limit.max(standing.idle + 1);
+        }
+        self.folded_rounds += usize::from(is_folded);
+        let is_idle = standing.idle >= self.idle_limit && self.stuck == 0;
+        if is_idle || self.folded_rounds > MOST_FOLDED {
             return Next::Stop(StopReason::Stagnated);
         }
-        let is_stiffer = is_folded && self.stiffen(round);
+        let is_stiffer = self.mends(round) && self.stiffen(round);
         match self.split(round) {
             Ok(()) => self.stuck = 0,
             Err(_) if is_stiffer => self.stuck = 0,
@@ -169,9 +189,11 @@ impl Rounds for Refinement<'_> {
 }
 
 impl Refinement<'_> {
-    /// Whether a round has folds that the fit is to mend: where creases end in corners, patches are narrow there.
+    /// Whether the fit is to mend the folds of a round: over smooth patches once it is near, or many come and go with the
+    /// cells; where creases end in corners, patches are narrow, and a fold stays from the first round on.
     fn mends(&self, round: &Round) -> bool {
-        !round.folded.is_empty() && self.has_creases
+        let is_near = round.error <= NEAR * self.tolerance;
+        !round.folded.is_empty() && (self.has_creases || is_near)
     }
 
     /// The distance to which facets say where the shape is.

@@ -46,7 +46,8 @@ pub struct ModelReport {
     pub diagonal: f64,
     /// Largest distance of a centroid of a facet or a middle of an edge from the surface.
     pub max_interior_error: f64,
-    /// The part of that which flat facets on a curved shape explain.
+    /// The part of that which flat facets on a curved shape explain: nowhere does a distance exceed what its own facet
+    /// explains by more than the rest.
     pub facet_sagitta: f64,
     /// Largest distance from places all over the surface to the mesh.
     pub max_back_distance: f64,
@@ -128,8 +129,6 @@ pub(super) fn measure(
     remarks.add_if(outcome.stop == StopReason::Stagnated, Remarks::STAGNATED);
     remarks.add_if(!round.folded.is_empty(), Remarks::FOLDED_PARAMETERS);
     let max_interior_error = largest(&round.distances[nodes..]);
-    // what facets explain is never more than there is
-    let facet_sagitta = largest(&refinement.sagittas).min(max_interior_error);
     let unexplained = round.distances[nodes..].iter().zip(&refinement.samples.allowances[nodes..]);
     let excess = unexplained.map(|(distance, allowance)| distance - allowance).fold(0.0, f64::max);
     remarks.add_if(excess > tolerance, Remarks::ROUGH_BETWEEN_NODES);
@@ -141,7 +140,7 @@ pub(super) fn measure(
         tolerance,
         diagonal: mesh.diagonal(),
         max_interior_error,
-        facet_sagitta,
+        facet_sagitta: max_interior_error - excess,
         max_back_distance: back,
         normal_jump: jump.normal,
         gap: jump.gap,

@@ -3,7 +3,7 @@
 //! ```text
 //! closed, exact       planes and cylinders that explain all of it, without a patch
 //! sharp edges         patches and planes between them; where that fails, as without
-//! closed, genus 0     over the cube; where that misses the tolerance, over a base complex too, and the better is kept
+//! closed, genus 0     over the cube; where that misses the tolerance or folds, over a base complex too, and the better is kept
 //! closed, handles     over a base complex
 //! open, exact         shells of planes and cylinders
 //! open                one chart: a PHT-spline inside its trims; with sharp edges or several loops as above
@@ -71,8 +71,7 @@ fn count_crossings(mesh: &Mesh, fit: &mut ModelFit, control: &mut Control) -> Re
         // a model that cannot be triangulated has no triangles that cross
         let triangles = model.tessellate_by(&options, pool).ok();
         watch.check()?;
-        let of_model = triangles.map(|triangles| crossings(&triangles.mesh, pool)).transpose()?;
-        Ok((of_mesh, of_model.map(|found| found.count)))
+        Ok((of_mesh, triangles.map(|triangles| triangles.crossings)))
     })??;
     (fit.report.mesh_crossings, fit.report.crossings) = (of_mesh, of_model);
     let do_cross = of_mesh > 0 || of_model.is_some_and(|count| count > 0);
@@ -340,12 +339,12 @@ fn smooth(
         LayoutKind::Auto if !is_simple => over_complex(body, options, control),
         LayoutKind::Auto => {
             let cube = control.within(0.0, 0.5, |control| over_cube(body, options, control))?;
-            if !cube.report.fit.remarks.has(Remarks::TOLERANCE_NOT_MET) {
+            if is_good(&cube.report.fit) {
                 return Ok(cube);
             }
             // patches that follow the limbs may do what six cannot
             match control.within(0.5, 1.0, |control| over_complex(body, options, control)) {
-                Ok(complex) if complex.report.fit.max_error < cube.report.fit.max_error => Ok(complex),
+                Ok(complex) if !is_better(&cube.report.fit, &complex.report.fit) => Ok(complex),
                 Err(error) if error.kind() == ErrorKind::Cancelled => Err(error),
                 _ => Ok(cube),
             }
