@@ -1,4 +1,5 @@
-//! Models of real meshes: nodes within the tolerance, smooth to rounding, watertight, the volume of the mesh.
+//! Models of real meshes: nodes within the tolerance, smooth to rounding, watertight, the volume of the mesh, no fold and no
+//! triangles that cross.
 //!
 //! Skips, and says so, where the shared meshes are not at hand; seeded shapes are in the module's own tests.
 
@@ -32,6 +33,7 @@ fn real_meshes_become_solids_within_the_tolerance() {
         assert!((report.volume / report.mesh_volume - 1.0).abs() <= 1e-3, "{name}: {}", report.volume);
         assert_eq!(fit.model.free_edge_count(), 0, "{name}");
         assert_eq!(fit.components[0].genus, mesh.genus(), "{name}");
+        assert_eq!((report.folded_cells, report.crossings), (0, Some(0)), "{name}");
     }
 }
 

@@ -119,7 +119,7 @@ impl Samples {
 
 /// Rounds that only move samples before cells with fewer of them are split, or a fit is given up.
 const MOST_STUCK: usize = 3;
-/// Rounds with folds before a fit is given up: what so many do not mend, stiffness does not.
+/// Rounds with folds before they are left, and told: what so many do not mend, stiffness does not, and it costs nearness.
 const MOST_FOLDED: usize = 12;
 /// Folds of smooth patches are mended once the error is no more than so many times the tolerance.
 const NEAR: f64 = 2.0;
@@ -155,7 +155,7 @@ impl Rounds for Refinement<'_> {
     fn refine(&mut self, standing: &Standing<Round>, _: &Control) -> Next {
         let Some(round) = standing.round else { return Next::Stop(StopReason::Stagnated) };
         let is_folded = !round.folded.is_empty();
-        if round.error <= self.tolerance && !is_folded {
+        if round.error <= self.tolerance && (!is_folded || self.folded_rounds > MOST_FOLDED) {
             return Next::Done;
         }
         if self.rounds >= self.options.max_rounds {
@@ -166,10 +166,13 @@ impl Rounds for Refinement<'_> {
             self.least_error = round.error;
             self.idle_limit = self.idle_limit.max(standing.idle + 1);
         }
-        self.folded_rounds += usize::from(is_folded);
-        let is_idle = standing.idle >= self.idle_limit && self.stuck == 0;
-        if is_idle || self.folded_rounds > MOST_FOLDED {
+        if standing.idle >= self.idle_limit && self.stuck == 0 {
             return Next::Stop(StopReason::Stagnated);
+        }
+        self.folded_rounds += usize::from(is_folded);
+        if is_folded && self.folded_rounds == MOST_FOLDED + 1 {
+            self.stiff.clear();
+            self.idle_limit = standing.idle + MOST_IDLE;
         }
         let is_stiffer = self.mends(round) && self.stiffen(round);
         match self.split(round) {
@@ -193,7 +196,7 @@ impl Refinement<'_> {
     /// cells; where creases end in corners, patches are narrow, and a fold stays from the first round on.
     fn mends(&self, round: &Round) -> bool {
         let is_near = round.error <= NEAR * self.tolerance;
-        !round.folded.is_empty() && (self.has_creases || is_near)
+        !round.folded.is_empty() && self.folded_rounds <= MOST_FOLDED && (self.has_creases || is_near)
     }
 
     /// The distance to which facets say where the shape is.
