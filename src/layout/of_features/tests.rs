@@ -367,7 +367,7 @@ fn coarse_chains_get_nodes_where_vertices_lie() {
     let Part { mesh, features, regions, has_patches } = &part;
     let lines: Vec<Line> = features.chains.iter().map(|chain| Line::new(mesh, chain)).collect();
     let pieces = pieces::pieces(mesh, features, regions, &lines, has_patches).unwrap();
-    let division = division::divide(mesh, &pieces, &lines, &mut Control::new(1)).unwrap();
+    let division = places::place(&pieces, &lines, &vec![4; lines.len()]);
     let [piece] = &pieces[..] else { panic!("one wall") };
     let sheet = piece.sheet.with_stops(&lines, &division, Halving::No).unwrap();
     let added = sheet.mesh.points().len() - piece.nodes.len();
@@ -386,6 +386,9 @@ fn coarse_chains_get_nodes_where_vertices_lie() {
             assert!((place.truncate().length() - radius).abs() <= 1e-14, "{stop:?} at {place}");
         }
     }
-    let made = part.sound();
+    let options = FeatureLayoutOptions::default();
+    let mut control = Control::new(1);
+    let made = lay_out(mesh, &pieces, &lines, &division, Halving::No, &options, &mut control).unwrap();
+    part.check(&made);
     assert_eq!(made.layout.quads().len(), 4);
 }
