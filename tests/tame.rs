@@ -59,8 +59,13 @@ fn check(name: &str, mesh: &Mesh, tolerance: f64) {
             report.stop,
             report.seconds,
         );
-        // a mesh that one chart does not suit is missed by more than that where there are data
-        let most = if report.remarks.has(Remarks::SEGMENTATION_ADVISED) { 0.2 } else { 0.1 };
+        let most = match family {
+            // more cells are taken only beyond a quarter
+            "PHT" | "uniform" => 0.25,
+            // a mesh that one chart does not suit is missed by more than that where there are data
+            _ if report.remarks.has(Remarks::SEGMENTATION_ADVISED) => 0.2,
+            _ => 0.1,
+        };
         assert!(away <= most, "{name}, {family}: {away}");
     }
 }

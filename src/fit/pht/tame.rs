@@ -7,7 +7,7 @@ use super::refine::{Refinement, Round};
 use crate::control::{Control, Pool, Watch};
 use crate::fit::common::FitError;
 use crate::fit::common::hermite_cell::{Membrane, PARTS};
-use crate::fit::common::tame::{CutCells, FARTHEST, Standing, TENSE_WITHIN, excursion, is_wild, tamed};
+use crate::fit::common::tame::{CutCells, FINER_BEYOND, Standing, TENSE_WITHIN, excursion, is_wild, tamed};
 use crate::fit::common::trims;
 use crate::surface::pht::PhtSurface;
 use crate::surface::{Domain, Trims};
@@ -48,7 +48,7 @@ impl Refinement<'_> {
             let weights = [smoothing, tension];
             control.watch(|pool, watch| this.tense((mesh, *cut), &trims, weights, pool, watch))?
         };
-        let round = tamed(round, this.goal.tolerance, &same, (&finer, FARTHEST), judge, refit, control)?;
+        let round = tamed(round, this.goal.tolerance, &same, (&finer, FINER_BEYOND), judge, refit, control)?;
         self.mesh = round.surface.mesh().clone();
         Ok(round)
     }

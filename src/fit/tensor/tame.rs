@@ -3,7 +3,7 @@
 use super::candidate::Candidate;
 use super::{FitError, Method, Problem};
 use crate::control::{Control, Pool};
-use crate::fit::common::tame::{CutCells, FARTHEST, Standing, excursion, is_wild, tamed};
+use crate::fit::common::tame::{CutCells, FARTHEST, FINER_BEYOND, Standing, excursion, is_wild, tamed};
 use crate::fit::common::trims;
 use crate::fit::common::uniform::grid::Part;
 use crate::geometry::{Bounds, Domain};
@@ -15,9 +15,6 @@ use glam::DVec2;
 const BUFFER_HALVINGS: i32 = 4;
 /// How often the cells of a grid are halved along u and v that are too large for their emptiness, in turn.
 const FINER: [[u32; 2]; 4] = [[1, 0], [0, 1], [1, 1], [2, 2]];
-/// Uniform grids are made finer only beyond this share: what they cost, 10 to 140 of a few dozen coefficients, is more than a
-/// bulge that no trimmed face has, and most of it is in the buffer, which can be cut.
-const FINER_BEYOND: f64 = 0.25;
 /// How often cells between free knots are halved that are too large for their emptiness.
 pub(super) const HALVINGS: usize = 2;
 
