@@ -12,6 +12,7 @@ fn run(name: &str, section: &str, signal: Option<&str>) -> Output {
     let (head, _) = script.split_once("section \"setup\"").expect("the first section");
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name).join("scripts");
     std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("paths"), include_str!("../scripts/paths")).unwrap();
     let path = folder.join("test");
     std::fs::write(&path, format!("{head}\nsection \"work\"\n{section}\nhas_finished=yes\n")).unwrap();
     let mut bash = Command::new("bash");
