@@ -115,11 +115,13 @@ fn is_good(report: &ModelReport) -> bool {
     !report.remarks.has(Remarks::TOLERANCE_NOT_MET) && report.folded_cells == 0
 }
 
-/// Whether a fit is better than another: without folds, and then nearer to the nodes.
+/// Whether a fit is better than another: without folds, then with fewer where both are near enough, then nearer to the nodes.
 fn is_better(report: &ModelReport, other: &ModelReport) -> bool {
+    let is_near = |report: &ModelReport| report.max_error <= report.tolerance;
     match (report.folded_cells == 0, other.folded_cells == 0) {
         (true, false) => report.max_error <= NEARLY * other.max_error,
         (false, true) => NEARLY * report.max_error < other.max_error,
+        (false, false) if is_near(report) && is_near(other) => report.folded_cells <= other.folded_cells,
         _ => report.max_error <= other.max_error,
     }
 }
@@ -304,7 +306,9 @@ fn component(
         return smooth(body, options, control);
     }
     let (labels, sharp_edges) = of_body(&options.features, body);
-    let features = FeatureOptions { labels: &labels, sharp_edges: &sharp_edges, ..options.features };
+    // blunt edges make more and narrower regions than layouts of patches bear
+    let features =
+        FeatureOptions { labels: &labels, sharp_edges: &sharp_edges, find_blunt: false, ..options.features };
     let of_body = MeshModelOptions { features, ..*options };
     match control.within(0.0, 0.5, |control| over_features(body, &of_body, control)) {
         Ok(None) if is_open => Err(open_body(body)),

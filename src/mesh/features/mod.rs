@@ -46,6 +46,8 @@ pub struct FeatureOptions<'a> {
     pub labels: &'a [u32],
     /// Whether the normals of a noisy mesh are filtered before angles are measured. Default: yes.
     pub filter_noise: bool,
+    /// Whether edges between `weak_angle` and `sharp_angle` that stand out are features too. Default: yes.
+    pub find_blunt: bool,
 }
 
 impl Default for FeatureOptions<'_> {
@@ -58,6 +60,7 @@ impl Default for FeatureOptions<'_> {
             sharp_edges: &[],
             labels: &[],
             filter_noise: true,
+            find_blunt: true,
         }
     }
 }
@@ -226,7 +229,7 @@ impl Mesh {
         if options.sharp_angle.is_some() {
             prolonged_count += net.prolong(&turns, options.weak_angle);
         }
-        if options.sharp_angle.is_some() && options.weak_angle < PI {
+        if options.find_blunt && options.sharp_angle.is_some() && options.weak_angle < PI {
             let facets = Facets { mesh: self, normals: &normals, turns: &turns, sharp_angle };
             net.add(|edge| {
                 turns[edge.index()] > options.weak_angle && facets.ratio(edge) > ridges::LEAST_RATIO
