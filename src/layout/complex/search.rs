@@ -11,6 +11,8 @@ use crate::control::Cancelled;
 
 /// Most edges that are split.
 const MOST_SPLITS: usize = 25;
+/// Up to so many triangles all those; no matching is cheaper than one round, so of larger ones fewer edges are split.
+const FULL_SPLITS: usize = 640;
 /// Edges tried at each step.
 const CANDIDATES: usize = 5;
 /// For the first pairing, which closed surfaces keep.
@@ -44,7 +46,7 @@ pub(super) fn quads(
     }
     let Some(mut pairing) = pairing(&base, FIRST, control)? else { return Ok(None) };
     let vertex_count = base.points.len();
-    for _ in 0..MOST_SPLITS {
+    for _ in 0..most_splits(&base) {
         if left_over(&base, &pairing) == 0 {
             break;
         }
@@ -67,6 +69,11 @@ pub(super) fn quads(
     }
     let splits = base.points.len() - vertex_count;
     Ok((left_over(&base, &pairing) == 0).then_some((base, pairing, splits)))
+}
+
+fn most_splits(base: &Base) -> usize {
+    let share = (FULL_SPLITS as f64 / base.triangles.len() as f64).powi(2).min(1.0);
+    (MOST_SPLITS as f64 * share).ceil() as usize
 }
 
 /// The first pairing of all triangles that can be paired.
