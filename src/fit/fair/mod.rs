@@ -9,7 +9,7 @@
 //! d moves the surface s; without data |d|^2 is its integral over each cell, with data it is the square of what a datum is
 //! missed by. Cells or data that would come to lie beyond the tolerance get more weight (C. Lawson, "Contributions to the
 //! theory of linear least maximum approximation", 1961), and lambda grows as long as that lowers E; with data only as
-//! long as they are told better from each other (see [`prediction`]), unless all of the tolerance is asked for. What is
+//! long as they are told better from each other (module `prediction`), unless all of the tolerance is asked for. What is
 //! still beyond the tolerance is met by a shorter step: E is convex, so it falls all the way. Without data the bound is a proof: no
 //! place of the surface moves by more than the ordinates of d, of which it is a mean. Energies after G. Celniker and
 //! D. Gossard, "Deformable curve and surface finite-elements for free-form shape design", SIGGRAPH 1991, and H. Moreton
