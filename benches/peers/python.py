@@ -1,15 +1,15 @@
 """The Python package beside the raw C call and beside scipy, geomdl, splipy and ndsplines: points in a batch, and one at a time.
 
 Usage: PLANISH_LIBRARY=... PYTHONPATH=python python3 benches/peers/python.py     one thread; peers that are not installed are left out
-Prints a table in Markdown. The same net for everyone: bicubic, 200 x 200 control points, one number a point; all agree to 1e-12.
+Prints rows for tables.py. The same net for everyone: bicubic, 200 x 200 control points, one number a point; all agree to 1e-12.
 """
 
 import importlib.util
-import statistics
-import sys
-import time
+import platform
 from ctypes import addressof, byref
+from importlib import metadata
 
+import library
 import numpy as np
 
 import planish
@@ -18,8 +18,8 @@ from planish._library import lib, pointer
 
 COUNT = 1_000_000  # points of a batch
 SLOW_COUNT = 2_000  # those of a peer that takes them one by one
-RUNS = 7
 CALLS = 20_000  # scalar calls of a run
+PEERS = ("scipy", "ndsplines", "splipy", "geomdl")
 
 
 def net():
@@ -27,17 +27,6 @@ def net():
     knots = np.concatenate([[0] * 3, np.linspace(0, 1, 198), [1] * 3])
     x, y = np.meshgrid(np.linspace(0, 1, 200), np.linspace(0, 1, 200), indexing="ij")
     return knots, np.sin(9 * x) * np.cos(7 * y)
-
-
-def seconds(run):
-    """The median of some runs, after one to warm up."""
-    run()
-    times = []
-    for _ in range(RUNS):
-        start = time.perf_counter()
-        run()
-        times.append(time.perf_counter() - start)
-    return statistics.median(times)
 
 
 def peers(knots, control, uv):
@@ -124,19 +113,48 @@ def peers(knots, control, uv):
         )
 
 
+def versions():
+    """Who is here, with versions."""
+    names = [name for name in ("numpy", *PEERS) if importlib.util.find_spec(name)]
+    return ", ".join([f"Python {platform.python_version()}", *(f"{name} {metadata.version(name)}" for name in names)])
+
+
+def calls(one, count):
+    def run():
+        for _ in range(count):
+            one()
+
+    return run
+
+
+def print_line(kind, *fields):
+    print(kind, *fields, sep="\t", flush=True)
+
+
 def main():
     knots, control = net()
     uv = np.random.default_rng(1).random((COUNT, 2))
+    everyone = list(peers(knots, control, uv))
     reference = None
-    print("| | 1e6 points in any order, s | one point, us |\n|---|---|---|")
-    for name, count, batch, one, values in peers(knots, control, uv):
-        batch_seconds = seconds(batch) * COUNT / count
-        calls = CALLS if count == COUNT else CALLS // 100
-        one_seconds = seconds(lambda: [one() for _ in range(calls)]) / calls
+    for name, _, batch, one, values in everyone:
+        batch(), one()  # to warm up
         found = values["values"] if isinstance(values, dict) else values
         reference = found if reference is None else reference
         assert np.abs(found - reference[: len(found)]).max() <= 1e-12, f"{name} gives other values"
-        print(f"| {name} | {batch_seconds:.3f} | {1e6 * one_seconds:.2f} |", flush=True)
+    batches = library.race([batch for _, _, batch, _, _ in everyone])
+    counts = [CALLS if count == COUNT else CALLS // 100 for _, count, *_ in everyone]
+    singles = library.race([calls(one, count) for (_, _, _, one, _), count in zip(everyone, counts)])
+    print_line("line", versions())
+    print_line("table", "From Python: a bicubic scalar field of 200 x 200 control points, one thread")
+    print_line("row", "who", "1e6 points in any order, s", "one point, us")
+    for (name, count, *_), seconds, one_seconds, called in zip(everyone, batches, singles, counts):
+        print_line("row", name, told(seconds, COUNT / count, 3), told(one_seconds, 1e6 / called, 2))
 
 
-sys.exit(main())
+def told(seconds, factor, digits):
+    """Median, least and largest of sorted seconds."""
+    least, median, largest = (f"{factor * seconds[at]:.{digits}f}" for at in (0, len(seconds) // 2, -1))
+    return f"{median} ({least} to {largest})"
+
+
+main()

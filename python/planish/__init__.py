@@ -17,7 +17,8 @@ from ._fit import fit, fit_field, fit_points, skin, skin_curves
 from ._layout import Layout
 from ._library import Cancelled, Error, FileError, InvalidError, OutOfMemoryError, RangeError
 from ._mesh import Mesh, read_mesh, read_mesh_bytes
-from ._model import Edge, Face, Model, Shell, load_model, model, smooth_from_patches
+from ._model import Model, load_model, model, smooth_from_patches
+from ._parts import Edge, Face, Shell
 from ._records import Report
 from ._pht import Extraction, PhtSurface, pht, pht_from_surface
 from ._surface import BezierPatch, Curvatures, Surface, load, loads

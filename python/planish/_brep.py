@@ -8,14 +8,12 @@ model's own, with a p-curve for each side.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from ._curve import Curve
-    from ._model import Edge, Face, Model
-    from ._surface import Surface
+from ._curve import Curve
+from ._parts import Edge, Face, Parts
+from ._surface import Surface
 
 #: The least tolerance that OpenCASCADE works with.
 _PRECISION = 1e-7
@@ -84,16 +82,16 @@ def _edge_curve(edge: Edge) -> str:
 
 
 class _Writer:
-    def __init__(self, model: Model):
-        self.model = model
-        self.faces = [model.face(index) for index in range(model.n_faces)]
-        self.tolerance = max(_PRECISION, _MARGIN * model.measure().curve_deviation)
+    def __init__(self, parts: Parts):
+        self.parts = parts
+        self.faces = parts.faces
+        self.tolerance = max(_PRECISION, _MARGIN * parts.curve_deviation)
         self.pcurves: list[str] = []
         self.curves: list[str] = []
         self.surfaces: list[str] = []
         self.shapes: list[str] = []
         #: for each edge, what its geometry says of each face beside it
-        self.sides: list[dict[int, list[tuple[bool, int]]]] = [{} for _ in range(model.n_edges)]
+        self.sides: list[dict[int, list[tuple[bool, int]]]] = [{} for _ in parts.edges]
 
     def text(self) -> str:
         self._add_geometry()
@@ -116,10 +114,10 @@ class _Writer:
                 self.surfaces.append(_plane(face))
                 continue  # OpenCASCADE finds where curves lie in planes by itself
             is_cylinder = face.carrier == "cylinder"
-            self.surfaces.append(_cylinder(face) if is_cylinder else _surface(self.model.face_surface(index)))
+            self.surfaces.append(_cylinder(face) if is_cylinder else _surface(self.parts.surface(index)))
             coedges = [coedge for loop in face.loops for coedge in loop]
             for place, (edge, is_forward) in enumerate(coedges):
-                self.pcurves.append(_curve(self.model.pcurve(index, place)))
+                self.pcurves.append(_curve(self.parts.pcurve(index, place)))
                 self.sides[edge].setdefault(index, []).append((is_forward, len(self.pcurves)))
 
     def _add(self, kind: str, geometry: str, flags: str, below: Iterable[str] = ()) -> int:
@@ -130,14 +128,13 @@ class _Writer:
 
     def _add_shapes(self) -> int:
         vertices = [
-            self._add("Ve", f"{self.tolerance!r}\n{_row(point)}\n0 0\n", _VERTEX) for point in self.model.vertices
+            self._add("Ve", f"{self.tolerance!r}\n{_row(point)}\n0 0\n", _VERTEX) for point in self.parts.vertices
         ]
-        edges = [self._add_edge(index, vertices) for index in range(self.model.n_edges)]
+        edges = [self._add_edge(index, edge, vertices) for index, edge in enumerate(self.parts.edges)]
         faces = [self._add_face(index, face, edges) for index, face in enumerate(self.faces)]
         return self._add_bodies(faces)
 
-    def _add_edge(self, index: int, vertices: list[int]) -> int:
-        edge = self.model.edge(index)
+    def _add_edge(self, index: int, edge: Edge, vertices: list[int]) -> int:
         self.curves.append(_edge_curve(edge))
         ends = _row(edge.curve.domain)
         told = f" {self.tolerance!r} 1 1 0\n1  {len(self.curves)} 0 {ends}\n"
@@ -160,7 +157,7 @@ class _Writer:
         return self._add("Fa", f"0  {self.tolerance!r} {index + 1} 0\n", _PLAIN, wires)
 
     def _add_bodies(self, faces: list[int]) -> int:
-        shells = [self.model.shell(index) for index in range(self.model.n_shells)]
+        shells = self.parts.shells
         places = []
         for shell in shells:
             below = (f"{'+' if self.faces[face].is_forward else '-'}{{{faces[face]}}}" for face in shell.faces)
@@ -177,6 +174,6 @@ class _Writer:
         return self._add("Co", "", _ROOT, (f"+{{{body}}}" for body in bodies))
 
 
-def text(model: Model) -> str:
+def text(parts: Parts) -> str:
     """The BREP text of a model."""
-    return _Writer(model).text()
+    return _Writer(parts).text()

@@ -82,12 +82,15 @@ class Curve(Handle):
         call("planish_curve_arc_lengths", self, pointer(u), u.size, pointer(out))
         return out
 
-    def project(self, points: Any, **project_options: Any) -> tuple[np.ndarray, np.ndarray]:
+    def project(
+        self, points: Any, *, progress: ProgressCallback | None = None, **project_options: Any
+    ) -> tuple[np.ndarray, np.ndarray]:
         """The closest places to points (..., dim): their parameters and distances."""
         points = array(points, width=self.dim, what="points")
         u, distances = np.empty(points.shape[:-1]), np.empty(points.shape[:-1])
-        record = by_reference(options("project_options", project_options))
-        call("planish_curve_project", self, pointer(points), u.size, record, pointer(u), pointer(distances))
+        long = LongCall(progress)
+        record = by_reference(options("project_options", project_options, **long.fields("project_options")))
+        long("planish_curve_project", self, pointer(points), u.size, record, pointer(u), pointer(distances))
         return u, distances
 
     def save(self, path: str | os.PathLike) -> None:

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ._calls import LongCall, ProgressCallback
 from ._library import OUT, array, call, indices, lib, made, pointer, read_only
 from ._mesh import Mesh
 from ._records import by_reference, options
@@ -93,14 +94,22 @@ class D1rcSurface(Surface, kind="d1rc"):
         return knots, edges
 
 
-def smooth_creased(control_mesh: Mesh, degree: int = 3, *, sharp_edges: Any = None, **d1rc_options: Any) -> D1rcSurface:
+def smooth_creased(
+    control_mesh: Mesh,
+    degree: int = 3,
+    *,
+    sharp_edges: Any = None,
+    progress: ProgressCallback | None = None,
+    **d1rc_options: Any,
+) -> D1rcSurface:
     """The D1RC-spline over a coarse control mesh: smooth, but for the edges made sharp.
 
     sharp_edges: (n, 2) nodes; or ``sharp_angle`` in radians finds them.
     """
-    filled: dict[str, Any] = {}
+    long = LongCall(progress)
+    filled = long.fields("d1rc_options")
     if sharp_edges is not None:
         edges = indices(sharp_edges, 2, "sharp_edges")
-        filled = {"sharp_edges": edges, "sharp_edge_count": len(edges)}
+        filled.update(sharp_edges=edges, sharp_edge_count=len(edges))
     record = options("d1rc_options", d1rc_options, degree=degree, **filled)
-    return Surface._own(made("planish_d1rc_new", control_mesh, by_reference(record), OUT)[1])
+    return Surface._own(made("planish_d1rc_new", control_mesh, by_reference(record), OUT, run=long)[1])

@@ -178,13 +178,20 @@ def skin(
 
 
 def skin_curves(
-    curves: Sequence[Curve], tolerance: float = 1e-3, *, absolute: bool = False, **skin_options: Any
+    curves: Sequence[Curve],
+    tolerance: float = 1e-3,
+    *,
+    absolute: bool = False,
+    progress: ProgressCallback | None = None,
+    **skin_options: Any,
 ) -> Surface:
     """A T-spline through curves."""
     handles = (ctypes.c_void_p * len(curves))(*(curve._as_parameter_ for curve in curves))
-    report = report_record("fit_report")
-    scale = "absolute" if absolute else "relative"
-    record = options("skin_options", skin_options, tolerance=tolerance, tolerance_scale=scale)
+    long, report = LongCall(progress), report_record("fit_report")
+    filled = dict(
+        long.fields("skin_options"), tolerance=tolerance, tolerance_scale="absolute" if absolute else "relative"
+    )
+    record = options("skin_options", skin_options, **filled)
     arguments = (ctypes.addressof(handles), len(curves), by_reference(record), OUT, by_reference(report))
-    status, handle = made("planish_tspline_skin_curves", *arguments)
+    status, handle = made("planish_tspline_skin_curves", *arguments, run=long)
     return Surface._own(handle, Report(report, status))

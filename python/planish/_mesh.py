@@ -247,19 +247,14 @@ class Mesh(Handle):
 
     def sample_rows(self, row_count: int, **sample_options: Any) -> list[np.ndarray]:
         """Rows of points around the mesh, as `skin` takes them."""
-        record = options("sample_rows_options", sample_options)
+        long = LongCall()
+        record = options("sample_rows_options", sample_options, **long.fields("sample_rows_options"))
         counts, needed = np.zeros(row_count, np.uintp), ctypes.c_size_t()
         arguments = ("planish_mesh_sample_rows", self, by_reference(record), pointer(counts), row_count)
-        call(*arguments, None, 0, ctypes.byref(needed))
+        long(*arguments, None, 0, ctypes.byref(needed))
         points = np.empty((needed.value, 3))
-        call(*arguments, pointer(points), len(points), ctypes.byref(needed))
+        long(*arguments, pointer(points), len(points), ctypes.byref(needed))
         return np.split(points, np.cumsum(counts[:-1]).astype(int))
-
-    def fit(self, *arguments: Any, **keywords: Any) -> Any:
-        """The same as ``planish.fit(mesh, ...)``."""
-        from ._fit import fit
-
-        return fit(self, *arguments, **keywords)
 
     # copies
 

@@ -5,71 +5,20 @@ from __future__ import annotations
 import ctypes
 import os
 from collections.abc import Iterable
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
-from . import _abi
+from . import _abi, _brep
 from ._calls import LongCall, ProgressCallback
 from ._curve import Curve
 from ._library import OUT, Handle, array, call, indices, lib, made, path_of, pointer, read_only
 from ._mesh import Mesh, read_mesh
+from ._parts import Edge, Face, Parts, Shell
 from ._records import Report, by_reference, options, report_record
 from ._surface import Curvatures, Surface, _write_report, _write_step, deviation_of
 
 _NONE = _abi.NONE
-
-
-class Face(NamedTuple):
-    """A bounded part of a surface.
-
-    carrier: "spline", "plane" or "cylinder"; `origin`, `axis`, `x_axis` and `radius` say which.
-    label: what the maker of the model calls it. is_forward: whether its front is where the surface's normal points.
-    loops: the outer one first; each a list of (edge, is_forward) in order, the face on the left.
-    max_error, rms_error: of the `n_nodes` nodes of the fitted mesh on it; NaN without any.
-    """
-
-    carrier: str
-    origin: tuple[float, float, float]
-    axis: tuple[float, float, float]
-    x_axis: tuple[float, float, float]
-    radius: float
-    label: int
-    shell: int
-    is_forward: bool
-    loops: list[list[tuple[int, bool]]]
-    max_error: float
-    rms_error: float
-    n_nodes: int
-
-
-class Edge(NamedTuple):
-    """A curve in space between two vertices, which one or two faces share.
-
-    faces: the face whose loop runs along it and the one whose loop runs against it; None where there is none.
-    shape: "spline", "line", "circle" or "ellipse"; the curve of the last two is a spline over their angles.
-    origin, axis, x_axis, radii: those of a circle or ellipse, which turns counter-clockwise about its axis.
-    """
-
-    curve: Curve
-    vertices: tuple[int, int]
-    faces: tuple[int | None, int | None]
-    is_sharp: bool
-    angle: float
-    gap: float
-    shape: str
-    origin: tuple[float, float, float]
-    axis: tuple[float, float, float]
-    x_axis: tuple[float, float, float]
-    radii: tuple[float, float]
-
-
-class Shell(NamedTuple):
-    """Faces that hang together. role: "open", "solid" or "void"; a void is inside the shell `void_in`."""
-
-    faces: list[int]
-    role: str
-    void_in: int | None
 
 
 def _word(enumeration: str, number: int) -> str:
@@ -289,9 +238,12 @@ class Model(Handle):
 
     def to_brep(self) -> str:
         """The model as BREP text of OpenCASCADE: FreeCAD, CadQuery and build123d take it from memory."""
-        from ._brep import text
-
-        return text(self)
+        faces, edges, shells = (
+            [part(index) for index in range(count)]
+            for part, count in ((self.face, self.n_faces), (self.edge, self.n_edges), (self.shell, self.n_shells))
+        )
+        deviation = self.measure().curve_deviation
+        return _brep.text(Parts(faces, edges, shells, self.vertices, self.face_surface, self.pcurve, deviation))
 
     def write_step(
         self, path: str | os.PathLike, *, progress: ProgressCallback | None = None, **step_options: Any
@@ -301,11 +253,12 @@ class Model(Handle):
 
     def step_text(self, **step_options: Any) -> str:
         """What `write_step` would write."""
-        record, size = options("step_options", step_options), ctypes.c_size_t()
-        call("planish_model_write_step_memory", self, by_reference(record), None, 0, ctypes.byref(size))
+        long, size = LongCall(), ctypes.c_size_t()
+        record = options("step_options", step_options, **long.fields("step_options"))
+        long("planish_model_write_step_memory", self, by_reference(record), None, 0, ctypes.byref(size))
         buffer = ctypes.create_string_buffer(size.value)
         arguments = (by_reference(record), ctypes.addressof(buffer), len(buffer), ctypes.byref(size))
-        call("planish_model_write_step_memory", self, *arguments)
+        long("planish_model_write_step_memory", self, *arguments)
         return buffer.raw.decode("ascii")
 
     def save(self, path: str | os.PathLike) -> None:

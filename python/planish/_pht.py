@@ -138,12 +138,12 @@ class PhtSurface(Surface, kind="pht"):
 
     def to_tensor_patches(self, level_spread: int = 1) -> list[TensorSurface]:
         """The same shape as few tensor product surfaces, each over cells whose levels differ by at most `level_spread`."""
-        count = ctypes.c_size_t()
-        record = options("pht_patches_options", {"level_spread": level_spread})
-        call("planish_pht_to_tensor_patches", self, by_reference(record), None, 0, ctypes.byref(count))
+        count, long = ctypes.c_size_t(), LongCall()
+        record = options("pht_patches_options", level_spread=level_spread, **long.fields("pht_patches_options"))
+        long("planish_pht_to_tensor_patches", self, by_reference(record), None, 0, ctypes.byref(count))
         handles = (ctypes.c_void_p * count.value)()
         arguments = (self, by_reference(record), ctypes.addressof(handles), len(handles), ctypes.byref(count))
-        call("planish_pht_to_tensor_patches", *arguments)
+        long("planish_pht_to_tensor_patches", *arguments)
         return [Surface._own(ctypes.c_void_p(handle)) for handle in handles]
 
     def stitch(self, side: str, other: PhtSurface, other_side: str, *, reversed: bool = False) -> None:

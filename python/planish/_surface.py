@@ -307,10 +307,11 @@ class Surface(Handle):
 
     # parts
 
-    def to_tensor(self, **convert_options: Any) -> Surface:
+    def to_tensor(self, *, progress: ProgressCallback | None = None, **convert_options: Any) -> Surface:
         """The same shape as one tensor product surface, exactly."""
-        record = by_reference(options("convert_options", convert_options))
-        return Surface._own(made("planish_surface_to_tensor", self, record, OUT)[1], self.report)
+        long = LongCall(progress)
+        record = by_reference(options("convert_options", convert_options, **long.fields("convert_options")))
+        return Surface._own(made("planish_surface_to_tensor", self, record, OUT, run=long)[1], self.report)
 
     def bezier_patches(self) -> list[BezierPatch]:
         """The polynomial pieces of tensor, T-spline and PHT surfaces."""

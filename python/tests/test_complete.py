@@ -9,14 +9,18 @@ from planish import _abi
 #: What Python does without: records have their defaults from _abi, handles their own copies and locations.
 NOT_NEEDED = {
     "planish_status_name": "the names of the statuses stand in _abi",
-    "planish_pht_cell_at": "evaluation finds cells by itself",
     "planish_surface_patch_at": "evaluation finds patches by itself",
 }
 
 
-def test_every_function_is_called_somewhere():
+def _source():
     folder = Path(planish.__file__).parent
-    source = "\n".join(path.read_text() for path in folder.glob("*.py") if path.name != "_abi.py")
+    return "\n".join(path.read_text() for path in sorted(folder.glob("*.py")) if path.name != "_abi.py")
+
+
+def test_every_function_is_called_somewhere():
+    source = _source()
+    assert not [name for name in NOT_NEEDED if name in source], "not needed, but used"
     missing = [name for name in _abi.FUNCTIONS if not _is_named(name, source) and name not in NOT_NEEDED]
     assert not missing, f"not reachable from Python: {missing}"
 
@@ -29,3 +33,14 @@ def _is_named(name, source):
         if re.fullmatch(re.sub(r"\{[^}]*\}", "[a-z0-9]+", pattern), name):
             return True
     return False
+
+
+def test_calls_that_can_be_cancelled_hear_ctrl_c():
+    """Wherever options have a flag that cancels, the call runs as a `LongCall`, which raises it."""
+    source = _source()
+    for name, kind in vars(_abi).items():
+        record = name.removeprefix("planish_") if isinstance(kind, type) else ""
+        if record and any(field == "cancel" for field, *_ in getattr(kind, "_fields_", ())):
+            made = len(re.findall(rf'\boptions\(\s*"{record}"', source))
+            heard = len(re.findall(rf'long\.fields\("{record}"\)', source))
+            assert heard >= made, f"{record} is filled {made} times, {heard} times for a call that can be cancelled"

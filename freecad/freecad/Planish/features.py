@@ -12,10 +12,7 @@ import FreeCAD
 import numpy as np
 import planish
 
-from . import convert
-
-#: What a panel's worker has computed already, by object: the key of the job and its result.
-READY = {}
+from . import convert, view
 
 _READ_ONLY, _NO_RECOMPUTE = 1, 8
 
@@ -60,6 +57,8 @@ class Fitted(Proxy):
     """
 
     result = None
+    #: What a panel's worker has computed already: the key of the job and its result.
+    ready = None
 
     def add_properties(self, obj):
         add(obj, "Length", "Tolerance", "Fit", "Largest distance allowed at the nodes; 0 takes a thousandth of the size")
@@ -82,9 +81,26 @@ class Fitted(Proxy):
         job = self.job(obj)
         if job is None:
             return
-        self.result = _done(obj, *job)
+        self.result = self._done(obj, *job)
         obj.Shape = convert.to_shape(self.result)
         self.tell(obj)
+
+    def _done(self, obj, key, work):
+        """The result that a panel has ready for this key, else computed here."""
+        ready, self.ready = self.ready, None
+        if ready is not None and ready[0] == key:
+            return ready[1]
+        progress, stop = _progress_bar(obj.Label)
+        try:
+            return work(progress)
+        except planish.Error as error:
+            raise RuntimeError(f"{obj.Label}: {error}") from None  # marks the object and appears in the report view
+        finally:
+            stop()
+
+    def measured(self, obj):
+        """A new object that shows how far the mesh is from this one."""
+        return make("Deviation", Fitted=obj)
 
     def tell(self, obj):
         """Fills the report's properties; a missed tolerance warns, since the best shape is kept."""
@@ -98,20 +114,6 @@ class Fitted(Proxy):
             FreeCAD.Console.PrintWarning(
                 f"Planish: {obj.Label}: tolerance missed: {report.max_error:.4g} mm of {report.tolerance:.4g} mm allowed\n"
             )
-
-
-def _done(obj, key, work):
-    """The result that a panel has ready for this key, else computed here."""
-    ready = READY.pop(obj.Name, None)
-    if ready is not None and ready[0] == key:
-        return ready[1]
-    progress, stop = _progress_bar(obj.Label)
-    try:
-        return work(progress)
-    except planish.Error as error:
-        raise RuntimeError(f"{obj.Label}: {error}") from None  # marks the object and appears in the report view
-    finally:
-        stop()
 
 
 def _progress_bar(title):
@@ -391,7 +393,5 @@ def make(kind, **values):
     for name, value in values.items():
         setattr(obj, name, value)
     if FreeCAD.GuiUp:
-        from . import view
-
         view.attach(obj, kind)
     return obj

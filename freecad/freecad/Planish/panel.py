@@ -6,7 +6,7 @@ import FreeCAD
 import FreeCADGui
 import planish
 
-from . import features, preferences
+from . import preferences
 from . import translate as tr
 
 try:
@@ -23,7 +23,7 @@ class _Signals(QtCore.QObject):
 
 
 class Panel:
-    """Edits one FitSurface or SolidFromMesh. The worker knows only planish; `execute` takes its result from a cache."""
+    """Edits one FitSurface or SolidFromMesh. The worker knows only planish; `execute` takes what it leaves with the object."""
 
     def __init__(self, obj):
         self.obj = obj
@@ -157,7 +157,7 @@ class Panel:
         if isinstance(result, Exception):
             self._tell_failure(result)
             return
-        features.READY[self.obj.Name] = (self.key, result)
+        self.obj.Proxy.ready = (self.key, result)
         self.obj.touch()
         FreeCAD.ActiveDocument.recompute()
         self.bar.setValue(1000)
@@ -171,7 +171,7 @@ class Panel:
 
     def _show_deviation(self):
         if self.deviation is None:
-            self.deviation = features.make("Deviation", Fitted=self.obj)
+            self.deviation = self.obj.Proxy.measured(self.obj)
         self.deviation.touch()
         FreeCAD.ActiveDocument.recompute()
         self.obj.ViewObject.Visibility = False
