@@ -2,6 +2,9 @@
 //!
 //! `cargo bench --bench d1rc -- control.off`: a control mesh of a disk, 1,290 nodes in the numbers of docs/measured.md;
 //! a wavy sheet of 1,296 nodes without it.
+//!
+//! `-- --fan [COUNT...]`: how construction grows with the neighbours of one node, 10,000 to 100,000 unless told otherwise: the
+//! tip of a cone alone, and with a skirt of as many long faces below.
 
 use glam::DVec2;
 use planish::Control;
@@ -68,6 +71,9 @@ fn nodes([a, b, c]: [DVec2; 3]) -> Vec<DVec2> {
 }
 
 fn main() {
+    if std::env::args().any(|argument| argument == "--fan") {
+        return fans();
+    }
     let mesh = control_mesh();
     println!("{} control points, {} faces", mesh.points().len(), mesh.triangles().len());
     println!(
@@ -79,6 +85,51 @@ fn main() {
             run(&mesh, &D1rcOptions::default().with_mode(mode).with_degree(degree));
         }
     }
+}
+
+fn fans() {
+    let mut counts: Vec<u32> = std::env::args().filter_map(|argument| argument.parse().ok()).collect();
+    if counts.is_empty() {
+        counts = vec![10_000, 20_000, 40_000, 100_000];
+    }
+    println!(
+        "{:>9} {:>6} {:>6} {:>9} {:>9} {:>14}",
+        "count", "rings", "degree", "functions", "build s", "tip us a point"
+    );
+    for (rings, degree) in [(1, 1), (1, 2), (1, 3), (2, 3)] {
+        for &count in &counts {
+            let mesh = cone(count, rings);
+            let start = Instant::now();
+            let surface =
+                D1rcSurface::from_mesh(&mesh, &D1rcOptions::default().with_degree(degree), &[], &[])
+                    .expect("it is good");
+            let build = start.elapsed().as_secs_f64();
+            let mut random = Random::new(9);
+            let uv: Vec<DVec2> =
+                (0..1000).map(|_| 0.7 * DVec2::new(random.signed(), random.signed())).collect();
+            let start = Instant::now();
+            surface.eval_rows(&uv, 0, &mut [0.0; 3000]);
+            let point = start.elapsed().as_secs_f64() / uv.len() as f64;
+            let functions = surface.space().configurations().len();
+            println!("{count:>9} {rings:>6} {degree:>6} {functions:>9} {build:>9.2} {:>14.1}", 1e6 * point);
+        }
+    }
+}
+
+/// A cone over the unit disk, and with two rings a skirt around it.
+fn cone(count: u32, rings: u32) -> Mesh {
+    let rim = |k: u32| DVec2::from_angle(std::f64::consts::TAU * f64::from(k) / f64::from(count));
+    let ring = |ring: u32| (0..count).map(move |k| f64::from(ring) * rim(k));
+    let places: Vec<DVec2> = std::iter::once(DVec2::ZERO).chain((1..=rings).flat_map(ring)).collect();
+    let points = places.iter().map(|p| p.extend(0.3 * (1.0 - p.length()))).collect();
+    let faces = |k: u32| {
+        let (a, b) = (1 + k, 1 + (k + 1) % count);
+        let skirt = [[a, a + count, b + count], [a, b + count, b]];
+        std::iter::once([0, a, b]).chain(skirt.into_iter().filter(move |_| rings > 1))
+    };
+    let mut mesh = Mesh::new(points, (0..count).flat_map(faces).collect()).expect("a cone is a mesh");
+    mesh.set_parameters(places).expect("one place a node");
+    mesh
 }
 
 fn run(mesh: &Mesh, options: &D1rcOptions) {

@@ -1,20 +1,25 @@
 //! Which face of the parameter mesh holds a point, and from which side limits are taken there.
 
 use super::simplex::Site;
+use super::turned::TurnedBoxes;
 use crate::geometry::{Domain, Orientation, orientation, signed_area};
 use crate::lists::Lists;
 use crate::memory::{self, CollectVec};
 use glam::DVec2;
+use std::borrow::Cow;
 
 /// Cells of the grid for each face: a cell then meets some four faces.
 const CELLS_PER_FACE: f64 = 2.0;
+/// A face whose box has more cells is long, or large among small ones, and no matter of the grid: a fan of n thin faces would
+/// take some n^2 entries.
+const MOST_CELLS: usize = 64;
 /// Shares of a face's corners in the place towards which limits are taken on the border of the mesh. Nothing that
 /// engineers draw is parallel to the way there.
 const ASKEW: [f64; 3] = [0.302_775_637_7, 0.358_898_943_5, 0.338_325_418_8];
 /// Against the largest coordinate: a point on a border, computed from its ends, is not farther outside.
 const SLACK: f64 = 16.0 * f64::EPSILON;
 
-/// Faces sorted into a uniform grid.
+/// Faces sorted into a uniform grid, long ones into a tree.
 #[derive(Debug, Clone)]
 pub(crate) struct Locator {
     places: Vec<DVec2>,
@@ -24,6 +29,8 @@ pub(crate) struct Locator {
     cells_per_unit: DVec2,
     /// The faces of each cell, in increasing order.
     by_cell: Lists,
+    /// The other faces.
+    long: TurnedBoxes,
     border: Vec<(u32, [u32; 2])>,
 }
 
@@ -38,15 +45,32 @@ impl Locator {
         let counts = [size.x, size.y].map(|length| (length / cell).ceil().clamp(1.0, most) as usize);
         let cells_per_unit = DVec2::new(counts[0] as f64, counts[1] as f64) / size;
         let border = border(&faces);
-        let mut locator =
-            Self { places, faces, domain, counts, cells_per_unit, by_cell: Lists::default(), border };
-        let mut pairs = Vec::new();
-        for face in 0..locator.faces.len() {
-            let around = Domain::around(locator.corners(face as u32));
-            locator.for_each_cell(&around, |cell| memory::push(&mut pairs, (cell as u32, face as u32)));
-        }
-        locator.by_cell = Lists::new(counts[0] * counts[1], pairs.into_iter());
+        let (by_cell, long) = (Lists::default(), TurnedBoxes::default());
+        let mut locator = Self { places, faces, domain, counts, cells_per_unit, by_cell, long, border };
+        locator.sort_faces();
         locator
+    }
+
+    fn sort_faces(&mut self) {
+        let (mut pairs, mut long) = (Vec::new(), Vec::new());
+        for face in 0..self.faces.len() as u32 {
+            let corners = self.corners(face);
+            let around = Domain::around(corners);
+            let [first, last] = [around.min, around.max].map(|corner| self.cell(corner));
+            let [columns, rows] = [0, 1].map(|axis| last[axis] - first[axis] + 1);
+            if columns.saturating_mul(rows) > MOST_CELLS {
+                memory::push(&mut long, (face, corners));
+            } else {
+                self.for_each_cell(&around, |cell| memory::push(&mut pairs, (cell as u32, face)));
+            }
+        }
+        self.by_cell = Lists::new(self.counts[0] * self.counts[1], pairs.into_iter());
+        self.long = TurnedBoxes::new(long, self.largest());
+    }
+
+    /// The largest coordinate.
+    pub(super) fn largest(&self) -> f64 {
+        self.domain.min.abs().max(self.domain.max.abs()).max_element()
     }
 
     /// The box of all faces.
@@ -85,12 +109,17 @@ impl Locator {
         self.by_cell.of(cell)
     }
 
-    /// The faces that a box may meet, in increasing order.
-    pub(crate) fn faces_near(&self, around: &Domain, out: &mut Vec<u32>) {
-        out.clear();
-        self.for_each_cell(around, |cell| out.extend_from_slice(self.entries(cell)));
-        out.sort_unstable();
-        out.dedup();
+    /// The faces in one of which a point is, in increasing order.
+    pub(super) fn candidates(&self, t: DVec2) -> Cow<'_, [u32]> {
+        let [i, j] = self.cell(t);
+        let near = self.entries(i * self.counts[1] + j);
+        if self.long.is_empty() {
+            return Cow::Borrowed(near);
+        }
+        let mut all = memory::copied(near);
+        self.long.near(&[t], &mut all);
+        all.sort_unstable();
+        Cow::Owned(all)
     }
 
     /// The face that holds a point, and the side from which limits are taken: from the right and above where a
@@ -99,8 +128,7 @@ impl Locator {
         if !self.domain.contains(t) {
             return None;
         }
-        let [i, j] = self.cell(t);
-        let near = self.entries(i * self.counts[1] + j);
+        let near = self.candidates(t);
         let site = Site::new(t);
         if let Some(&face) = near.iter().find(|&&face| self.holds(face, &site)) {
             return Some((face, site));
@@ -113,7 +141,7 @@ impl Locator {
 
     /// A point that only rounding has put outside a face, moved back in.
     fn nudged(&self, face: u32, t: DVec2) -> Option<DVec2> {
-        let slack = SLACK * self.domain.min.abs().max(self.domain.max.abs()).max_element();
+        let slack = SLACK * self.largest();
         let inward = self.site_in(face, t).toward;
         let steps = std::iter::successors(Some(f64::EPSILON / SLACK * slack), |step| Some(2.0 * step));
         steps
@@ -149,6 +177,11 @@ impl Locator {
         let corners = self.corners(face);
         let inside: DVec2 = corners.iter().zip(ASKEW).map(|(&corner, share)| share * (corner - t)).sum();
         Site { t, toward: inside }
+    }
+
+    /// The sides that bound the faces, with their faces.
+    pub(super) fn border(&self) -> &[(u32, [u32; 2])] {
+        &self.border
     }
 
     /// The ends of the sides that bound the faces; each comes twice.

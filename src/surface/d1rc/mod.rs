@@ -12,7 +12,7 @@
 //!
 //! * `simplex`, `configuration`: the functions by definition; `kernel`: the same, fast.
 //! * `frame`, `links`, `polygon`: configurations that reproduce polynomials; `paper`: those of the paper.
-//! * `sharp`: sharp edges; `locate`, `regions`: which face, which functions.
+//! * `sharp`: sharp edges; `locate`, `regions`, `turned`: which face, which functions.
 //! * `space`: all that does not depend on control points; here: a surface.
 
 mod configuration;
@@ -31,6 +31,7 @@ pub mod simplex;
 mod space;
 #[cfg(test)]
 mod tests;
+mod turned;
 
 pub use configuration::{Configuration, Jet};
 pub use error::D1rcError;

@@ -1,12 +1,19 @@
 //! Where functions are not zero: faces by function, and functions by face.
+//!
+//! The faces under a hull are found from one to the next. Each piece of the hull inside the domain has the middle of the
+//! hull, or a side of the border meets it; so the faces there are where to begin.
 
 use super::configuration::Configuration;
 use super::locate::Locator;
+use super::turned::TurnedBoxes;
 use crate::control::{Cancelled, Watch};
 use crate::geometry::{Domain, Orientation, orientation};
 use crate::lists::Lists;
 use crate::memory::{self, CollectVec};
 use glam::DVec2;
+
+/// With more edges a function's faces are looked for by edge: its hull may have a knot of thousands of neighbours.
+const MOST_EDGES: usize = 64;
 
 /// Where functions are not zero.
 #[derive(Debug, Clone)]
@@ -16,7 +23,7 @@ pub(crate) struct Regions {
 }
 
 impl Regions {
-    /// By the hulls of the knots.
+    /// By the hulls of the knots; where they are many, by those of the simplex splines.
     pub(crate) fn new(
         configurations: &[Configuration],
         places: &[DVec2],
@@ -24,10 +31,24 @@ impl Regions {
         watch: &Watch,
     ) -> Result<Self, Cancelled> {
         let mut pairs = Vec::new();
+        let mut search = Search::new(locator);
+        let mut faces = Vec::new();
         for (function, configuration) in configurations.iter().enumerate() {
             watch.check_at(function)?;
-            let knots = configuration.all_knots().map(|knot| places[knot as usize]).collect_vec();
-            faces_under(knots, locator, &mut |face| memory::push(&mut pairs, (function as u32, face)));
+            faces.clear();
+            let knots =
+                |knots: &mut dyn Iterator<Item = u32>| knots.map(|knot| places[knot as usize]).collect_vec();
+            if configuration.edges.len() <= MOST_EDGES {
+                search.faces_under(knots(&mut configuration.all_knots()), &mut faces);
+            } else {
+                for &edge in &configuration.edges {
+                    search
+                        .faces_under(knots(&mut configuration.knots.iter().copied().chain(edge)), &mut faces);
+                }
+            }
+            faces.sort_unstable();
+            faces.dedup();
+            memory::extend(&mut pairs, faces.iter().map(|&face| (function as u32, face)));
         }
         Ok(Self::from_pairs(&pairs, configurations.len(), locator.faces().len()))
     }
@@ -65,24 +86,83 @@ impl Regions {
     }
 }
 
-/// Hands over the faces whose inside meets the hull of some points, in increasing order.
-pub(super) fn faces_under(points: Vec<DVec2>, locator: &Locator, take: &mut impl FnMut(u32)) {
-    let around = Domain::around(points.iter().copied());
-    let hull = hull(points);
-    if hull.len() < 3 || !overlap(&around, &locator.domain()) {
-        return;
+/// Looks for faces under hulls.
+pub(super) struct Search<'a> {
+    locator: &'a Locator,
+    /// By face, those beyond its sides; [`NONE`] beyond the border.
+    beside: Vec<[u32; 3]>,
+    /// The sides of the border, by face.
+    border: TurnedBoxes,
+    /// By face: in which search it was seen last.
+    seen: Vec<u32>,
+    searches: u32,
+    /// Faces still to be looked at.
+    open: Vec<u32>,
+}
+
+const NONE: u32 = u32::MAX;
+
+impl<'a> Search<'a> {
+    pub(super) fn new(locator: &'a Locator) -> Self {
+        let place = |knot: u32| locator.places()[knot as usize];
+        let side = |&(face, [a, b]): &(u32, [u32; 2])| (face, [place(a), place(b), place(b)]);
+        let border = TurnedBoxes::new(locator.border().iter().map(side).collect_vec(), locator.largest());
+        let seen = memory::filled(0, locator.faces().len());
+        Self { locator, beside: beside(locator.faces()), border, seen, searches: 0, open: Vec::new() }
     }
-    let mut near = Vec::new();
-    locator.faces_near(&around, &mut near);
-    for face in near {
-        let corners = locator.corners(face);
-        if overlap(&around, &Domain::around(corners))
-            && !are_apart(&corners, &hull)
-            && !are_apart(&hull, &corners)
-        {
-            take(face);
+
+    /// Appends the faces whose inside meets the hull of some points.
+    pub(super) fn faces_under(&mut self, points: Vec<DVec2>, out: &mut Vec<u32>) {
+        let around = Domain::around(points.iter().copied());
+        let hull = hull(points);
+        if hull.len() < 3 || !overlap(&around, &self.locator.domain()) {
+            return;
+        }
+        self.searches += 1;
+        self.begin(&hull);
+        while let Some(face) = self.open.pop() {
+            if std::mem::replace(&mut self.seen[face as usize], self.searches) == self.searches {
+                continue;
+            }
+            let corners = self.locator.corners(face);
+            if overlap(&around, &Domain::around(corners))
+                && !are_apart(&corners, &hull)
+                && !are_apart(&hull, &corners)
+            {
+                memory::push(out, face);
+                let beside = self.beside[face as usize].into_iter().filter(|&next| next != NONE);
+                memory::extend(&mut self.open, beside);
+            }
         }
     }
+
+    /// Opens faces at the middle of a hull and on the border.
+    fn begin(&mut self, hull: &[DVec2]) {
+        let middle = hull.iter().sum::<DVec2>() / hull.len() as f64;
+        if self.locator.domain().contains(middle) {
+            memory::extend(&mut self.open, self.locator.candidates(middle).iter().copied());
+        }
+        self.border.near(hull, &mut self.open);
+    }
+}
+
+/// By face, the faces beyond its sides.
+fn beside(faces: &[[u32; 3]]) -> Vec<[u32; 3]> {
+    let sides = |(face, &[a, b, c]): (usize, &[u32; 3])| {
+        [(a, b), (b, c), (c, a)].map(|(p, q)| (p.min(q), p.max(q), face as u32))
+    };
+    let mut all = faces.iter().enumerate().flat_map(sides).collect_vec();
+    all.sort_unstable();
+    let mut beside = memory::filled([NONE; 3], faces.len());
+    let mut join = |face: u32, other: u32| {
+        let free = beside[face as usize].iter_mut().find(|next| **next == NONE);
+        free.into_iter().for_each(|next| *next = other);
+    };
+    for pair in all.windows(2).filter(|pair| (pair[0].0, pair[0].1) == (pair[1].0, pair[1].1)) {
+        join(pair[0].2, pair[1].2);
+        join(pair[1].2, pair[0].2);
+    }
+    beside
 }
 
 fn overlap(a: &Domain, b: &Domain) -> bool {

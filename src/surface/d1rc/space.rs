@@ -7,7 +7,7 @@ use super::kernel::{Jets, Kernel, Workspace};
 use super::links::{NotSimple, links};
 use super::locate::Locator;
 use super::paper;
-use super::regions::Regions;
+use super::regions::{Regions, Search};
 use super::sharp;
 use super::simplex::Site;
 use super::{D1rcMode, D1rcOptions, SharpRule};
@@ -16,6 +16,7 @@ use crate::geometry::{Orientation, orientation};
 use crate::memory::{self, CollectVec};
 use crate::mesh::{HalfEdge, Mesh};
 use glam::DVec2;
+use std::collections::{BTreeMap, HashMap};
 
 /// Points whose functions sum to less than this share of what is usual are no points of a rational surface.
 const LEAST_SUM: f64 = 1e-8;
@@ -369,9 +370,12 @@ fn reproducing(recipe: &Recipe, mesh: Mesh, is_sharp: &[bool], watch: &Watch) ->
 fn keep_complete_faces(parts: &mut Parts, lost: &[Vec<u32>]) {
     let locator = Locator::new(parts.mesh_places.clone(), parts.faces.clone());
     let mut keeps = memory::filled(true, parts.faces.len());
+    let mut search = Search::new(&locator);
+    let mut under = Vec::new();
     for knots in lost {
         let knots = knots.iter().map(|&knot| parts.places[knot as usize]).collect_vec();
-        super::regions::faces_under(knots, &locator, &mut |face| keeps[face as usize] = false);
+        search.faces_under(knots, &mut under);
+        under.drain(..).for_each(|face| keeps[face as usize] = false);
     }
     let kept = |face: &usize| keeps[*face];
     parts.parents = (0..keeps.len()).filter(kept).map(|face| parts.parents[face]).collect_vec();
@@ -410,35 +414,48 @@ impl Halved {
             parents: (0..recipe.triangles.len() as u32).collect_vec(),
             mesh,
         };
-        // one edge after the other: faces of two lonely edges are halved twice
-        while let Some(&edge) = sharp::lonely_edges(&halved.mesh, &halved.cut).first() {
-            halved.halve(edge)?;
+        let lonely = sharp::lonely_edges(&halved.mesh, is_sharp);
+        if !lonely.is_empty() {
+            halved.halve(&lonely)?;
         }
         Ok(halved)
     }
 
-    fn halve(&mut self, edge: HalfEdge) -> Result<(), D1rcError> {
-        let old = self.mesh.triangles();
-        let (a, b) = (edge.origin(old), edge.target(old));
-        let middle = self.places.len() as u32;
-        self.places.push((self.places[a as usize] + self.places[b as usize]) / 2.0);
-        self.rows.push(mean_row([a, b].map(|end| self.rows[end as usize].as_slice()).into_iter()));
-        let sharp = self.sharp_pairs();
-        let mut triangles = memory::copied(old);
-        for half in std::iter::once(edge).chain(self.mesh.topology().twin(edge)) {
-            let face = half.triangle();
-            let corners = [half, half.next(), half.previous()].map(|h| h.origin(old));
-            triangles[face] = [corners[0], middle, corners[2]];
-            memory::push(&mut triangles, [middle, corners[1], corners[2]]);
-            self.parents.push(self.parents[face]);
+    /// One edge after the other, that of the first half-edge first: faces of two lonely edges are halved twice.
+    fn halve(&mut self, lonely: &[HalfEdge]) -> Result<(), D1rcError> {
+        let mut sharp = self.sharp_pairs();
+        let mut triangles = memory::copied(self.mesh.triangles());
+        let mut left = Lonely::new(&self.mesh, lonely);
+        while let Some([edge, twin]) = left.take_first() {
+            let [a, b] = [edge.origin(&triangles), edge.target(&triangles)];
+            let middle = self.places.len() as u32;
+            let place = (self.places[a as usize] + self.places[b as usize]) / 2.0;
+            memory::push(&mut self.places, place);
+            let row = mean_row([a, b].map(|end| self.rows[end as usize].as_slice()).into_iter());
+            memory::push(&mut self.rows, row);
+            for half in [edge, twin] {
+                let face = half.triangle();
+                let [from, to, opposite] = [half, half.next(), half.previous()].map(|h| h.origin(&triangles));
+                left.move_side([half.next(), HalfEdge::new(triangles.len(), 1)]);
+                left.move_side([half.previous(), HalfEdge::new(face, 2)]);
+                triangles[face] = [from, middle, opposite];
+                memory::push(&mut triangles, [middle, to, opposite]);
+                let parent = self.parents[face];
+                memory::push(&mut self.parents, parent);
+            }
+            memory::extend(&mut sharp, [[a, middle], [b, middle]]);
         }
         let points = self.places.iter().map(|uv| uv.extend(0.0)).collect_vec();
-        self.mesh = Mesh::new(points, triangles)
-            .map_err(|_| D1rcError::NotDisk { reason: "an edge is too short" })?;
-        let mut pairs: Vec<[u32; 2]> =
-            sharp.into_iter().filter(|pair| *pair != [a.min(b), a.max(b)]).collect_vec();
-        memory::extend(&mut pairs, [[a, middle], [b, middle]]);
-        self.cut = sharp::flags(&self.mesh, &pairs)?;
+        let old = std::mem::replace(
+            &mut self.mesh,
+            Mesh::new(points, triangles)
+                .map_err(|_| D1rcError::NotDisk { reason: "an edge is too short" })?,
+        );
+        let ends = |half: &HalfEdge| [half.origin(old.triangles()), half.target(old.triangles())];
+        let mut halved = lonely.iter().map(ends).collect_vec();
+        halved.sort_unstable();
+        sharp.retain(|pair| halved.binary_search(pair).is_err());
+        self.cut = sharp::flags(&self.mesh, &sharp)?;
         Ok(())
     }
 
@@ -446,5 +463,41 @@ impl Halved {
         let half_edges = (0..self.cut.len()).filter(|&h| self.cut[h]).map(|h| HalfEdge::new(h / 3, h % 3));
         let ends = half_edges.map(|h| [h.origin(self.mesh.triangles()), h.target(self.mesh.triangles())]);
         ends.filter(|[a, b]| a < b).collect_vec()
+    }
+}
+
+/// Lonely edges that are not yet halved, where they are now.
+struct Lonely {
+    /// By the half-edge from the smaller vertex, the other one.
+    twins: BTreeMap<usize, HalfEdge>,
+    /// By that other one, the first.
+    firsts: HashMap<usize, HalfEdge>,
+}
+
+impl Lonely {
+    /// From the half-edges that leave the smaller vertices.
+    fn new(mesh: &Mesh, edges: &[HalfEdge]) -> Self {
+        let pairs = || edges.iter().filter_map(|&edge| Some((edge, mesh.topology().twin(edge)?)));
+        Self {
+            twins: pairs().map(|(edge, twin)| (edge.index(), twin)).collect(),
+            firsts: pairs().map(|(edge, twin)| (twin.index(), edge)).collect(),
+        }
+    }
+
+    fn take_first(&mut self) -> Option<[HalfEdge; 2]> {
+        let (edge, twin) = self.twins.pop_first()?;
+        self.firsts.remove(&twin.index());
+        Some([HalfEdge::new(edge / 3, edge % 3), twin])
+    }
+
+    /// A half-edge is another one now.
+    fn move_side(&mut self, [old, new]: [HalfEdge; 2]) {
+        if let Some(twin) = self.twins.remove(&old.index()) {
+            self.twins.insert(new.index(), twin);
+            self.firsts.insert(twin.index(), new);
+        } else if let Some(first) = self.firsts.remove(&old.index()) {
+            self.firsts.insert(new.index(), first);
+            self.twins.insert(first.index(), new);
+        }
     }
 }

@@ -707,7 +707,7 @@ fn wheel(count: usize) -> (Vec<DVec2>, Vec<[u32; 3]>) {
 
 #[test]
 fn functions_around_a_knot_of_many_neighbours_sum_to_one() {
-    for count in [5, 60, 300] {
+    for count in [5, 60, 300, 3000] {
         let (uv, triangles) = wheel(count);
         let space = space(&uv, &triangles, D1rcOptions::default(), &[]).unwrap();
         let ones = D1rcSurface::new(space, 1, vec![1.0; uv.len()]).unwrap();
