@@ -30,3 +30,15 @@ pub(super) fn contract<S: Simd>(line: &[f64; 12], n: [f64; 4]) -> [f64; 3] {
     }
     point
 }
+
+/// [`contract`], a register wide: the fourth number is of no use. The line goes on for one number more.
+#[inline(always)]
+pub(super) fn contract_wide<S: Simd>(line: &[f64; 13], n: [f64; 4]) -> [f64; 4] {
+    let mut point = [0.0; 4];
+    for k in 0..4 {
+        let low = fma::<S>(n[1], line[3 + k], n[0] * line[k]);
+        let high = fma::<S>(n[3], line[9 + k], n[2] * line[6 + k]);
+        point[k] = low + high;
+    }
+    point
+}

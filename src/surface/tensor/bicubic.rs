@@ -1,12 +1,17 @@
 //! Fast evaluation of bicubic polynomial surfaces in space.
 //!
 //! Basis functions come from their coefficients ([`CubicSpan`]). The sums run over rows of twelve numbers, the four
-//! control points of one line, and are compiled once more for processors with wide registers (through `pulp`).
+//! control points of one line, and are compiled twice (through `pulp`, which looks at the processor): for AVX2 with FMA,
+//! where twelve numbers are three registers, and for any processor. AVX-512 would gain nothing: twelve numbers are one and a half
+//! of its registers, and points of three numbers do not fill one.
+//!
+//! Points in a row have the same u, and many of them the same four control points along v: these are computed once. On a
+//! grid each point takes four loads, products and one store of a whole register, whose last number is that of the next point.
 
 use super::{Axis, TensorSurface};
 use crate::memory::{self, CollectVec};
 use crate::surface::cubic::{CubicSpan, fma};
-use crate::surface::rows_of_four::{combine, contract};
+use crate::surface::rows_of_four::{combine, contract, contract_wide};
 use glam::DVec2;
 use pulp::{Arch, Simd, WithSimd};
 
@@ -55,6 +60,9 @@ impl Batch<'_> {
         let count_v = knots_v.basis_count();
         let width = if SLOPES { 9 } else { 3 };
         let mut ranks = [(0, 0); BLOCK];
+        // the u and the span along v of the lines
+        let mut of_lines = (0, usize::MAX);
+        let (mut line, mut across) = ([0.0; 12], [0.0; 12]);
         for (uv, out) in self.uv.chunks(BLOCK).zip(self.out.chunks_mut(BLOCK * width)) {
             for (rank, uv) in ranks.iter_mut().zip(uv) {
                 *rank = (knots_u.rank_at(uv.x), knots_v.rank_at(uv.y));
@@ -64,11 +72,18 @@ impl Batch<'_> {
                 let net = &self.surface.control_points[3 * (span_u.first * count_v + span_v.first)..];
                 let net = &net[..9 * count_v + 12];
                 let lines = [0, 1, 2, 3].map(|r| &net[3 * r * count_v..][..12]);
-                let (n_u, n_v) = (span_u.basis::<S>(uv.x), span_v.basis::<S>(uv.y));
-                let line = combine::<S>(lines, n_u);
+                // the bits of u, for the lines to be those that u itself would have
+                let key = (uv.x.to_bits(), rank.1);
+                if key != of_lines {
+                    of_lines = key;
+                    line = combine::<S>(lines, span_u.basis::<S>(uv.x));
+                    if SLOPES {
+                        across = combine::<S>(lines, span_u.slopes::<S>(uv.x));
+                    }
+                }
+                let n_v = span_v.basis::<S>(uv.y);
                 out[..3].copy_from_slice(&contract::<S>(&line, n_v));
                 if SLOPES {
-                    let across = combine::<S>(lines, span_u.slopes::<S>(uv.x));
                     out[3..6].copy_from_slice(&contract::<S>(&across, n_v));
                     out[6..9].copy_from_slice(&contract::<S>(&line, span_v.slopes::<S>(uv.y)));
                 }
@@ -100,7 +115,7 @@ impl WithSimd for Grid<'_> {
             .zip(self.v)
             .map(|(span, &v)| (3 * span.first, span.basis::<S>(v)))
             .collect_vec();
-        let mut line = memory::filled(0.0, line_length);
+        let mut line = memory::filled(0.0, line_length + 1);
         for (&u, out) in self.u.iter().zip(self.out.chunks_exact_mut(3 * self.v.len())) {
             let span = &self.table.spans[0][knots_u.rank_at(u)];
             let net = &self.surface.control_points[span.first * line_length..];
@@ -110,9 +125,12 @@ impl WithSimd for Grid<'_> {
                 let low = fma::<S>(n[1], b[k], n[0] * a[k]);
                 line[k] = fma::<S>(n[3], d[k], fma::<S>(n[2], c[k], low));
             }
-            for (&(first, n), out) in along_v.iter().zip(out.chunks_exact_mut(3)) {
-                if let Some(points) = line[first..].first_chunk() {
-                    out.copy_from_slice(&contract::<S>(points, n));
+            for (k, &(first, n)) in along_v.iter().enumerate() {
+                let Some(points) = line[first..].first_chunk() else { continue };
+                let point = contract_wide::<S>(points, n);
+                match out[3 * k..].first_chunk_mut() {
+                    Some(place) => *place = point,
+                    None => out[3 * k..].copy_from_slice(&point[..3]),
                 }
             }
         }
