@@ -6,7 +6,7 @@
 use crate::control::Pool;
 use crate::geometry::safe_scale;
 use crate::memory::{self, CollectVec};
-use crate::mesh::Mesh;
+use crate::mesh::{HalfEdge, Mesh};
 use crate::parameterize::crossing_nodes;
 use crate::surface::Surface;
 use glam::DVec2;
@@ -88,25 +88,36 @@ pub(crate) fn hold_back(mesh: &Mesh, (first, least): (&[DVec2], f64), from: &[DV
     };
     let turned = triangles.iter().filter(|t| area(first, t) < 0.0).count();
     let sign = if 2 * turned > triangles.len() { -1.0 } else { 1.0 };
+    let is_spoilt = |to: &[DVec2], t: &[u32; 3]| {
+        let before = sign * area(first, t);
+        !(sign * area(to, t) >= least * before) && before > 0.0
+    };
     let mut halvings = memory::filled(0, from.len());
+    let spoilt = triangles.iter().filter(|t| is_spoilt(to, t));
+    let mut nodes: Vec<u32> = spoilt.flatten().copied().chain(crossing_nodes(mesh, to)).collect_vec();
     loop {
-        let is_spoilt = |t: &&[u32; 3]| {
-            let before = sign * area(first, t);
-            !(sign * area(to, t) >= least * before) && before > 0.0
-        };
-        let mut nodes: Vec<u32> = triangles.iter().filter(is_spoilt).flatten().copied().collect_vec();
-        nodes.extend(crossing_nodes(mesh, to));
         nodes.sort_unstable();
         nodes.dedup();
         nodes.retain(|&n| to[n as usize] != from[n as usize]);
         if nodes.is_empty() {
             return;
         }
-        // a node that moves back may spoil a neighbour
-        for n in nodes {
+        for &n in &nodes {
             let n = n as usize;
             halvings[n] += 1;
             to[n] = if halvings[n] > HALVINGS { from[n] } else { from[n] + (to[n] - from[n]) / 2.0 };
+        }
+        // a node that moves back may spoil a neighbour; nothing else has changed
+        let around = nodes.iter().flat_map(|&n| mesh.outgoing(n)).map(HalfEdge::triangle);
+        let mut around: Vec<usize> = around.collect_vec();
+        around.sort_unstable();
+        around.dedup();
+        let has_boundary = nodes.iter().any(|&n| mesh.is_boundary(n));
+        nodes.clear();
+        let spoilt = around.into_iter().map(|t| &triangles[t]).filter(|t| is_spoilt(to, t));
+        memory::extend(&mut nodes, spoilt.flatten().copied());
+        if has_boundary {
+            memory::extend(&mut nodes, crossing_nodes(mesh, to));
         }
     }
 }
