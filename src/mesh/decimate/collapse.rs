@@ -56,6 +56,15 @@ pub(super) struct Collapsing<'a> {
     features: Features,
 }
 
+/// A node and what is around it, for all its collapses.
+pub(super) struct Star {
+    node: u32,
+    /// The nodes joined to it by edges, in increasing order.
+    beside: Vec<u32>,
+    /// The least shape of its triangles, [`LEAST_SHAPE`] at most.
+    worst: f64,
+}
+
 impl<'a> Collapsing<'a> {
     pub(super) fn new(
         points: Vec<DVec3>,
@@ -113,20 +122,26 @@ impl<'a> Collapsing<'a> {
 
     /// Nodes joined to a node by edges, in increasing order.
     pub(super) fn neighbours(&self, node: u32) -> Vec<u32> {
-        let mut nodes: Vec<u32> =
-            self.fan(node).flat_map(|(_, triangle)| triangle).filter(|&n| n != node).collect_vec();
+        // two of each triangle
+        let mut nodes = memory::with_capacity(2 * self.live[node as usize] as usize);
+        memory::extend(&mut nodes, self.fan(node).flat_map(|(_, triangle)| triangle).filter(|&n| n != node));
         nodes.sort_unstable();
         nodes.dedup();
         nodes
     }
 
-    /// The nodes that a node may be collapsed onto, as far as features have a say.
-    pub(super) fn targets(&self, node: u32) -> Vec<u32> {
-        match self.features.roles[node as usize] {
-            _ if self.is_hub(node) => Vec::new(),
-            Role::Corner => Vec::new(),
-            Role::Chain => self.features.neighbours[node as usize].clone(),
-            Role::Smooth => self.neighbours(node),
+    /// A node and what is around it.
+    pub(super) fn star(&self, node: u32) -> Star {
+        let shapes = self.fan(node).map(|(_, triangle)| self.shape(&triangle));
+        Star { node, beside: self.neighbours(node), worst: shapes.fold(LEAST_SHAPE, f64::min) }
+    }
+
+    /// The nodes that a node, which is no hub, may be collapsed onto, as far as features have a say.
+    pub(super) fn targets<'s>(&'s self, star: &'s Star) -> &'s [u32] {
+        match self.features.roles[star.node as usize] {
+            Role::Corner => &[],
+            Role::Chain => &self.features.neighbours[star.node as usize],
+            Role::Smooth => &star.beside,
         }
     }
 
@@ -137,16 +152,17 @@ impl<'a> Collapsing<'a> {
         height + LENGTH_SHARE * self.areas[u] * self.points[u].distance_squared(self.points[v])
     }
 
-    /// Whether the collapse keeps topology, features and well-shaped triangles.
-    pub(super) fn may_collapse(&self, from: u32, to: u32) -> bool {
-        self.keeps_topology(from, to) && self.keeps_shapes(from, to)
+    /// Whether the collapse of a star's node keeps topology, features and well-shaped triangles.
+    pub(super) fn may_collapse(&self, star: &Star, to: u32) -> bool {
+        self.keeps_topology(star, to) && self.keeps_shapes(star, to)
     }
 
     /// The link condition.
-    fn keeps_topology(&self, from: u32, to: u32) -> bool {
+    fn keeps_topology(&self, star: &Star, to: u32) -> bool {
+        let from = star.node;
         let are_joined =
             |a: u32, b: u32| self.smaller_fan(&[a, b]).any(|other| other.contains(&a) && other.contains(&b));
-        let beside = self.neighbours(from).into_iter();
+        let beside = star.beside.iter().copied();
         let common: Vec<u32> = beside.filter(|&node| node != to && are_joined(node, to)).collect_vec();
         let at_edge = self.fan(from).filter(|(_, triangle)| triangle.contains(&to)).count();
         // one triangle less on both sides of the edge, or chains would lie upon one another
@@ -163,17 +179,17 @@ impl<'a> Collapsing<'a> {
     }
 
     /// Whether the triangles that follow the node keep their sides, and are no slivers.
-    fn keeps_shapes(&self, from: u32, to: u32) -> bool {
+    fn keeps_shapes(&self, star: &Star, to: u32) -> bool {
+        let from = star.node;
         let replaced = |triangle: [u32; 3]| triangle.map(|node| if node == from { to } else { node });
         let moved = self.fan(from).filter(|(_, triangle)| !triangle.contains(&to));
-        let worst = self.fan(from).map(|(_, triangle)| self.shape(&triangle)).fold(LEAST_SHAPE, f64::min);
         moved.map(|(_, triangle)| (triangle, replaced(triangle))).all(|(old, new)| {
             let [before, after] = [old, new].map(|triangle| normal(&self.points, &triangle));
             let least = LEAST_TURN_COSINE * before.length() * after.length();
             after != DVec3::ZERO
                 && before.dot(after) >= least
                 && self.shows_side(&new)
-                && self.shape(&new) >= worst
+                && self.shape(&new) >= star.worst
         })
     }
 

@@ -286,11 +286,14 @@ impl Queue {
     fn renew(&mut self, from: u32, collapsing: &Collapsing) {
         self.versions[from as usize] += 1;
         let version = self.versions[from as usize];
-        let targets = collapsing.targets(from).into_iter();
-        let mut candidates: Vec<Candidate> =
-            targets.map(|to| Candidate { cost: collapsing.cost(from, to), from, to, version }).collect_vec();
+        if collapsing.is_hub(from) {
+            return; // it stays, and to look around it would take long
+        }
+        let star = collapsing.star(from);
+        let candidate = |&to: &u32| Candidate { cost: collapsing.cost(from, to), from, to, version };
+        let mut candidates: Vec<Candidate> = collapsing.targets(&star).iter().map(candidate).collect_vec();
         candidates.sort_unstable();
-        let best = candidates.into_iter().find(|candidate| collapsing.may_collapse(from, candidate.to));
+        let best = candidates.into_iter().find(|candidate| collapsing.may_collapse(&star, candidate.to));
         memory::reserve_item(&mut self.heap);
         self.heap.extend(best.map(Reverse));
     }
@@ -325,7 +328,7 @@ fn collapse_all(
         while done < count
             && let Some(Candidate { from, to, .. }) = queue.pop()
         {
-            if !collapsing.may_collapse(from, to) {
+            if !collapsing.may_collapse(&collapsing.star(from), to) {
                 queue.renew(from, collapsing);
                 continue;
             }
