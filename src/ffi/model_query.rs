@@ -22,9 +22,10 @@ use crate::control::{Pool, Stage};
 use crate::export::vtk;
 use crate::model::{ModelField, ModelProjector, ModelTessellation};
 use crate::query::deviation::{DeviationError, DeviationOptions};
+use crate::query::gradient;
 use crate::query::project::ProjectOptions;
 use crate::surface::MAX_DERIVATIVE;
-use crate::surface::evaluate::{OutsideRule, Quantity};
+use crate::surface::evaluate::{self, OutsideRule, Quantity};
 use glam::{DVec2, DVec3};
 use libc::c_char;
 
@@ -53,7 +54,7 @@ unsafe fn eval(
         let out_stride = stride(given.out_stride, width, "out_stride")?;
         let rows = slice_mut(out, strided_len::<f64>(count, out_stride, width, name)?, name)?;
         let flags = slice_mut_or_none(given.out_flags, count, "out_flags")?;
-        let pool = Pool::new(thread_count(given.thread_count)?);
+        let pool = Pool::for_pieces(thread_count(given.thread_count)?, evaluate::piece_count(count));
         let values = match (model.field(), quantity) {
             (Some(field), Quantity::Derivatives(order)) => field.evaluate(order, faces, &uv, rule, &pool)?,
             _ => model.core()?.evaluate(quantity, faces, &uv, rule, &pool)?,
@@ -150,7 +151,7 @@ pub unsafe extern "C" fn planish_model_field_gradient(
         let rows = array_len::<f64>(count, field.dim(), "out_gradients")?;
         let out_gradients =
             slice_mut(out_gradients, array_len::<f64>(rows, 3, "out_gradients")?, "out_gradients")?;
-        let pool = Pool::new(thread_count(given.thread_count)?);
+        let pool = Pool::for_pieces(thread_count(given.thread_count)?, gradient::piece_count(count));
         out_gradients.copy_from_slice(&field.gradient(shape, faces, &uv, &pool)?);
         Ok(())
     })
