@@ -1,10 +1,11 @@
 //! How soon long calls end when they are cancelled, and how often they ask.
 //!
-//! `cargo bench --bench cancel -- [NODES [NAME]]`, 100,000 nodes unless told otherwise; NAME picks one call.
+//! `cargo bench --bench cancel -- [NODES [NAME...]]`, 100,000 nodes unless told otherwise; NAMEs pick calls.
 //!
-//! Each call runs once undisturbed, then a flag is set from another thread after 1/8, 2/8 .. 7/8 of its time. `asked` is
-//! the longest time between two questions to the listener, `ended` the longest from the flag to the end of the call, both
-//! in milliseconds of the clock on 2 threads.
+//! Each call runs once undisturbed on one thread, which asks its listener every 20 ms at most, wherever it looks whether it
+//! is to end: `asked` is the longest time between two questions, in milliseconds of this thread's processor time, and `at`
+//! the share of the whole that was told before. Then it runs on 2 threads, and a flag is set from another one after 1/8, 2/8
+//! .. 7/8 of its time: `ended` is the longest from the flag to the end of the call, in milliseconds of the clock.
 
 use glam::DVec2;
 use planish::Control;
@@ -23,13 +24,13 @@ use planish::surface::pht::{ConvertOptions, PhtSurface};
 use planish::surface::tensor::TensorSurface;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicI32, Ordering};
-use std::sync::mpsc;
+use std::sync::{Arc, Mutex, mpsc};
 use std::time::{Duration, Instant};
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
     let nodes: usize = arguments.first().map_or(100_000, |nodes| nodes.parse().expect("a number of nodes"));
-    let name = arguments.get(1).cloned();
+    let names = arguments.get(1..).unwrap_or_default();
     let sheet = sheet(nodes);
     let mut bare = sheet.clone();
     bare.clear_parameters();
@@ -40,10 +41,10 @@ fn main() {
     let pht = PhtSurface::from_tensor(&surface, &ConvertOptions::default()).expect("it converts");
     let points: Vec<f64> = sheet.points().iter().flat_map(|p| (*p * 1.01).to_array()).collect();
 
-    println!("{:14} {:>9} {:>9} {:>9}", "call", "ms", "asked", "ended");
+    println!("| call | nodes | processor ms | asked | at | ended |\n|---|---|---|---|---|---|");
     let row = |call: &str, run: &(dyn Fn(&mut Control) + Sync)| {
-        if name.as_ref().is_none_or(|name| name == call) {
-            measure(call, run);
+        if names.is_empty() || names.iter().any(|name| name == call) {
+            measure(call, nodes, run);
         }
     };
     row("parameterize", &|control| drop(parameterize(&bare, &ParameterizeOptions::TENSOR, control)));
@@ -89,19 +90,51 @@ fn sheet(nodes: usize) -> Mesh {
     mesh
 }
 
-fn measure(name: &str, run: &(dyn Fn(&mut Control) + Sync)) {
-    let mut asked = (Instant::now(), Duration::ZERO);
-    let mut listen = |_: f64, _: f64| {
-        asked = (Instant::now(), asked.1.max(asked.0.elapsed()));
-        ControlFlow::Continue(())
+fn measure(name: &str, nodes: usize, run: &(dyn Fn(&mut Control) + Sync)) {
+    let gaps = Arc::new(Mutex::new(Gaps { last: (processor_time(), 0.0), ..Gaps::default() }));
+    let listen = {
+        let gaps = gaps.clone();
+        move |fraction: f64, _: f64| {
+            gaps.lock().expect("nobody panics").end(fraction);
+            ControlFlow::Continue(())
+        }
     };
+    let start = processor_time();
+    let _ = Control::new(1).with_asked(listen).host(run);
+    gaps.lock().expect("nobody panics").end(1.0);
+    let all = processor_time() - start;
+    let (gap, at) = gaps.lock().expect("nobody panics").longest;
     let start = Instant::now();
-    let _ = Control::new(2).with_progress(&mut listen).host(run);
+    let _ = Control::new(2).host(run);
     let time = start.elapsed();
-    asked.1 = asked.1.max(asked.0.elapsed());
     let ended = (1..8).map(|k| until_ended(time * k / 8, run)).max().unwrap_or_default();
     let ms = |time: Duration| time.as_secs_f64() * 1e3;
-    println!("{name:14} {:9.0} {:9.1} {:9.1}", ms(time), ms(asked.1), ms(ended));
+    println!("| {name} | {nodes} | {:.0} | {:.1} | {at:.3} | {:.1} |", ms(all), ms(gap), ms(ended));
+}
+
+/// Times between questions.
+#[derive(Default)]
+struct Gaps {
+    /// When the last one was asked, and what was done then.
+    last: (Duration, f64),
+    longest: (Duration, f64),
+}
+
+impl Gaps {
+    fn end(&mut self, fraction: f64) {
+        let now = processor_time();
+        if now - self.last.0 > self.longest.0 {
+            self.longest = (now - self.last.0, self.last.1);
+        }
+        self.last = (now, fraction);
+    }
+}
+
+/// Of this thread.
+fn processor_time() -> Duration {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").expect("this is Linux");
+    let nanoseconds = text.split_whitespace().next().and_then(|text| text.parse().ok());
+    Duration::from_nanos(nanoseconds.expect("the first number is the time on a processor"))
 }
 
 /// From the flag, set after some time, to the end of the call; zero if it had ended before.
