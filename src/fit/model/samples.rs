@@ -9,7 +9,7 @@ use super::locks::{Lock, feature_at, halfway, lock, same_places};
 use crate::control::Pool;
 use crate::layout::{Layout, Place, cube_place};
 use crate::lists::Lists;
-use crate::memory::ParallelCollectVec;
+use crate::memory::{self, CollectVec, ParallelCollectVec};
 use crate::mesh::Mesh;
 use crate::surface::g1::Space;
 use glam::{DVec2, DVec3};
@@ -127,17 +127,18 @@ impl Samples {
     ) -> Self {
         let (points, triangles) = (mesh.points(), mesh.triangles());
         let nodes = (0..points.len() as u32).filter(|&node| mesh.is_used(node));
-        let (nodes, places): (Vec<u32>, Vec<Place>) =
-            nodes.filter_map(|node| map.node(node).map(|place| (node, place))).unzip();
-        let (locks, places): (Vec<Lock>, Vec<Place>) =
-            places.into_iter().map(|place| lock(layout, place, is_corner)).unzip();
+        let known =
+            nodes.filter_map(|node| Some((node, lock(layout, map.node(node)?, is_corner)))).collect_vec();
+        let nodes = known.iter().map(|&(node, _)| node).collect_vec();
+        let places = known.iter().map(|&(_, (_, place))| place).collect_vec();
+        let locks = known.into_iter().map(|(_, (lock, _))| lock).collect_vec();
         let (of_nodes, of_facets) = (node_normals(mesh), facet_normals(mesh));
         let mut samples = Self {
             places,
             locks,
-            points: nodes.iter().map(|&node| points[node as usize]).collect(),
-            normals: nodes.iter().map(|&node| of_nodes[node as usize]).collect(),
-            allowances: vec![0.0; nodes.len()],
+            points: nodes.iter().map(|&node| points[node as usize]).collect_vec(),
+            normals: nodes.iter().map(|&node| of_nodes[node as usize]).collect_vec(),
+            allowances: memory::filled(0.0, nodes.len()),
             nodes,
             dropped: 0,
         };
@@ -182,11 +183,12 @@ impl Samples {
             return;
         };
         let terms = nodes.iter().zip(shares);
-        self.points.push(terms.map(|(&node, &share)| share * mesh.points()[node as usize]).sum());
-        self.places.push(place);
-        self.locks.push(lock);
-        self.normals.push(normal);
-        self.allowances.push(sagitta);
+        let point = terms.map(|(&node, &share)| share * mesh.points()[node as usize]).sum();
+        memory::push(&mut self.points, point);
+        memory::push(&mut self.places, place);
+        memory::push(&mut self.locks, lock);
+        memory::push(&mut self.normals, normal);
+        memory::push(&mut self.allowances, sagitta);
     }
 
     /// What a sample counts beside a node.
@@ -206,16 +208,16 @@ const HALVES: [f64; 2] = [0.5; 2];
 
 /// The normal of each facet, of length 1.
 pub(super) fn facet_normals(mesh: &Mesh) -> Vec<DVec3> {
-    areas(mesh).map(DVec3::normalize_or_zero).collect()
+    areas(mesh).map(DVec3::normalize_or_zero).collect_vec()
 }
 
 /// The normal of each node, the mean of its facets'.
 fn node_normals(mesh: &Mesh) -> Vec<DVec3> {
-    let mut sums = vec![DVec3::ZERO; mesh.points().len()];
+    let mut sums = memory::filled(DVec3::ZERO, mesh.points().len());
     for (triangle, area) in mesh.triangles().iter().zip(areas(mesh)) {
         triangle.iter().for_each(|&node| sums[node as usize] += area);
     }
-    sums.into_iter().map(DVec3::normalize_or_zero).collect()
+    sums.into_iter().map(DVec3::normalize_or_zero).collect_vec()
 }
 
 fn areas(mesh: &Mesh) -> impl Iterator<Item = DVec3> + '_ {
@@ -234,8 +236,8 @@ fn grid_rows(mesh: &Mesh) -> Vec<usize> {
             let [a, b, c] = triangle.map(|node| mesh.points()[node as usize]);
             a.distance(b).max(b.distance(c)).max(c.distance(a))
         })
-        .collect();
-    let mut sorted = longest.clone();
+        .collect_vec();
+    let mut sorted = memory::copied(&longest);
     let middle = sorted.len() / 2;
     if sorted.is_empty() {
         return Vec::new();
@@ -245,7 +247,7 @@ fn grid_rows(mesh: &Mesh) -> Vec<usize> {
         let times = (length / median).ceil();
         if times >= LONG { (times as usize).min(MOST_ROWS) } else { 0 }
     };
-    longest.iter().map(rows).collect()
+    longest.iter().map(rows).collect_vec()
 }
 
 /// Samples sorted by the cells of all patches.
@@ -282,7 +284,7 @@ impl ByCell {
 /// The quad of each cell, and where the cell lies on it.
 pub(super) fn quads_of_cells(space: &Space) -> Vec<u32> {
     let counts = space.topologies().iter().map(|topology| topology.leaves.len());
-    (0..).zip(counts).flat_map(|(quad, count)| std::iter::repeat_n(quad, count)).collect()
+    (0..).zip(counts).flat_map(|(quad, count)| std::iter::repeat_n(quad, count)).collect_vec()
 }
 
 /// Cells with fewer samples get places of their own.
@@ -297,7 +299,7 @@ pub(super) fn guard_places(quads: &[u32], cells: &[CellPlace], by_cell: &ByCell)
         if by_cell.of(number).len() < ENOUGH {
             for k in 0..GUARDS * GUARDS {
                 let at = DVec2::new((k / GUARDS) as f64, (k % GUARDS) as f64) + 0.5;
-                places.push(Place { quad, uv: cell.min + cell.size / GUARDS as f64 * at });
+                memory::push(&mut places, Place { quad, uv: cell.min + cell.size / GUARDS as f64 * at });
             }
         }
     }

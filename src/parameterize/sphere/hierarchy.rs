@@ -39,7 +39,7 @@ pub(super) fn collapse(
         marks: RingMarks::new(count),
         is_gone: memory::filled(false, count),
         stamps: memory::filled(0, count),
-        queue: BinaryHeap::with_capacity(used),
+        queue: BinaryHeap::new(),
         most_valence: MOST_VALENCE,
     };
     let mut order = memory::with_capacity(used);

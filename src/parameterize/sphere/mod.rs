@@ -23,7 +23,7 @@ use super::dirichlet::{Shape, Star, Target};
 use crate::Control;
 use crate::control::Stage;
 use crate::geometry::{Orientation, orientation_of_cone};
-use crate::memory::{self, CollectVec};
+use crate::memory::{self, CollectVec, ParallelCollectVec};
 use crate::mesh::Mesh;
 use crate::mesh::rings::Rings;
 use glam::DVec3;
@@ -312,7 +312,8 @@ impl<'a> Growing<'a> {
         if nodes.len() < SERIAL || control.thread_count() == 1 {
             return settled(nodes);
         }
-        control.run(|| nodes.par_chunks(CHUNK).flat_map_iter(settled).collect())
+        let chunks = control.run(|| nodes.par_chunks(CHUNK).map(settled).collect_vec());
+        chunks.into_iter().flatten().collect_vec()
     }
 }
 

@@ -30,7 +30,7 @@ use crate::control::{Cancelled, Pool};
 use crate::curve::Curve;
 use crate::failure::{Classify, ErrorKind};
 use crate::geometry::{Bounds, Domain, safe_scale};
-use crate::memory;
+use crate::memory::{self, CollectVec};
 use crate::surface::{Kind, Surface};
 use cells::{curve_cells, surface_cells, trim_pieces};
 use facets::FacetProjector;
@@ -213,7 +213,7 @@ impl Projector {
                 let Bounds { min, max } = cell.bounds();
                 min.into_iter().chain(max)
             })
-            .collect();
+            .collect_vec();
         let bounds = Bounds::of_rows(&corners, dim);
         let largest = bounds.min.iter().chain(&bounds.max).fold(0.0, |most: f64, x| most.max(x.abs()));
         let scale = safe_scale(largest);
@@ -264,7 +264,7 @@ impl Projector {
         self.check(points, options)?;
         let points: Cow<[f64]> = match self.scale {
             1.0 => points.into(),
-            scale => points.iter().map(|x| x * scale).collect(),
+            scale => points.iter().map(|x| x * scale).collect_vec().into(),
         };
         let options = &ProjectOptions { max_distance: options.max_distance * self.scale, ..*options };
         let mut all = Projection {

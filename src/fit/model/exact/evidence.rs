@@ -1,5 +1,6 @@
 //! Planes and cylinders by least squares from the nodes and facets of a region.
 
+use crate::memory::CollectVec;
 use crate::mesh::Mesh;
 use crate::model::{Carrier, Cylinder, Frame, Plane};
 use glam::{DMat3, DVec2, DVec3};
@@ -84,16 +85,16 @@ impl Evidence {
     /// Of some triangles; none without area.
     pub fn new(mesh: &Mesh, triangles: &[u32]) -> Option<Self> {
         let mut nodes: Vec<u32> =
-            triangles.iter().flat_map(|&triangle| mesh.triangles()[triangle as usize]).collect();
+            triangles.iter().flat_map(|&triangle| mesh.triangles()[triangle as usize]).collect_vec();
         nodes.sort_unstable();
         nodes.dedup();
         let place = |node: u32| mesh.points()[node as usize];
-        let points: Vec<DVec3> = nodes.into_iter().map(place).collect();
+        let points: Vec<DVec3> = nodes.into_iter().map(place).collect_vec();
         let facet = |&triangle: &u32| {
             let [a, b, c] = mesh.triangles()[triangle as usize].map(place);
             [(a + b + c) / 3.0, (b - a).cross(c - a)]
         };
-        let facets: Vec<[DVec3; 2]> = triangles.iter().map(facet).collect();
+        let facets: Vec<[DVec3; 2]> = triangles.iter().map(facet).collect_vec();
         let centre = points.iter().sum::<DVec3>() / points.len().max(1) as f64;
         let extent = points.iter().map(|p| p.distance(centre)).fold(0.0, f64::max);
         (extent > 0.0).then_some(Self { points, facets, centre, extent })
@@ -115,7 +116,7 @@ impl Evidence {
     }
 
     fn distances(&self, carrier: &Carrier) -> Vec<f64> {
-        self.points.iter().map(|&point| signed_distance(carrier, point).abs()).collect()
+        self.points.iter().map(|&point| signed_distance(carrier, point).abs()).collect_vec()
     }
 
     /// Whether the nodes lie on a carrier, and the facets look the way it does.
@@ -157,7 +158,7 @@ impl Evidence {
     /// the side of the axis where `normal . place - offset` is negative.
     pub fn cylinder_along(&self, axis: DVec3, tangent: &[(DVec3, f64)]) -> Option<Cylinder> {
         let frame = Frame::new(self.centre, axis, least_aligned(axis))?;
-        let flat: Vec<DVec2> = self.points.iter().map(|&p| flattened(&frame, p)).collect();
+        let flat: Vec<DVec2> = self.points.iter().map(|&p| flattened(&frame, p)).collect_vec();
         let touching = |&(normal, offset): &(DVec3, f64)| {
             let across = DVec2::new(normal.dot(frame.x()), normal.dot(frame.y()));
             (across, offset - normal.dot(self.centre))
@@ -184,7 +185,7 @@ impl Evidence {
             let from = point - frame.origin();
             from.dot(frame.y()).atan2(from.dot(frame.x()))
         };
-        let mut angles: Vec<f64> = self.points.iter().map(angle).collect();
+        let mut angles: Vec<f64> = self.points.iter().map(angle).collect_vec();
         angles.sort_by(f64::total_cmp);
         let gaps: Vec<f64> =
             angles.windows(2).map(|pair| pair[1] - pair[0]).filter(|gap| *gap > SAME).collect();

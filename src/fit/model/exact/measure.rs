@@ -7,6 +7,7 @@ use crate::control::Watch;
 use crate::fit::common::interior::triangle_sagittas;
 use crate::fit::common::report::Remarks;
 use crate::fit::model::report::mesh_volume;
+use crate::memory::{self, CollectVec};
 use crate::mesh::{Features, Mesh, Regions};
 use crate::model::{FaceId, Model};
 use crate::query::tessellate::TessellateOptions;
@@ -39,11 +40,11 @@ pub(super) fn measure(
         let uv = model.carrier(face).nearest(mesh.points()[node])?;
         Some((face, uv))
     };
-    let places: Vec<Option<(FaceId, DVec2)>> = faces.iter().enumerate().map(place).collect();
+    let places: Vec<Option<(FaceId, DVec2)>> = faces.iter().enumerate().map(place).collect_vec();
     let error = |(place, &point): (&Option<(FaceId, DVec2)>, &DVec3)| {
         place.map_or(f64::NAN, |(face, uv)| model.carrier(face).points(&[uv])[0].distance(point))
     };
-    let mut errors: Vec<f64> = places.iter().zip(mesh.points()).map(error).collect();
+    let mut errors: Vec<f64> = places.iter().zip(mesh.points()).map(error).collect_vec();
     // a node between faces is as far from each of them
     for &node in features.chains.iter().flat_map(|chain| &chain.nodes) {
         let beside = mesh.outgoing(node).map(|edge| FaceId::new(regions.of_triangle[edge.triangle()]));
@@ -52,8 +53,8 @@ pub(super) fn measure(
     }
     watch.check()?;
     let between = between(mesh, regions, model, watch)?;
-    let known = summarize(errors.iter().copied().filter(|error| !error.is_nan()).collect());
-    let used: Vec<usize> = (0..errors.len()).filter(|&node| !errors[node].is_nan()).collect();
+    let known = summarize(errors.iter().copied().filter(|error| !error.is_nan()).collect_vec());
+    let used: Vec<usize> = (0..errors.len()).filter(|&node| !errors[node].is_nan()).collect_vec();
     let measured = model.measure();
     let mesh_volume = mesh_volume(mesh);
     let most = known.max + between.max;
@@ -92,7 +93,7 @@ pub(super) fn measure(
 
 /// By node: the face it lies on; of several the first.
 fn faces_of_nodes(mesh: &Mesh, features: &Features, regions: &Regions) -> Vec<Option<u32>> {
-    let mut faces = vec![None; mesh.points().len()];
+    let mut faces = memory::filled(None, mesh.points().len());
     for (triangle, &region) in mesh.triangles().iter().zip(&regions.of_triangle) {
         for &node in triangle {
             let face: &mut Option<u32> = &mut faces[node as usize];

@@ -24,6 +24,7 @@ pub use recognize::{Recognized, recognize};
 
 use super::ModelReport;
 use crate::control::{Cancelled, Watch};
+use crate::memory;
 use crate::mesh::{FeatureOptions, Features, Mesh, Region, Regions};
 use crate::model::{Builder, Carrier, FaceId, Model, ModelError, Role};
 use draft::{Draft, Scale};
@@ -167,7 +168,7 @@ fn segment(
     let parts = parts(mesh, &features.regions(mesh), &limits)?;
     let mut parts = merge(mesh, parts, &limits);
     relations::align(&mut parts, scale.diagonal);
-    let mut part_of = vec![0; mesh.triangles().len()];
+    let mut part_of = memory::filled(0, mesh.triangles().len());
     for (number, part) in (0..).zip(&parts) {
         part.triangles.iter().for_each(|&triangle| part_of[triangle as usize] = number);
     }
@@ -207,7 +208,7 @@ fn parts(mesh: &Mesh, regions: &Regions, limits: &Limits) -> Result<Vec<Part>, O
 
 /// Parts that lie on one carrier and hang together as one: halves of a cylinder, planes that labels or noise divide.
 fn merge(mesh: &Mesh, mut parts: Vec<Part>, limits: &Limits) -> Vec<Part> {
-    let mut part_of = vec![0; mesh.triangles().len()];
+    let mut part_of = memory::filled(0, mesh.triangles().len());
     for (number, part) in parts.iter().enumerate() {
         part.triangles.iter().for_each(|&triangle| part_of[triangle as usize] = number);
     }
