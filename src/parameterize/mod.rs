@@ -150,8 +150,11 @@ pub fn parameterize_weighted(
     let given = start_values(mesh, options)?;
     let zero_area = zero_area_count(mesh)?;
 
+    control.pool().check()?;
     let patch = Patch::new(mesh, holes(options));
+    control.pool().check()?;
     let lines = border::candidates(mesh, options)?;
+    control.pool().check()?;
     let first_weights = weights::weights(&patch, options.method)?;
     control.enter(Stage::Parameterize);
     control.report(0.0, f64::NAN)?;
@@ -181,6 +184,7 @@ pub fn parameterize_weighted(
     control.pool().check()?;
     let best = best.expect("there is at least one border");
     let mut report = best.report(mesh, system.factor_count);
+    control.pool().check()?;
     report.remarks.insert_if(Remarks::HOLES_FILLED, patch.points.len() > patch.mesh_node_count);
     report.remarks.insert_if(Remarks::ZERO_AREA, zero_area > 0);
     let mut uv = best.uv;
@@ -350,6 +354,7 @@ fn next_map(
     control: &Control,
 ) -> Result<Map, ParameterizeError> {
     let patch = system.patch();
+    control.pool().check()?;
     let divisors: Vec<f64> = s.iter().map(|s| s.powf(eta)).collect_vec();
     let mut weights = map.weights.clone();
     for (weight, &neighbour) in weights.iter_mut().zip(patch.neighbours.nodes()) {
@@ -359,8 +364,11 @@ fn next_map(
     let line = map.line.slid(s, eta);
     let mut uv = map.uv.clone();
     line.place(&mut uv);
+    control.pool().check()?;
     system.set_weights(weights.clone(), control)?;
+    control.pool().check()?;
     system.solve(&mut uv, control);
+    control.pool().check()?;
     Ok(Map::new(patch, line, weights, uv, node_weights, control))
 }
 

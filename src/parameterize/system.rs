@@ -38,13 +38,12 @@ impl<'p> MapSystem<'p> {
     ) -> Result<Self, ParameterizeError> {
         let (mut matrix, slots) = pattern(patch);
         fill(&mut matrix, &slots, &weights);
-        let (symbolic, numeric) = control
-            .run(|| {
-                let symbolic = SymbolicLu::new(matrix.view())?;
-                let numeric = symbolic.factor(matrix.view())?;
-                Ok((symbolic, numeric))
-            })
-            .map_err(|error| name_node(patch, error))?;
+        let named = |error| name_node(patch, error);
+        control.pool().check()?;
+        let symbolic = control.run(|| SymbolicLu::new(matrix.view())).map_err(named)?;
+        control.pool().check()?;
+        let numeric = control.run(|| symbolic.factor(matrix.view())).map_err(named)?;
+        control.pool().check()?;
         Ok(Self { patch, matrix, slots, symbolic, numeric, weights, factor_count: 1 })
     }
 
