@@ -11,14 +11,14 @@
 //! biweight (A. Beaton, J. Tukey, "The fitting of power series, meaning polynomials, illustrated on band-spectroscopic
 //! data", Technometrics 16 (1974), 147-185; P. Huber, "Robust statistics", 1981, chapter 7).
 
-use super::Demands;
 use super::error::FitError;
-use super::report::{FitReport, Tolerance, ToleranceScale};
+use super::report::{Tolerance, ToleranceScale};
+use super::{Demands, Fit};
 use crate::control::{Control, Pool};
 use crate::geometry::Bounds;
 use crate::lists::Lists;
 use crate::mesh::Mesh;
-use crate::surface::{Region, Surface};
+use crate::surface::Surface;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -59,25 +59,14 @@ pub(in crate::fit) struct Cloud<'a> {
     pub triangles: &'a [[u32; 3]],
 }
 
-/// A fit, as far as gross errors are concerned.
-pub(in crate::fit) trait Fitted {
-    fn surface(&self) -> &dyn Surface;
-    fn report(&self) -> &FitReport;
-    fn parameters(&self) -> &[DVec2];
-    fn region_mut(&mut self) -> &mut Region;
-    /// The report, and the parameters and the error of each datum.
-    fn parts_mut(&mut self) -> (&mut FitReport, &mut Vec<DVec2>, &mut Vec<f64>);
-}
-
 /// Fits without gross errors. `fit` is handed the values, with those of gross errors replaced by what their neighbours
 /// say, and the demands, which leave these data out. `asked` is the tolerance of the fit.
-pub(in crate::fit) fn fit_without<F: Fitted>(
+pub(in crate::fit) fn fit_without<S: Surface>(
     cloud: &Cloud,
-    demands: &Demands,
-    asked: &Tolerance,
+    (demands, asked): (&Demands, &Tolerance),
     control: &mut Control,
-    mut fit: impl FnMut(&[f64], &Demands, &mut Control) -> Result<F, FitError>,
-) -> Result<F, FitError> {
+    mut fit: impl FnMut(&[f64], &Demands, &mut Control) -> Result<Fit<S>, FitError>,
+) -> Result<Fit<S>, FitError> {
     let neighbours = Neighbourhoods::of(cloud.uv.len(), cloud.triangles);
     let is_exempt = |datum: usize| {
         // in corners there are too few neighbours to tell, and maps are uneven
@@ -118,14 +107,29 @@ pub(in crate::fit) fn fit_without<F: Fitted>(
         fitted = control.within(from, from + 0.25, |control| fit_all_but(&left_out, control))?;
     }
     let errors = missed(&fitted, cloud, &left_out);
-    let (report, _, each) = fitted.parts_mut();
-    report.left_out = left_out.iter().map(|&datum| datum as u32).collect();
-    left_out.iter().zip(errors).for_each(|(&datum, error)| each[datum] = error);
+    fitted.report.left_out = left_out.iter().map(|&datum| datum as u32).collect();
+    left_out.iter().zip(errors).for_each(|(&datum, error)| fitted.errors[datum] = error);
     Ok(fitted)
 }
 
+/// The same for values on the nodes of a mesh; `fit` is handed the mesh too, which for the values of its shape has its
+/// nodes where they say.
+pub(in crate::fit) fn fit_mesh_without<S: Surface>(
+    (mesh, uv): (&Mesh, &[DVec2]),
+    (values, dim, is_shape): (&[f64], usize, bool),
+    asked: (&Demands, &Tolerance),
+    control: &mut Control,
+    mut fit: impl FnMut(&Mesh, &[f64], &Demands, &mut Control) -> Result<Fit<S>, FitError>,
+) -> Result<Fit<S>, FitError> {
+    let cloud = Cloud { uv, values, dim, triangles: mesh.triangles() };
+    fit_without(&cloud, asked, control, |values, demands, control| match is_shape {
+        true => fit(&moved(mesh, values), values, demands, control),
+        false => fit(mesh, values, demands, control),
+    })
+}
+
 /// A shape with its nodes at other places: rows of three finite numbers.
-pub(in crate::fit) fn moved(mesh: &Mesh, values: &[f64]) -> Mesh {
+fn moved(mesh: &Mesh, values: &[f64]) -> Mesh {
     let mut moved = mesh.clone();
     let places = values.chunks_exact(3).map(DVec3::from_slice).collect();
     moved.set_points(places).expect("one finite place for each node");
@@ -154,22 +158,22 @@ fn all_but(
 }
 
 /// By how much data miss the surface.
-fn missed(fitted: &impl Fitted, cloud: &Cloud, data: &[usize]) -> Vec<f64> {
-    let (surface, dim) = (fitted.surface(), cloud.dim);
-    let uv: Vec<DVec2> = data.iter().map(|&datum| fitted.parameters()[datum]).collect();
+fn missed(fitted: &Fit<impl Surface>, cloud: &Cloud, data: &[usize]) -> Vec<f64> {
+    let dim = cloud.dim;
+    let uv: Vec<DVec2> = data.iter().map(|&datum| fitted.parameters[datum]).collect();
     let mut rows = vec![0.0; uv.len() * dim];
-    surface.eval_rows(&uv, 0, &mut rows);
+    fitted.surface.eval_rows(&uv, 0, &mut rows);
     let value = |&datum: &usize| &cloud.values[datum * dim..][..dim];
     data.iter().zip(rows.chunks(dim)).map(|(datum, row)| distance(row, value(datum))).collect()
 }
 
 /// The error up to which a suspect is taken back.
-fn limit(fitted: &impl Fitted, outliers: Outliers, scale: f64) -> f64 {
+fn limit<S>(fitted: &Fit<S>, outliers: Outliers, scale: f64) -> f64 {
     /// Errors of the others as a multiple of their root mean square: beyond it normal ones are one in 10,000.
     const RARE: f64 = 4.0;
     /// What misses by less than so many tolerances may be a feature that is sampled thinly.
     const GROSS: f64 = 5.0;
-    let report = fitted.report();
+    let report = &fitted.report;
     match outliers {
         Outliers::Scale(asked) => asked * scale,
         _ => (GROSS * report.tolerance).max(RARE * report.rms_error),

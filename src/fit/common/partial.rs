@@ -5,12 +5,12 @@
 
 use super::checks::{check_count, check_weights};
 use super::error::FitError;
-use super::outliers::Fitted;
+use super::fitted::Fit;
 use super::parameters::{NodeParameters, trims};
-use super::report::FitReport;
 use crate::control::Control;
 use crate::geometry::Domain;
 use crate::mesh::Mesh;
+use crate::surface::Surface;
 use glam::DVec2;
 use std::time::Instant;
 
@@ -26,13 +26,13 @@ pub enum Missing {
 
 /// Fits values that some nodes of a mesh do not have, or triangles have, `rows` in all, as scattered ones over all of the
 /// mesh: `map` gives the nodes their parameters, `fit` fits what has a place over a box.
-pub(in crate::fit) fn fit_on_mesh<F: Fitted>(
+pub(in crate::fit) fn fit_on_mesh<S: Surface>(
     mesh: &Mesh,
     rows: usize,
     control: &mut Control,
     map: impl FnOnce(&mut Control) -> Result<NodeParameters, FitError>,
-    fit: impl FnOnce(&[Option<DVec2>], Domain, &mut Control) -> Result<F, FitError>,
-) -> Result<F, FitError> {
+    fit: impl FnOnce(&[Option<DVec2>], Domain, &mut Control) -> Result<Fit<S>, FitError>,
+) -> Result<Fit<S>, FitError> {
     let start = Instant::now();
     control.set_stage(0.0, 0.3);
     let map = map(control)?;
@@ -40,26 +40,21 @@ pub(in crate::fit) fn fit_on_mesh<F: Fitted>(
     control.set_stage(0.3, 1.0);
     let places = places_of_values(mesh, &map.uv, rows);
     let mut fitted = fit(&places, box_of_nodes(mesh, &map.uv), control)?;
-    let domain = fitted.surface().domain();
-    fitted.region_mut().trims = trims(Some(mesh), &map.uv, &domain);
-    let (report, ..) = fitted.parts_mut();
-    report.parameterize_seconds = parameterize_seconds;
-    report.remarks.0 |= map.remarks.0;
-    report.measure_map(mesh, &map.uv);
-    report.seconds = start.elapsed().as_secs_f64();
+    let domain = fitted.surface.domain();
+    fitted.surface.region_mut().trims = trims(Some(mesh), &map.uv, &domain);
+    fitted.report.parameterize_seconds = parameterize_seconds;
+    fitted.report.remarks.0 |= map.remarks.0;
+    fitted.report.measure_map(mesh, &map.uv);
     Ok(fitted)
 }
 
 /// Fits values that some points do not have over the box of all.
-pub(in crate::fit) fn fit_at_points<F: Fitted>(
+pub(in crate::fit) fn fit_at_points<S>(
     uv: &[DVec2],
-    fit: impl FnOnce(&[Option<DVec2>], Domain) -> Result<F, FitError>,
-) -> Result<F, FitError> {
-    let start = Instant::now();
+    fit: impl FnOnce(&[Option<DVec2>], Domain) -> Result<Fit<S>, FitError>,
+) -> Result<Fit<S>, FitError> {
     let places: Vec<Option<DVec2>> = uv.iter().copied().map(Some).collect();
-    let mut fitted = fit(&places, Domain::around(uv.iter().copied()))?;
-    fitted.parts_mut().0.seconds = start.elapsed().as_secs_f64();
-    Ok(fitted)
+    fit(&places, Domain::around(uv.iter().copied()))
 }
 
 /// The parameters at which the values of a field on a mesh are: those of its nodes, or, where there are as many rows as
@@ -138,12 +133,12 @@ impl Partial {
     }
 
     /// Fits these data and tells of all.
-    pub(crate) fn fit<F: Fitted>(
+    pub(crate) fn fit<S>(
         self,
-        fit: impl FnOnce(&Self) -> Result<F, FitError>,
-    ) -> Result<F, FitError> {
+        fit: impl FnOnce(&Self) -> Result<Fit<S>, FitError>,
+    ) -> Result<Fit<S>, FitError> {
         let mut fitted = fit(&self).map_err(|error| self.told(error))?;
-        self.spread(fitted.parts_mut());
+        self.spread(&mut fitted);
         Ok(fitted)
     }
 
@@ -159,13 +154,13 @@ impl Partial {
     }
 
     /// Gives what the fit found to all data: one without a value has no error.
-    fn spread(self, (report, parameters, errors): (&mut FitReport, &mut Vec<DVec2>, &mut Vec<f64>)) {
+    fn spread<S>(self, fitted: &mut Fit<S>) {
         let mut all_uv = self.all_uv;
         let mut all_errors = vec![f64::NAN; all_uv.len()];
         for (place, &datum) in self.given.iter().enumerate() {
-            (all_uv[datum], all_errors[datum]) = (parameters[place], errors[place]);
+            (all_uv[datum], all_errors[datum]) = (fitted.parameters[place], fitted.errors[place]);
         }
-        report.worst_index = self.given[report.worst_index];
-        (*parameters, *errors) = (all_uv, all_errors);
+        fitted.report.worst_index = self.given[fitted.report.worst_index];
+        (fitted.parameters, fitted.errors) = (all_uv, all_errors);
     }
 }

@@ -7,13 +7,12 @@ use super::errors::data_errors;
 use super::interior::MeshData;
 use super::report::{FitReport, Goal, Remarks, Tolerance, ToleranceScale};
 use super::symmetry::Half;
-use super::{Outliers, trims};
+use super::{Fit, Outliers, trims};
 use crate::control::Control;
 use crate::geometry::{Bounds, Domain};
 use crate::mesh::Mesh;
 use crate::parameterize::ParameterizeOptions;
 use crate::surface::{Region, Surface};
-use glam::DVec2;
 
 /// The half of a shape, and what is asked of it.
 pub(crate) struct Folded {
@@ -55,45 +54,46 @@ impl Folded {
     }
 }
 
-/// Gives the surface its trims and measures it at the nodes of the mesh and between them. Returns the errors of the nodes.
-pub(crate) fn finish(
-    surface: &mut dyn Surface,
-    report: &mut FitReport,
-    parameters: &mut Vec<DVec2>,
+/// Gives the whole surface its trims and measures it at the nodes of the mesh and between them. `report` is that of the half.
+pub(crate) fn finish<S: Surface>(
+    mut surface: S,
+    report: FitReport,
     mesh: &Mesh,
     tolerances: Option<&[f64]>,
     (folded, asked): (&Folded, &Tolerance),
     control: &Control,
-) -> Vec<f64> {
+) -> Fit<S> {
+    let mut parameters = folded.half.parameters();
     parameters.truncate(mesh.points().len());
     let domain = surface.domain();
     let data_box = Some(Domain::around(parameters.iter().copied()));
     *surface.region_mut() =
-        Region { data_box, trims: trims(Some(mesh), parameters, &domain), ..Region::default() };
+        Region { data_box, trims: trims(Some(mesh), &parameters, &domain), ..Region::default() };
     let values: Vec<f64> = mesh.points().iter().flat_map(|p| p.to_array()).collect();
     let goal = Goal::new(asked, &Bounds::of_rows(&values, 3));
     let demands = Demands { tolerances, ..Demands::default() };
     // nothing is fixed, so nothing can be in contradiction
-    let standards = Standards::new(&demands, asked, &goal, parameters, (&values, 3)).unwrap_or_default();
-    let errors = standards.measure(data_errors(surface, parameters, &values, control.pool()));
+    let standards = Standards::new(&demands, asked, &goal, &parameters, (&values, 3)).unwrap_or_default();
+    let errors = standards.measure(data_errors(&surface, &parameters, &values, control.pool()));
     let fresh = FitReport::new(&errors, &goal, report.stop, report.passes);
-    report.remarks.remove(Remarks::TOLERANCE_NOT_MET);
-    *report = FitReport {
+    let mut remarks = report.remarks;
+    remarks.remove(Remarks::TOLERANCE_NOT_MET);
+    let mut report = FitReport {
         max_error: fresh.max_error,
         rms_error: fresh.rms_error,
         mean_error: fresh.mean_error,
         worst_index: fresh.worst_index,
         diagonal: fresh.diagonal,
-        remarks: Remarks(report.remarks.0 | fresh.remarks.0),
+        remarks: Remarks(remarks.0 | fresh.remarks.0),
         mirror: Some(folded.half.plane),
         mirror_distance: folded.half.distance,
-        ..std::mem::take(report)
+        ..report
     };
-    standards.report(&errors.each, report);
-    let data = MeshData { mesh, uv: parameters, values: &values, is_shape: true };
-    report.add_interior(&data.interior_errors(surface, &standards, control.pool()));
-    report.measure_map(mesh, parameters);
-    errors.each
+    standards.report(&errors.each, &mut report);
+    let data = MeshData { mesh, uv: &parameters, values: &values, is_shape: true };
+    report.add_interior(&data.interior_errors(&surface, &standards, control.pool()));
+    report.measure_map(mesh, &parameters);
+    Fit { surface, report, parameters, errors: errors.each }
 }
 
 #[cfg(test)]

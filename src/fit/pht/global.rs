@@ -8,148 +8,16 @@
 //! of blocks of four by four.
 
 use super::data::Data;
+use super::sums::{ByLeaf, Energy, KnownSums};
 use crate::control::{Pool, Watch};
 use crate::fit::common::FitError;
-use crate::fit::common::hermite_cell::{CellMatrix, CellSums, Membrane, weights};
+use crate::fit::common::hermite_cell::{CellMatrix, CellSums, weights};
 use crate::linalg::{Condition, Conditions, SymbolicCholesky, impose_all};
 use crate::lists::Lists;
-use crate::memory::ParallelCollectVec;
-use crate::surface::Domain;
 use crate::surface::pht::{Matrix, expansions};
 use crate::tmesh::{Cell, TMesh, Topology, Vertex};
 use glam::DVec2;
-use rayon::prelude::*;
 use sprs::CsMat;
-use std::collections::{BTreeMap, BTreeSet};
-
-/// Samples sorted by leaf.
-pub(super) struct ByLeaf {
-    /// Parameters of all samples.
-    pub uv: Vec<DVec2>,
-    by_leaf: Lists,
-}
-
-impl ByLeaf {
-    pub(super) fn sort(mesh: &TMesh, topology: &Topology, data: &Data, pool: &Pool) -> Self {
-        let uv = data.sample_uv();
-        let leaf = |&uv: &DVec2| topology.leaf_of(mesh.locate(uv)) as u32;
-        let leaves: Vec<u32> = pool.run(|| uv.par_iter().with_min_len(4096).map(leaf).collect_vec());
-        Self { uv, by_leaf: Lists::by_key(topology.leaves.len(), &leaves) }
-    }
-
-    pub(super) fn of(&self, leaf: usize) -> &[u32] {
-        self.by_leaf.of(leaf)
-    }
-
-    /// The sums over the samples of a leaf.
-    pub(super) fn sums(&self, domain: &Domain, leaf: usize, data: &Data) -> CellSums {
-        let mut sums = CellSums::new(data.dim);
-        pulp::Arch::new().dispatch(
-            #[inline(always)]
-            || {
-                for &sample in self.of(leaf) {
-                    let sample = sample as usize;
-                    let at = (self.uv[sample] - domain.min) / domain.size();
-                    let value = &data.sample_values[sample * data.dim..][..data.dim];
-                    let weight = data.sample_weights.get(sample).copied().unwrap_or(1.0);
-                    sums.add(&weights(at.x, at.y), value, weight);
-                }
-            },
-        );
-        sums
-    }
-}
-
-/// Sums of cells that later meshes may have too. They hold as long as no sample moves and no weight changes.
-#[derive(Default)]
-pub(super) struct KnownSums {
-    keeps: bool,
-    sums: BTreeMap<Cell, CellSums>,
-}
-
-impl KnownSums {
-    /// None yet; later ones are kept if samples stay where they are.
-    pub(super) fn new(keeps: bool) -> Self {
-        Self { keeps, sums: BTreeMap::new() }
-    }
-
-    /// Forgets all, and keeps later ones.
-    pub(super) fn renew(&mut self) {
-        *self = Self::new(true);
-    }
-
-    /// What is made of the sums of a cell, and those sums if they are new.
-    pub(super) fn with<T>(
-        &self,
-        cell: Cell,
-        compute: impl FnOnce() -> CellSums,
-        make: impl FnOnce(&CellSums) -> T,
-    ) -> (Option<CellSums>, T) {
-        match self.sums.get(&cell) {
-            Some(sums) => (None, make(sums)),
-            None => {
-                let sums = compute();
-                let made = make(&sums);
-                (Some(sums), made)
-            }
-        }
-    }
-
-    /// Keeps new sums.
-    pub(super) fn keep(&mut self, cell: Cell, new: Option<CellSums>) {
-        if self.keeps && self.sums.len() < MOST_KEPT {
-            self.sums.extend(new.map(|sums| (cell, sums)));
-        }
-    }
-
-    /// Where there is no room for more, forgets cells that are not among these.
-    pub(super) fn forget_others(&mut self, cells: impl Iterator<Item = Cell>) {
-        if self.sums.len() >= MOST_KEPT {
-            let present: BTreeSet<Cell> = cells.collect();
-            self.sums.retain(|cell, _| present.contains(cell));
-        }
-    }
-}
-
-/// Most cells whose sums are kept: a little over two kilobytes each.
-const MOST_KEPT: usize = 16_384;
-
-/// Leaves summed in one piece of work; what they add is kept at once.
-pub(super) const PIECE: usize = 64;
-
-/// What weighs against the data.
-#[derive(Default)]
-pub(super) struct Energy {
-    /// Of the plate in a cell of the initial grid, mapped to the unit cell.
-    plate: f64,
-    /// By how much more it weighs with each level.
-    growth: f64,
-    /// The membrane in each leaf; empty for none.
-    membranes: Vec<Membrane>,
-}
-
-impl Energy {
-    /// A plate of its own in every cell, all of one weight; and membranes.
-    pub(super) fn by_cell(plate: f64, membranes: Vec<Membrane>) -> Self {
-        Self { plate, growth: 1.0, membranes }
-    }
-
-    /// One plate over the domain, which in a cell of the initial grid weighs `plate`; and membranes. The energy over a cell
-    /// is that of the unit cell divided by its area.
-    pub(super) fn of_domain(plate: f64, membranes: Vec<Membrane>) -> Self {
-        Self { plate, growth: 4.0, membranes }
-    }
-
-    /// The weight of the plate in a cell of a level.
-    pub(super) fn plate(&self, level: u32) -> f64 {
-        self.plate * self.growth.powi(level as i32)
-    }
-
-    /// The membrane in a leaf.
-    pub(super) fn membrane(&self, leaf: usize) -> Membrane {
-        self.membranes.get(leaf).copied().unwrap_or_default()
-    }
-}
 
 type Block = [[f64; 4]; 4];
 
@@ -209,20 +77,13 @@ impl<'a> System<'a> {
         let (dim, n) = (data.dim, 4 * self.topology.basis.len());
         let mut blocks = vec![[[0.0; 4]; 4]; self.rows.items().len()];
         let mut right = vec![0.0; n * dim];
-        let leaves: Vec<usize> = (0..self.topology.leaves.len()).collect();
-        // pieces of a batch are kept at once: the batch bounds the memory, and is fixed
-        for batch in leaves.chunks(16 * PIECE) {
-            watch.check()?;
-            let shares: Vec<(Option<CellSums>, Share)> = pool.run(|| {
-                let share = |&leaf: &usize| {
-                    let compute = || by_leaf.sums(&self.mesh.cell_domain(self.cell(leaf)), leaf, data);
-                    known.with(self.cell(leaf), compute, |sums| self.share(leaf, sums, energy, dim))
-                };
-                let pieces = batch.par_chunks(PIECE);
-                pieces.flat_map_iter(|piece| piece.iter().map(share).collect::<Vec<_>>()).collect()
-            });
-            for (&leaf, (new, share)) in batch.iter().zip(shares) {
-                known.keep(self.cell(leaf), new);
+        by_leaf.add_shares(
+            (self.mesh, self.topology),
+            data,
+            known,
+            (pool, watch),
+            |leaf, sums| self.share(leaf, sums, energy, dim),
+            |_, share: Share| {
                 for (place, block) in share.blocks {
                     let sums = blocks[place as usize].iter_mut().flatten();
                     sums.zip(block.iter().flatten()).for_each(|(sum, x)| *sum += x);
@@ -232,10 +93,8 @@ impl<'a> System<'a> {
                         (0..dim).for_each(|k| right[k * n + unknown] += row[k]);
                     }
                 }
-            }
-        }
-        known.forget_others(leaves.iter().map(|&leaf| self.cell(leaf)));
-        watch.check()?;
+            },
+        )?;
         let mut matrix = lower_triangle(&self.rows, &blocks);
         let pinned = self.pinned(data);
         pinned.eliminate(&mut matrix, &mut right, n);

@@ -41,11 +41,9 @@ pub(super) fn fit_symmetric(
     data.is_mirrored = true;
     let fit = Refinement::new(data, &half_options)?.run(control)?;
     let surface = unfolded(&fit.surface, half)?;
-    let mut whole = PhtFit { surface, parameters: half.parameters(), errors: Vec::new(), report: fit.report };
-    let PhtFit { surface, report, parameters, errors } = &mut whole;
-    *errors =
-        finish(surface, report, parameters, mesh, options.demands.tolerances, (&folded, &tolerance), control);
-    report.cell_count = surface.mesh().leaf_count();
+    let asked = (&folded, &tolerance);
+    let mut whole = finish(surface, fit.report, mesh, options.demands.tolerances, asked, control);
+    whole.report.cell_count = whole.surface.mesh().leaf_count();
     Ok(whole)
 }
 

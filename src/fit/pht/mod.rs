@@ -23,6 +23,7 @@ mod options;
 mod refine;
 mod sides;
 mod smooth;
+mod sums;
 mod tame;
 #[cfg(test)]
 mod tests;
@@ -33,60 +34,28 @@ use super::common::checks::{check_parameters, check_unused, check_values};
 use super::common::neighbours::triangles_between;
 use super::common::outliers::{self, Cloud};
 use super::common::partial::{self, is_on_triangles, is_partial};
-use super::common::report::{FitReport, Remarks};
+use super::common::report::Remarks;
 use super::common::{
-    Demands, FitError, NodeParameters, Outliers, Partial, Symmetry, Used, node_parameters, prefer_plane,
+    Demands, Fit, FitError, NodeParameters, Outliers, Partial, Symmetry, Used, node_parameters, prefer_plane,
+    timed,
 };
 use crate::control::Control;
 use crate::mesh::Mesh;
 use crate::parameterize::{Border, ParameterizeOptions};
+use crate::surface::Domain;
 use crate::surface::pht::PhtSurface;
-use crate::surface::{Domain, Region, Surface};
 use data::Data;
 use glam::DVec2;
 use refine::Refinement;
-use std::borrow::Cow;
 use std::time::Instant;
 
-/// A fitted surface with all that is known of it.
-#[derive(Debug, Clone)]
-pub struct PhtFit {
-    /// The surface; its trims are the boundary loops of the mesh.
-    pub surface: PhtSurface,
-    /// What the fit did and how good it is.
-    pub report: FitReport,
-    /// The (u,v) of each datum at which its error is measured.
-    pub parameters: Vec<DVec2>,
-    /// The error of each datum.
-    pub errors: Vec<f64>,
-}
-
-impl outliers::Fitted for PhtFit {
-    fn surface(&self) -> &dyn Surface {
-        &self.surface
-    }
-
-    fn report(&self) -> &FitReport {
-        &self.report
-    }
-
-    fn parameters(&self) -> &[DVec2] {
-        &self.parameters
-    }
-
-    fn region_mut(&mut self) -> &mut Region {
-        self.surface.region_mut()
-    }
-
-    fn parts_mut(&mut self) -> (&mut FitReport, &mut Vec<DVec2>, &mut Vec<f64>) {
-        (&mut self.report, &mut self.parameters, &mut self.errors)
-    }
-}
+/// A fitted PHT-spline with all that is known of it.
+pub type PhtFit = Fit<PhtSurface>;
 
 /// Fits the shape of a mesh. Without parameters the mesh is parameterized first.
 pub fn fit_mesh(mesh: &Mesh, options: &PhtOptions, control: &mut Control) -> Result<PhtFit, FitError> {
     let values: Vec<f64> = mesh.points().iter().flat_map(|p| p.to_array()).collect();
-    fit_on_mesh(mesh, &values, 3, true, options, control)
+    timed(|| fit_on_mesh(mesh, &values, 3, true, options, control))
 }
 
 /// Fits values on the nodes of a mesh, `dim` numbers a node, over the same parameters as its shape; as many rows as the
@@ -98,14 +67,20 @@ pub fn fit_field(
     options: &PhtOptions,
     control: &mut Control,
 ) -> Result<PhtFit, FitError> {
-    if dim > 0 && (is_partial(values, options.missing) || is_on_triangles(mesh, values.len() / dim)) {
-        options.check()?;
-        let map = |control: &mut Control| map(mesh, options, control);
-        return partial::fit_on_mesh(mesh, values.len() / dim, control, map, |places, data_box, control| {
-            fit_partial(places, data_box, values, dim, options, control)
-        });
-    }
-    fit_on_mesh(mesh, values, dim, false, options, control)
+    timed(|| {
+        if dim > 0 && (is_partial(values, options.missing) || is_on_triangles(mesh, values.len() / dim)) {
+            options.check()?;
+            let map = |control: &mut Control| map(mesh, options, control);
+            return partial::fit_on_mesh(
+                mesh,
+                values.len() / dim,
+                control,
+                map,
+                |places, data_box, control| fit_partial(places, data_box, values, dim, options, control),
+            );
+        }
+        fit_on_mesh(mesh, values, dim, false, options, control)
+    })
 }
 
 /// Fits rows of `dim` numbers at scattered parameters.
@@ -116,32 +91,29 @@ pub fn fit_points(
     options: &PhtOptions,
     control: &mut Control,
 ) -> Result<PhtFit, FitError> {
-    let start = Instant::now();
-    options.check()?;
-    check_unused(options.demands.symmetry == Symmetry::None, "symmetry", "the fit of points")?;
-    if dim > 0 && is_partial(values, options.missing) {
-        return partial::fit_at_points(uv, |places, data_box| {
-            fit_partial(places, data_box, values, dim, options, control)
-        });
-    }
-    check_values(uv.len(), values, dim, options.weights)?;
-    options.demands.check(uv.len())?;
-    check_parameters(uv)?;
-    if options.demands.outliers != Outliers::None {
-        let triangles = triangles_between(uv, &Domain::around(uv.iter().copied()), control.pool().watch());
-        let cloud = Cloud { uv, values, dim, triangles: &triangles };
-        let (demands, tolerance) = (&options.demands, &options.tolerance);
-        let mut fit =
-            outliers::fit_without(&cloud, demands, tolerance, control, |values, demands, control| {
+    timed(|| {
+        options.check()?;
+        check_unused(options.demands.symmetry == Symmetry::None, "symmetry", "the fit of points")?;
+        if dim > 0 && is_partial(values, options.missing) {
+            return partial::fit_at_points(uv, |places, data_box| {
+                fit_partial(places, data_box, values, dim, options, control)
+            });
+        }
+        check_values(uv.len(), values, dim, options.weights)?;
+        options.demands.check(uv.len())?;
+        check_parameters(uv)?;
+        if options.demands.outliers != Outliers::None {
+            let triangles =
+                triangles_between(uv, &Domain::around(uv.iter().copied()), control.pool().watch());
+            let cloud = Cloud { uv, values, dim, triangles: &triangles };
+            let asked = (&options.demands, &options.tolerance);
+            return outliers::fit_without(&cloud, asked, control, |values, demands, control| {
                 fit_points(uv, values, dim, &PhtOptions { demands: *demands, ..*options }, control)
-            })?;
-        fit.report.seconds = start.elapsed().as_secs_f64();
-        return Ok(fit);
-    }
-    let data = Data::of_points(uv, values, dim, options.weights);
-    let mut fit = Refinement::new(data, options)?.run(control)?;
-    fit.report.seconds = start.elapsed().as_secs_f64();
-    Ok(fit)
+            });
+        }
+        let data = Data::of_points(uv, values, dim, options.weights);
+        Refinement::new(data, options)?.run(control)
+    })
 }
 
 /// Fits those values that there are, over the box of all.
@@ -187,9 +159,7 @@ fn fit_on_mesh(
     let start = Instant::now();
     if options.demands.symmetry != Symmetry::None {
         check_unused(is_shape, "symmetry", "the fit of a field")?;
-        let mut fit = mirror::fit_symmetric(mesh, options, control)?;
-        fit.report.seconds = start.elapsed().as_secs_f64();
-        return Ok(fit);
+        return mirror::fit_symmetric(mesh, options, control);
     }
     options.check()?;
     check_values(mesh.points().len(), values, dim, options.weights)?;
@@ -199,17 +169,17 @@ fn fit_on_mesh(
     let parameterize_seconds = start.elapsed().as_secs_f64();
     check_parameters(&map.uv)?;
     if options.demands.outliers != Outliers::None {
-        let cloud = Cloud { uv: &map.uv, values, dim, triangles: mesh.triangles() };
-        let (demands, tolerance) = (&options.demands, &options.tolerance);
-        let mut fit =
-            outliers::fit_without(&cloud, demands, tolerance, control, |values, demands, control| {
+        let (data, asked) = ((values, dim, is_shape), (&options.demands, &options.tolerance));
+        return outliers::fit_mesh_without(
+            (mesh, &map.uv),
+            data,
+            asked,
+            control,
+            |mesh, values, demands, control| {
                 let options = PhtOptions { demands: *demands, ..*options };
-                let mesh =
-                    if is_shape { Cow::Owned(outliers::moved(mesh, values)) } else { Cow::Borrowed(mesh) };
-                fit_on_mesh(&mesh, values, dim, is_shape, &options, control)
-            })?;
-        fit.report.seconds = start.elapsed().as_secs_f64();
-        return Ok(fit);
+                fit_on_mesh(mesh, values, dim, is_shape, &options, control)
+            },
+        );
     }
     let mut uv = map.uv;
     if is_shape && options.continuity == Continuity::C2 && options.correction_sweeps > 0 {
@@ -224,7 +194,6 @@ fn fit_on_mesh(
     fit.report.remarks.0 |= map.remarks.0;
     fit.report.measure_map(mesh, &fit.parameters);
     fit.report.parameterize_seconds = parameterize_seconds;
-    fit.report.seconds = start.elapsed().as_secs_f64();
     Ok(fit)
 }
 

@@ -1,9 +1,10 @@
 //! The outer loop: estimate, correct, measure, split.
 
 use super::data::Data;
-use super::global::{ByLeaf, Energy, KnownSums, System};
+use super::global::System;
 use super::growth::{PLATE_SHARE, SMOOTH_LEAST, SMOOTH_STEP, split_around};
 use super::smooth::SmoothSystem;
+use super::sums::{ByLeaf, Energy, KnownSums};
 use super::{Continuity, Estimator, PhtFit, PhtOptions, local};
 use crate::control::{Control, Pool, Watch};
 use crate::fit::common::FitError;

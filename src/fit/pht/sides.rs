@@ -134,38 +134,16 @@ mod tests {
     use super::*;
     use crate::control::Control;
     use crate::fit::common::report::{Tolerance, ToleranceScale};
+    use crate::fit::common::shell::{RANGE, assert_same_ends, assert_smooth, half};
     use crate::fit::common::sides::{Neighbour, side_of};
     use crate::fit::pht::{Demands, Estimator, PhtOptions, fit_points};
     use crate::fit::tensor;
-    use crate::surface::{Surface, normal};
-    use glam::{DVec2, DVec3};
-
-    /// Parameters are as large as they are.
-    const RANGE: DVec2 = DVec2::new(7.0, 0.2);
-
-    /// A shell over x from 0 to 2.
-    fn shell(x: f64, y: f64) -> [f64; 3] {
-        [x, y + 0.1 * x * y, 0.3 * (1.7 * x).sin() * (1.0 + y) + 0.2 * (3.0 * y).cos()]
-    }
-
-    /// Its half from `from` on, with places on the sides, in no order.
-    fn half(from: f64) -> (Vec<DVec2>, Vec<f64>) {
-        let place = |k: u32| DVec2::new(f64::from(k / 40), f64::from(k % 40)) / 39.0;
-        let uv: Vec<DVec2> = (0..1600).map(|k| place(k * 7 % 1600)).collect();
-        let values = uv.iter().flat_map(|uv| shell(from + uv.x, uv.y)).collect();
-        (uv.into_iter().map(|uv| RANGE * uv).collect(), values)
-    }
+    use crate::surface::Surface;
+    use glam::DVec2;
 
     fn options<'a>() -> PhtOptions<'a> {
         let tolerance = Tolerance { value: 1e-4, scale: ToleranceScale::Relative };
         PhtOptions { tolerance, ..PhtOptions::default() }
-    }
-
-    fn rows(surface: &dyn Surface, u: f64) -> Vec<[DVec3; 3]> {
-        let uv: Vec<DVec2> = (0..=100).map(|k| RANGE * DVec2::new(u, f64::from(k) / 100.0)).collect();
-        let mut rows = vec![0.0; 9 * uv.len()];
-        surface.eval_rows(&uv, 1, &mut rows);
-        rows.chunks(9).map(|row| [0, 3, 6].map(|k| DVec3::from_slice(&row[k..]))).collect()
     }
 
     #[test]
@@ -187,12 +165,7 @@ mod tests {
             let second = fit_points(&uv, &values, 3, &options, &mut Control::new(1)).unwrap();
             let report = second.report;
             assert!(report.max_error <= report.tolerance, "{report:?}");
-            for ([a, au, av], [b, bu, bv]) in rows(first, 1.0).into_iter().zip(rows(&second.surface, 0.0)) {
-                assert!(a.distance(b) <= 1e-12 * report.diagonal, "{a} {b}");
-                let angle = normal(au, av).cross(normal(bu, bv)).length();
-                assert!(angle <= 1e-10, "{angle:e}");
-                assert!(au.dot(bu) > 0.0);
-            }
+            assert_smooth(first, &second.surface, report.diagonal);
             assert!(report.max_side_error <= 1e-12 * report.diagonal, "{report:?}");
             assert!(report.max_side_angle <= 1e-10, "{report:?}");
         }
@@ -215,11 +188,7 @@ mod tests {
         assert!(fit.report.max_error <= fit.report.tolerance && fit.report.max_side_angle == 0.0);
         assert!(fit.report.max_side_error <= 1e-12 * fit.report.diagonal, "{:?}", fit.report);
         assert!(fit.report.max_fixed_error <= 1e-12 * fit.report.diagonal, "{:?}", fit.report);
-        for u in [0.0, 1.0] {
-            for ([a, ..], [b, ..]) in rows(&fine.surface, u).into_iter().zip(rows(&fit.surface, u)) {
-                assert!(a.distance(b) <= 1e-12 * fit.report.diagonal, "{a} {b}");
-            }
-        }
+        assert_same_ends(&fine.surface, &fit.surface, fit.report.diagonal);
     }
 
     #[test]

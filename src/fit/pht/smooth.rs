@@ -4,7 +4,7 @@
 //! function on the cell is a column `h` of such unknowns, and what the cell adds to the matrix is `h_a^T M h_b`.
 
 use super::data::Data;
-use super::global::{ByLeaf, Energy, KnownSums, PIECE};
+use super::sums::{ByLeaf, Energy, KnownSums};
 use crate::control::{Pool, Watch};
 use crate::fit::common::FitError;
 use crate::fit::common::hermite_cell::{COUNT, CellSums, weights};
@@ -13,7 +13,6 @@ use crate::lists::Lists;
 use crate::surface::pht::{LeafFunctions, PhtSurface, TruncatedBasis};
 use crate::tmesh::{Cell, TMesh, Topology};
 use glam::DVec2;
-use rayon::prelude::*;
 use sprs::CsMat;
 
 /// The matrix of one mesh: what stays when samples move.
@@ -54,25 +53,14 @@ impl<'a> SmoothSystem<'a> {
         let (dim, n) = (data.dim, self.basis.count());
         let mut values = vec![0.0; self.rows.items().len()];
         let mut right = vec![0.0; n * dim];
-        let leaves: Vec<usize> = (0..self.basis.leaves().len()).collect();
-        // pieces of a batch are kept at once: the batch bounds the memory, and is fixed
-        for batch in leaves.chunks(16 * PIECE) {
-            watch.check()?;
-            let shares: Vec<(Option<CellSums>, Share)> = pool.run(|| {
-                let share = |&leaf: &usize| {
-                    let compute = || by_leaf.sums(&self.mesh.cell_domain(self.cell(leaf)), leaf, data);
-                    known.with(self.cell(leaf), compute, |sums| self.share(leaf, sums, energy, dim))
-                };
-                let pieces = batch.par_chunks(PIECE);
-                pieces.flat_map_iter(|piece| piece.iter().map(share).collect::<Vec<_>>()).collect()
-            });
-            for (&leaf, (new, share)) in batch.iter().zip(shares) {
-                known.keep(self.cell(leaf), new);
-                self.add(&self.basis.leaves()[leaf].ranks, &share, (&mut values, &mut right), dim);
-            }
-        }
-        known.forget_others(leaves.iter().map(|&leaf| self.cell(leaf)));
-        watch.check()?;
+        by_leaf.add_shares(
+            (self.mesh, self.topology),
+            data,
+            known,
+            (pool, watch),
+            |leaf, sums| self.share(leaf, sums, energy, dim),
+            |leaf, share| self.add(&self.basis.leaves()[leaf].ranks, &share, (&mut values, &mut right), dim),
+        )?;
         let matrix = lower_triangle(&self.rows, values);
         let factor = self.symbolic.factor(&matrix.view()).map_err(|_| FitError::Singular)?;
         factor.solve(&mut right, dim);

@@ -2,8 +2,8 @@
 //! that.
 
 use super::Estimator;
-use super::global::{ByLeaf, KnownSums};
 use super::refine::{Refinement, Round};
+use super::sums::{ByLeaf, KnownSums};
 use crate::control::{Control, Pool, Watch};
 use crate::fit::common::FitError;
 use crate::fit::common::hermite_cell::{Membrane, PARTS};

@@ -13,7 +13,6 @@ use super::lines::Lines;
 use super::{FitError, Knots, Method, Problem, TensorFit, TensorOptions};
 use crate::control::Control;
 use crate::fit::common::checks::{check_unused, check_values};
-use crate::fit::common::report::FitReport;
 use crate::fit::common::symmetric::{Folded, finish};
 use crate::fit::common::uniform::grid::Direction;
 use crate::fit::common::uniform::normal_equations::TensorBasis;
@@ -73,13 +72,9 @@ pub(super) fn fit_symmetric(
     problem.is_mirrored = true;
     let fit = problem.fit_any(control)?;
     let surface = unfolded(&fit.surface, half)?;
-    let mut whole =
-        TensorFit { surface, parameters: half.parameters(), errors: Vec::new(), report: fit.report };
-    let TensorFit { surface, report, parameters, errors } = &mut whole;
-    *errors =
-        finish(surface, report, parameters, mesh, options.demands.tolerances, (&folded, &tolerance), control);
-    let report: &mut FitReport = report;
-    report.grid_u = surface.knots(Axis::U).breaks().len();
+    let asked = (&folded, &tolerance);
+    let mut whole = finish(surface, fit.report, mesh, options.demands.tolerances, asked, control);
+    whole.report.grid_u = whole.surface.knots(Axis::U).breaks().len();
     Ok(whole)
 }
 

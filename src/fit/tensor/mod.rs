@@ -31,11 +31,11 @@ use super::common::errors::{DataErrors, data_errors};
 use super::common::neighbours::triangles_between;
 use super::common::outliers::{self, Cloud};
 use super::common::partial::{self, is_on_triangles, is_partial};
-use super::common::report::{FitReport, Goal};
+use super::common::report::Goal;
 use super::common::sides::{GivenSide, SideJoints, SideMeasure};
 use super::common::uniform::normal_equations::TensorBasis;
 use super::common::{
-    Demands, FitError, Frame, Outliers, Partial, Standards, Symmetry, Used, node_parameters,
+    Demands, Fit, FitError, Frame, Outliers, Partial, Standards, Symmetry, Used, node_parameters, timed,
 };
 use crate::control::{Control, Pool};
 use crate::geometry::Bounds;
@@ -43,51 +43,18 @@ use crate::linalg::Conditions;
 use crate::memory::CollectVec;
 use crate::mesh::Mesh;
 use crate::surface::tensor::TensorSurface;
-use crate::surface::{Domain, Region, Surface};
+use crate::surface::{Domain, Region};
 use glam::DVec2;
 use lines::Lines;
-use std::borrow::Cow;
 use std::time::Instant;
 
-/// A fitted surface with all that is known of it.
-#[derive(Debug, Clone)]
-pub struct TensorFit {
-    /// The surface; its trims are the boundary loops of the mesh.
-    pub surface: TensorSurface,
-    /// What the fit did and how good it is.
-    pub report: FitReport,
-    /// The (u,v) of each datum at which its error is measured.
-    pub parameters: Vec<DVec2>,
-    /// The error of each datum.
-    pub errors: Vec<f64>,
-}
-
-impl outliers::Fitted for TensorFit {
-    fn surface(&self) -> &dyn Surface {
-        &self.surface
-    }
-
-    fn report(&self) -> &FitReport {
-        &self.report
-    }
-
-    fn parameters(&self) -> &[DVec2] {
-        &self.parameters
-    }
-
-    fn region_mut(&mut self) -> &mut Region {
-        self.surface.region_mut()
-    }
-
-    fn parts_mut(&mut self) -> (&mut FitReport, &mut Vec<DVec2>, &mut Vec<f64>) {
-        (&mut self.report, &mut self.parameters, &mut self.errors)
-    }
-}
+/// A fitted tensor surface with all that is known of it.
+pub type TensorFit = Fit<TensorSurface>;
 
 /// Fits the shape of a mesh. Without parameters the mesh is parameterized first.
 pub fn fit_mesh(mesh: &Mesh, options: &TensorOptions, control: &mut Control) -> Result<TensorFit, FitError> {
     let values: Vec<f64> = mesh.points().iter().flat_map(|p| p.to_array()).collect_vec();
-    fit_on_mesh(mesh, &values, 3, true, options, control)
+    timed(|| fit_on_mesh(mesh, &values, 3, true, options, control))
 }
 
 /// Fits values on the nodes of a mesh, `dim` numbers a node, over the same parameters as its shape; as many rows as the
@@ -99,16 +66,23 @@ pub fn fit_field(
     options: &TensorOptions,
     control: &mut Control,
 ) -> Result<TensorFit, FitError> {
-    if dim > 0 && (is_partial(values, options.missing) || is_on_triangles(mesh, values.len() / dim)) {
-        options.check()?;
-        check_unused(!options.closes(), "periods", "the fit over a mesh")?;
-        let map =
-            |control: &mut Control| node_parameters(mesh, &options.parameterize, options.regularize, control);
-        return partial::fit_on_mesh(mesh, values.len() / dim, control, map, |places, data_box, control| {
-            fit_partial(places, data_box, values, dim, options, control)
-        });
-    }
-    fit_on_mesh(mesh, values, dim, false, options, control)
+    timed(|| {
+        if dim > 0 && (is_partial(values, options.missing) || is_on_triangles(mesh, values.len() / dim)) {
+            options.check()?;
+            check_unused(!options.closes(), "periods", "the fit over a mesh")?;
+            let map = |control: &mut Control| {
+                node_parameters(mesh, &options.parameterize, options.regularize, control)
+            };
+            return partial::fit_on_mesh(
+                mesh,
+                values.len() / dim,
+                control,
+                map,
+                |places, data_box, control| fit_partial(places, data_box, values, dim, options, control),
+            );
+        }
+        fit_on_mesh(mesh, values, dim, false, options, control)
+    })
 }
 
 /// Fits rows of `dim` numbers at scattered parameters.
@@ -119,28 +93,25 @@ pub fn fit_points(
     options: &TensorOptions,
     control: &mut Control,
 ) -> Result<TensorFit, FitError> {
-    let start = Instant::now();
-    if dim > 0 && is_partial(values, options.missing) {
-        return partial::fit_at_points(uv, |places, data_box| {
-            fit_partial(places, data_box, values, dim, options, control)
-        });
-    }
-    check(uv, values, dim, options)?;
-    if options.demands.outliers != Outliers::None {
-        let triangles = triangles_between(uv, &Domain::around(uv.iter().copied()), control.pool().watch());
-        let cloud = Cloud { uv, values, dim, triangles: &triangles };
-        let (demands, tolerance) = (&options.demands, &options.tolerance);
-        let mut fit =
-            outliers::fit_without(&cloud, demands, tolerance, control, |values, demands, control| {
+    timed(|| {
+        if dim > 0 && is_partial(values, options.missing) {
+            return partial::fit_at_points(uv, |places, data_box| {
+                fit_partial(places, data_box, values, dim, options, control)
+            });
+        }
+        check(uv, values, dim, options)?;
+        if options.demands.outliers != Outliers::None {
+            let triangles =
+                triangles_between(uv, &Domain::around(uv.iter().copied()), control.pool().watch());
+            let cloud = Cloud { uv, values, dim, triangles: &triangles };
+            let asked = (&options.demands, &options.tolerance);
+            return outliers::fit_without(&cloud, asked, control, |values, demands, control| {
                 fit_points(uv, values, dim, &TensorOptions { demands: *demands, ..*options }, control)
-            })?;
-        fit.report.seconds = start.elapsed().as_secs_f64();
-        return Ok(fit);
-    }
-    let problem = Problem::new(uv.to_vec(), values, dim, None, options)?;
-    let mut fit = problem.fit_any(control)?;
-    fit.report.seconds = start.elapsed().as_secs_f64();
-    Ok(fit)
+            });
+        }
+        let problem = Problem::new(uv.to_vec(), values, dim, None, options)?;
+        problem.fit_any(control)
+    })
 }
 
 /// Fits those values that there are, over the box of all.
@@ -185,9 +156,7 @@ fn fit_on_mesh(
     check_unused(!options.closes(), "periods", "the fit over a mesh")?;
     if options.demands.symmetry != Symmetry::None {
         check_unused(is_shape, "symmetry", "the fit of a field")?;
-        let mut fit = mirror::fit_symmetric(mesh, options, control)?;
-        fit.report.seconds = start.elapsed().as_secs_f64();
-        return Ok(fit);
+        return mirror::fit_symmetric(mesh, options, control);
     }
     options.check()?;
     check_values(mesh.points().len(), values, dim, options.weights)?;
@@ -197,17 +166,17 @@ fn fit_on_mesh(
     let parameterize_seconds = start.elapsed().as_secs_f64();
     check(&map.uv, values, dim, options)?;
     if options.demands.outliers != Outliers::None {
-        let cloud = Cloud { uv: &map.uv, values, dim, triangles: mesh.triangles() };
-        let (demands, tolerance) = (&options.demands, &options.tolerance);
-        let mut fit =
-            outliers::fit_without(&cloud, demands, tolerance, control, |values, demands, control| {
+        let (data, asked) = ((values, dim, is_shape), (&options.demands, &options.tolerance));
+        return outliers::fit_mesh_without(
+            (mesh, &map.uv),
+            data,
+            asked,
+            control,
+            |mesh, values, demands, control| {
                 let options = TensorOptions { demands: *demands, ..*options };
-                let mesh =
-                    if is_shape { Cow::Owned(outliers::moved(mesh, values)) } else { Cow::Borrowed(mesh) };
-                fit_on_mesh(&mesh, values, dim, is_shape, &options, control)
-            })?;
-        fit.report.seconds = start.elapsed().as_secs_f64();
-        return Ok(fit);
+                fit_on_mesh(mesh, values, dim, is_shape, &options, control)
+            },
+        );
     }
     let mut problem = Problem::new(map.uv, values, dim, Some(mesh), options)?;
     problem.is_shape = is_shape;
@@ -216,7 +185,6 @@ fn fit_on_mesh(
     fit.report.parameterize_seconds = parameterize_seconds;
     fit.report.remarks.0 |= map.remarks.0;
     fit.report.measure_map(mesh, &fit.parameters);
-    fit.report.seconds = start.elapsed().as_secs_f64();
     Ok(fit)
 }
 

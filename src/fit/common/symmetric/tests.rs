@@ -5,6 +5,7 @@ use crate::fit::pht::{self, PhtOptions};
 use crate::fit::tensor::{self, TensorOptions};
 use crate::samples::grid;
 use crate::surface::tensor::Axis;
+use glam::DVec2;
 use glam::{DQuat, DVec3};
 
 /// A saddle that is even in x, over triangles that are not; `lean` makes it lopsided.
