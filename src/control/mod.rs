@@ -18,6 +18,7 @@ use watch::POLL;
 pub type ProgressFn<'a> = dyn FnMut(f64, f64) -> ControlFlow<()> + 'a;
 
 /// What a long call is doing.
+// C has it under the name planish_stage, with these numbers
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(u32)]
 pub enum Stage {

@@ -193,6 +193,19 @@ pub(super) unsafe fn slice<'a, T>(at: *const T, len: usize, name: &'static str) 
     Ok(unsafe { std::slice::from_raw_parts(at, len) })
 }
 
+/// The same for an array that the caller may leave out: none if `at` is NULL.
+///
+/// # Safety
+/// As [`slice`].
+pub(super) unsafe fn slice_or_none<'a, T>(
+    at: *const T,
+    len: usize,
+    name: &'static str,
+) -> Argument<Option<&'a [T]>> {
+    // SAFETY: the caller's promise.
+    if at.is_null() { Ok(None) } else { unsafe { slice(at, len, name) }.map(Some) }
+}
+
 /// An array that is written; what it holds may be read, so `T` must be a number, for which any bits will do.
 /// NULL is fine if it is empty.
 ///

@@ -1,7 +1,9 @@
 //! Choices that fits of several kinds offer.
 
 use super::arguments::{ArgumentError, choice};
-use crate::fit::common::Missing;
+use crate::fit::common::uniform::{Ends, Energy};
+use crate::fit::common::{Missing, Regularize};
+use crate::fit::report::{Tolerance, ToleranceScale};
 
 /// What a tolerance is measured in.
 #[repr(C)]
@@ -73,6 +75,31 @@ pub enum planish_regularize {
     Never = 1,
     /// Even them out.
     Always = 2,
+}
+
+/// What a tolerance is measured in.
+pub(super) fn tolerance_scale(given: u32, name: &'static str) -> Result<ToleranceScale, ArgumentError> {
+    choice(given, &[ToleranceScale::Relative, ToleranceScale::Absolute], name)
+}
+
+/// A tolerance and its `tolerance_scale`.
+pub(super) fn tolerance(value: f64, scale: u32) -> Result<Tolerance, ArgumentError> {
+    Ok(Tolerance { value, scale: tolerance_scale(scale, "tolerance_scale")? })
+}
+
+/// What happens at the ends of the knots.
+pub(super) fn ends(given: u32) -> Result<Ends, ArgumentError> {
+    choice(given, &[Ends::Natural, Ends::Free], "ends")
+}
+
+/// Which second derivatives cost energy.
+pub(super) fn energy(given: u32) -> Result<Energy, ArgumentError> {
+    choice(given, &[Energy::Beam, Energy::Plate], "energy")
+}
+
+/// What to do with parameters that came with a mesh.
+pub(super) fn regularize(given: u32) -> Result<Regularize, ArgumentError> {
+    choice(given, &[Regularize::Auto, Regularize::Never, Regularize::Always], "regularize")
 }
 
 /// What a value means that is NaN.

@@ -1,22 +1,22 @@
 //! B-spline curves.
 
 use super::arguments::{
-    ArgumentError, array_len, choice, copy, deref, options, out, rows_mut, slice, slice_mut,
-    slice_mut_or_none, stride, strided_len,
+    ArgumentError, array_len, choice, copy, deref, options, out, rows_mut, slice, slice_mut, slice_or_none,
+    stride, strided_len,
 };
-use super::choices::{planish_ends, planish_tensor_method, planish_tolerance_scale};
+use super::choices::{ends, planish_ends, planish_tensor_method, planish_tolerance_scale, tolerance};
 use super::guard::{Failure, guard};
 use super::progress::{thread_count, with_control};
 use super::report::{FitOutputs, planish_fit_report};
 use super::status::query;
+use super::surface_eval::{derivative_order, status_of_values};
 use super::{planish_eval_options, planish_flag, planish_progress, planish_section_ends, planish_status};
 use crate::curve::{Curve, EndRule, MAX_DERIVATIVE, interpolate};
-use crate::fit::common::uniform::{Ends, Method};
+use crate::fit::common::uniform::Method;
 use crate::fit::curve::{CurveOptions, fit_curve};
-use crate::fit::report::{Tolerance, ToleranceScale};
 use crate::knots::KnotVector;
 use crate::query::project::Projector;
-use crate::surface::evaluate::OutsideRule;
+use crate::surface::evaluate::{Output, OutsideRule};
 use libc::c_void;
 use std::sync::OnceLock;
 
@@ -96,25 +96,16 @@ impl planish_curve_options {
     /// # Safety
     /// The weights are NULL or `count` numbers, until the options are no longer used.
     unsafe fn to_core<'a>(self, count: usize) -> Result<CurveOptions<'a>, ArgumentError> {
-        let scale = choice(
-            self.tolerance_scale,
-            &[ToleranceScale::Relative, ToleranceScale::Absolute],
-            "tolerance_scale",
-        )?;
-        let weights = match self.weights {
-            at if at.is_null() => None,
-            // SAFETY: the caller's promise.
-            at => Some(unsafe { slice(at, count, "weights") }?),
-        };
         Ok(CurveOptions {
-            tolerance: Tolerance { value: self.tolerance, scale },
+            tolerance: tolerance(self.tolerance, self.tolerance_scale)?,
             method: choice(self.method, &[Method::LeastSquares, Method::Ferguson], "method")?,
-            ends: choice(self.ends, &[Ends::Natural, Ends::Free], "ends")?,
+            ends: ends(self.ends)?,
             smoothing: self.smoothing,
             buffer: self.buffer,
             max_grid: self.max_grid as usize,
             fixed_count: (self.grid != 0).then_some(self.grid as usize),
-            weights,
+            // SAFETY: the caller's promise.
+            weights: unsafe { slice_or_none(self.weights, count, "weights") }?,
         })
     }
 }
@@ -389,53 +380,44 @@ pub unsafe extern "C" fn planish_curve_eval(
     guard(|| unsafe {
         let curve = deref(curve, "curve")?.core();
         let options = self::options(options)?;
-        let order = max_derivative as usize;
-        if order > MAX_DERIVATIVE {
-            let (name, largest) = ("max_derivative", MAX_DERIVATIVE);
-            return Err(ArgumentError::Limit { name, given: order, largest }.into());
-        }
-        let rules = [OutsideRule::Fail, OutsideRule::Flag, OutsideRule::Extrapolate];
-        let rule = choice(options.outside, &rules, "outside")?;
+        let order = derivative_order(max_derivative, MAX_DERIVATIVE)?;
+        let rule = options.rule()?;
         thread_count(options.thread_count)?;
         let width = array_len::<f64>(order + 1, curve.dim(), "out")?;
         let u_stride = stride(options.uv_stride, 1, "uv_stride")?;
-        let out_stride = stride(options.out_stride, width, "out_stride")?;
         let u = slice(u, strided_len::<f64>(count, u_stride, 1, "u")?, "u")?;
         let u: Vec<f64> = u.iter().step_by(u_stride).copied().collect();
-        let out = slice_mut(out, strided_len::<f64>(count, out_stride, width, "out")?, "out")?;
-        let flags = slice_mut_or_none(options.out_flags, count, "out_flags")?;
-        eval(curve, &u, order, rule, out, (out_stride, width), flags)
+        eval(curve, &u, order, rule, options.output((out, "out"), count, width)?, width)
     })
 }
 
-/// Evaluates into rows of `width` numbers every `stride`.
+/// Evaluates into rows of `width` numbers.
 fn eval(
     curve: &Curve,
     u: &[f64],
     order: usize,
     rule: OutsideRule,
-    out: &mut [f64],
-    (stride, width): (usize, usize),
-    flags: Option<&mut [u8]>,
+    output: Output,
+    width: usize,
 ) -> Result<planish_status, Failure> {
     match rule {
         OutsideRule::Fail => curve.check_inside(u)?,
         OutsideRule::Extrapolate => Curve::check_finite(u)?,
         OutsideRule::Flag => {}
     }
-    let mut status = planish_status::Ok;
-    for (&u, row) in u.iter().zip(out.chunks_mut(stride)) {
+    let mut outside = 0;
+    for (&u, row) in u.iter().zip(output.rows.chunks_mut(output.stride)) {
         if rule == OutsideRule::Flag && !curve.contains(u) {
             row[..width].fill(f64::NAN);
-            status = planish_status::PointsOutside;
+            outside += 1;
         } else {
             curve.eval_rows(&[u], order, &mut row[..width]);
         }
     }
-    for (flag, &u) in flags.into_iter().flatten().zip(u) {
+    for (flag, &u) in output.flags.iter_mut().zip(u) {
         *flag = if curve.contains(u) { 0 } else { planish_flag::OutsideDomain as u8 };
     }
-    Ok(status)
+    Ok(status_of_values(rule, outside))
 }
 
 /// Makes a copy of a curve.

@@ -13,7 +13,7 @@ use crate::Error;
 use crate::control::Stage;
 use crate::fit::d1rc::D1rcFitOptions;
 
-use crate::parameterize::{ParameterizeOptions, parameterize};
+use crate::parameterize::parameterize;
 use crate::surface::d1rc::{Boundary, D1rcMode, D1rcOptions, D1rcSurface, SharpRule, sharp_edges};
 use glam::DVec2;
 use libc::c_void;
@@ -142,17 +142,6 @@ impl planish_d1rc_options {
             sharp_weight: self.sharp_weight,
         })
     }
-
-    /// # Safety
-    /// The record is NULL or as the header says.
-    pub(super) unsafe fn map(&self) -> Result<ParameterizeOptions, ArgumentError> {
-        // SAFETY: the caller's promise; NULL gives the defaults.
-        let given = unsafe { options(self.parameterize) }?;
-        match given.node_weights.is_null() {
-            true => given.to_core(),
-            false => Err(ArgumentError::NotNull { name: "node_weights" }),
-        }
-    }
 }
 
 /// Pairs of nodes.
@@ -201,7 +190,7 @@ pub unsafe extern "C" fn planish_d1rc_new(
                 sharp_edges(mesh, given.sharp_angle)?.into_iter().filter(is_new).collect();
             sharp.extend(found);
         }
-        let map = given.map()?;
+        let map = planish_parameterize_options::of_fit(given.parameterize)?;
         let surface = with_control(given.thread_count, listener!(given), |control| -> Result<_, Error> {
             let mut mapped = None;
             if mesh.parameters().is_none() {

@@ -1,15 +1,15 @@
 //! Fits by D1RC-splines.
 
-use super::arguments::{ArgumentError, choice, deref, options, slice};
+use super::arguments::{ArgumentError, deref, options, slice_or_none};
+use super::choices::tolerance;
 use super::d1rc::{edges, planish_d1rc_options};
 use super::guard::guard;
 use super::mesh::planish_mesh;
-use super::planish_status;
 use super::progress::with_control;
 use super::report::{FitOutputs, planish_fit_report};
 use super::surface::planish_surface;
+use super::{planish_parameterize_options, planish_status};
 use crate::fit::d1rc::{D1rcFitOptions, fit_mesh};
-use crate::fit::report::{Tolerance, ToleranceScale};
 
 /// Fits a D1RC-spline to the shape of a mesh within a tolerance: control points by least squares over a control mesh
 /// that is given, or that grows until the tolerance is met. Nodes beyond the edges of the control mesh, which cuts
@@ -61,16 +61,11 @@ unsafe fn core<'a>(
     sharp_edges: &'a [[u32; 2]],
     count: usize,
 ) -> Result<D1rcFitOptions<'a>, ArgumentError> {
-    let scale = choice(
-        given.tolerance_scale,
-        &[ToleranceScale::Relative, ToleranceScale::Absolute],
-        "tolerance_scale",
-    )?;
     let defaults = D1rcFitOptions::default();
     // SAFETY: the caller's promise.
     unsafe {
         Ok(D1rcFitOptions {
-            tolerance: Tolerance { value: given.tolerance, scale },
+            tolerance: tolerance(given.tolerance, given.tolerance_scale)?,
             surface: given.to_core()?,
             control_mesh: match given.control_mesh {
                 at if at.is_null() => None,
@@ -82,11 +77,11 @@ unsafe fn core<'a>(
             max_control_count: given.max_control_count,
             smoothing: given.smoothing,
             correction_sweeps: given.correction_sweeps as usize,
-            parameterize: if given.parameterize.is_null() { defaults.parameterize } else { given.map()? },
-            weights: match given.weights {
-                at if at.is_null() => None,
-                at => Some(slice(at, count, "weights")?),
+            parameterize: match given.parameterize {
+                at if at.is_null() => defaults.parameterize,
+                at => planish_parameterize_options::of_fit(at)?,
             },
+            weights: slice_or_none(given.weights, count, "weights")?,
             ..defaults
         })
     }

@@ -1,6 +1,6 @@
 //! What single data demand of a fit, and its sides, as the records of options have them.
 
-use super::arguments::{ArgumentError, choice, deref, slice, unused};
+use super::arguments::{ArgumentError, choice, deref, slice, slice_or_none, unused};
 use super::curve::planish_curve;
 use super::surface::planish_surface;
 use crate::fit::common::{Demands, Outliers, Plane, Sides, Symmetry};
@@ -32,15 +32,27 @@ pub(super) struct GivenDemands {
     pub plane: *const f64,
 }
 
+/// Those fields of a record.
+macro_rules! demands {
+    ($options:expr) => {
+        $crate::ffi::demands::GivenDemands {
+            tolerances: $options.tolerances,
+            fixed: $options.fixed,
+            fixed_count: $options.fixed_count,
+            outlier_share: $options.outlier_share,
+            outlier_scale: $options.outlier_scale,
+            symmetry: $options.symmetry,
+            plane: $options.plane,
+        }
+    };
+}
+
 impl GivenDemands {
     /// # Safety
     /// The pointers are NULL or as the header says, for `count` data, until the demands are no longer used.
     pub(super) unsafe fn to_core<'a>(self, count: usize) -> Result<Demands<'a>, ArgumentError> {
-        let tolerances = match self.tolerances {
-            at if at.is_null() => None,
-            // SAFETY: the caller's promise.
-            at => Some(unsafe { slice(at, count, "tolerances") }?),
-        };
+        // SAFETY: the caller's promise.
+        let tolerances = unsafe { slice_or_none(self.tolerances, count, "tolerances") }?;
         // SAFETY: the caller's promise.
         let fixed = unsafe { slice(self.fixed, self.fixed_count, "fixed") }?;
         let outliers = match (self.outlier_share, self.outlier_scale) {
@@ -83,6 +95,26 @@ unsafe fn symmetry(given: u32, plane: *const f64) -> Result<Symmetry, ArgumentEr
 pub(super) struct GivenSides {
     pub curves: [*const planish_curve; 4],
     pub neighbours: [*const planish_surface; 4],
+}
+
+/// The sides of a record.
+macro_rules! sides {
+    ($options:expr) => {
+        $crate::ffi::demands::GivenSides {
+            curves: [
+                $options.curve_u_low,
+                $options.curve_u_high,
+                $options.curve_v_low,
+                $options.curve_v_high,
+            ],
+            neighbours: [
+                $options.neighbour_u_low,
+                $options.neighbour_u_high,
+                $options.neighbour_v_low,
+                $options.neighbour_v_high,
+            ],
+        }
+    };
 }
 
 impl GivenSides {

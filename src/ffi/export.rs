@@ -49,6 +49,23 @@ record! {
     }
 }
 
+impl planish_vtk_options {
+    /// What is written as triangles.
+    ///
+    /// # Safety
+    /// The pointers are NULL or as the header says, until the options are no longer used.
+    pub(super) unsafe fn triangles<'a>(&self) -> Result<vtk::SurfaceOptions<'a>, ArgumentError> {
+        // SAFETY: the caller's promise.
+        unsafe {
+            let deviation_from = match self.deviation_from.is_null() {
+                true => None,
+                false => Some(&deref(self.deviation_from, "deviation_from")?.0),
+            };
+            Ok(vtk::SurfaceOptions { tessellate: options(self.tessellate)?.core()?, deviation_from })
+        }
+    }
+}
+
 /// Writes a surface in space as a VTK file (.vtu): triangles with their (u,v) as point data "uv", the patches, or
 /// the control net. The file appears whole or not at all.
 ///
@@ -87,12 +104,7 @@ pub unsafe extern "C" fn planish_surface_write_vtk(
                 return Ok(vtk::write_control_net(&surface.control_net().ok_or(no_net)?, path)?);
             }
         }
-        let deviation_from = match given.deviation_from.is_null() {
-            true => None,
-            false => Some(&deref(given.deviation_from, "deviation_from")?.0),
-        };
-        let tessellate = self::options(given.tessellate)?.core()?;
-        let core = vtk::SurfaceOptions { tessellate, deviation_from };
+        let core = given.triangles()?;
         Ok(with_control(given.thread_count, listener!(given), |control| {
             control.enter(Stage::Write);
             vtk::write_surface(surface, &core, path, control.pool())

@@ -1,13 +1,12 @@
 //! Fairness of surfaces.
 
 use super::arguments::{ArgumentError, ReportOut, array_len, choice, copy_rows, deref, options, out, slice};
-use super::choices::planish_tolerance_scale;
+use super::choices::{planish_tolerance_scale, tolerance};
 use super::guard::guard;
 use super::planish_status;
 use super::progress::{planish_progress, with_control};
 use super::surface::planish_surface;
 use crate::fit::fair::{FairData, FairLimit, FairOptions, FairReport, Fairness, KeptBorder, fair};
-use crate::fit::report::{Tolerance, ToleranceScale};
 use glam::DVec2;
 use libc::c_void;
 
@@ -74,12 +73,10 @@ record! {
 
 impl planish_fair_options {
     fn to_core(self) -> Result<FairOptions, ArgumentError> {
-        let scales = [ToleranceScale::Relative, ToleranceScale::Absolute];
-        let scale = choice(self.tolerance_scale, &scales, "tolerance_scale")?;
         let energies = [Fairness::ThinPlate, Fairness::CurvatureVariation];
         let borders = [KeptBorder::None, KeptBorder::Position, KeptBorder::Tangent];
         Ok(FairOptions {
-            tolerance: Tolerance { value: self.tolerance, scale },
+            tolerance: tolerance(self.tolerance, self.tolerance_scale)?,
             energy: choice(self.energy, &energies, "energy")?,
             border: choice(self.border, &borders, "border")?,
             limit: choice(self.limit, &[FairLimit::Noise, FairLimit::Tolerance], "limit")?,

@@ -1,10 +1,12 @@
 //! Fields fitted again and again.
 
 use super::arguments::{
-    ArgumentError, Record, ReportOut, array_len, choice, copy_rows, deref, deref_mut, options, out, rows_mut,
-    slice, slice_mut, stride,
+    ArgumentError, Record, ReportOut, array_len, copy_rows, deref, deref_mut, options, out, rows_mut, slice,
+    slice_mut, slice_or_none, stride,
 };
-use super::choices::{missing, planish_ends, planish_energy, planish_missing, planish_tolerance_scale};
+use super::choices::{
+    ends, energy, missing, planish_ends, planish_energy, planish_missing, planish_tolerance_scale, tolerance,
+};
 use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;
 use super::model::planish_model;
@@ -15,11 +17,9 @@ use super::surface::planish_surface;
 use super::{planish_parameterize_options, planish_progress, planish_status};
 use crate::control::{Control, Pool};
 use crate::fit::common::FitError;
-use crate::fit::common::uniform::{Ends, Energy};
 use crate::fit::field::{FieldError, FieldFitter, FieldGrid, FieldNodes, FieldOptions};
 use crate::fit::found_grid::{self, SampleField};
 use crate::fit::model::field::ModelFieldFitter;
-use crate::fit::report::{Tolerance, ToleranceScale};
 use crate::mesh::Mesh;
 use crate::query::gradient::{field_gradient, piece_count};
 use crate::surface::tensor::TensorSurface;
@@ -150,16 +150,10 @@ pub(super) unsafe fn with_field_options<R: Send>(
     }
     // SAFETY: the caller's promises.
     unsafe {
-        let parameterize: planish_parameterize_options = options(given.parameterize)?;
-        if !parameterize.node_weights.is_null() {
-            return Err(ArgumentError::NotNull { name: "node_weights" }.into());
-        }
-        let weights =
-            if given.weights.is_null() { None } else { Some(slice(given.weights, count, "weights")?) };
-        let is_known: Option<Vec<bool>> = match given.mask.is_null() {
-            true => None,
-            false => Some(slice(given.mask, count, "mask")?.iter().map(|&known| known != 0).collect()),
-        };
+        let parameterize = planish_parameterize_options::of_fit(given.parameterize)?;
+        let weights = slice_or_none(given.weights, count, "weights")?;
+        let mask = slice_or_none(given.mask, count, "mask")?;
+        let is_known: Option<Vec<bool>> = mask.map(|mask| mask.iter().map(|&known| known != 0).collect());
         let counts = [given.grid_u, given.grid_v];
         let sample = match given.sample_values.is_null() {
             true => None,
@@ -174,18 +168,17 @@ pub(super) unsafe fn with_field_options<R: Send>(
             [0, 0] => FieldGrid::Auto,
             counts => FieldGrid::Fixed(counts.map(|count| count as usize)),
         };
-        let scale = tolerance_scale(given.tolerance_scale, "tolerance_scale")?;
         let core = FieldOptions {
-            tolerance: Tolerance { value: given.tolerance, scale },
+            tolerance: tolerance(given.tolerance, given.tolerance_scale)?,
             grid,
             smoothing: given.smoothing,
             buffer: given.buffer,
-            ends: choice(given.ends, &[Ends::Natural, Ends::Free], "ends")?,
-            energy: choice(given.energy, &[Energy::Beam, Energy::Plate], "energy")?,
+            ends: ends(given.ends)?,
+            energy: energy(given.energy)?,
             weights,
             is_known: is_known.as_deref(),
             missing: missing(given.missing)?,
-            parameterize: parameterize.to_core()?,
+            parameterize,
         };
         with_control(given.thread_count, listener!(given), |control| work(&core, sample, control))
     }
@@ -201,11 +194,6 @@ pub(super) fn fitter_on_mesh(
     let Some(sample) = sample else { return FieldFitter::on_mesh(mesh, options, control) };
     let nodes = control.within(0.0, 0.3, |control| FieldNodes::of_mesh(mesh, options, control))?;
     control.within(0.3, 1.0, |control| found_grid::fitter(nodes, &sample, options, control))
-}
-
-/// What a tolerance is measured in.
-pub(super) fn tolerance_scale(given: u32, name: &'static str) -> Result<ToleranceScale, ArgumentError> {
-    choice(given, &[ToleranceScale::Relative, ToleranceScale::Absolute], name)
 }
 
 /// Makes a fitter for fields on the nodes of a mesh, over its parameters or, if it has none, over those it is given

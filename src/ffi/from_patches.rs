@@ -1,6 +1,7 @@
 //! Models of patches that somebody else made.
 
-use super::arguments::{ArgumentError, ReportOut, choice, deref, options, out, slice};
+use super::arguments::{ArgumentError, ReportOut, deref, options, out, slice};
+use super::choices::tolerance;
 use super::guard::guard;
 use super::model::planish_model;
 use super::planish_status;
@@ -8,7 +9,6 @@ use super::progress::{planish_progress, with_control};
 use super::report::{gravest, planish_stop_reason};
 use super::surface::planish_surface;
 use crate::fit::model::from_patches::{FromPatchesOptions, FromPatchesReport, smooth_from_patches};
-use crate::fit::report::{Tolerance, ToleranceScale};
 use crate::surface::tensor::TensorSurface;
 use std::ffi::c_void;
 
@@ -153,11 +153,9 @@ pub unsafe extern "C" fn planish_model_smooth_from_patches(
         let report = ReportOut::new(out_report)?;
         let patch = |&surface: &*const planish_surface| deref(surface, "surfaces")?.tensor();
         let patches = surfaces.iter().map(patch).collect::<Result<Vec<&TensorSurface>, ArgumentError>>()?;
-        let scales = [ToleranceScale::Relative, ToleranceScale::Absolute];
-        let scale = choice(given.tolerance_scale, &scales, "tolerance_scale")?;
         let core = FromPatchesOptions {
-            tolerance: Tolerance { value: given.tolerance, scale },
-            join_tolerance: Tolerance { value: given.join_tolerance, scale },
+            tolerance: tolerance(given.tolerance, given.tolerance_scale)?,
+            join_tolerance: tolerance(given.join_tolerance, given.tolerance_scale)?,
             smoothing: given.smoothing,
             max_cells: given.max_cells,
             max_rounds: given.max_rounds as usize,

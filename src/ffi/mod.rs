@@ -20,6 +20,8 @@
 #[macro_use]
 mod arguments;
 #[macro_use]
+mod demands;
+#[macro_use]
 mod progress;
 mod choices;
 mod curve;
@@ -27,7 +29,6 @@ mod curve_query;
 mod d1rc;
 mod d1rc_fit;
 mod decimate;
-mod demands;
 mod export;
 mod extent;
 mod failure;

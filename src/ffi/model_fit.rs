@@ -3,6 +3,7 @@
 use super::arguments::{
     ArgumentError, ReportOut, choice, deref, flag, options, out, slice, slice_mut_or_none,
 };
+use super::choices::tolerance;
 use super::guard::guard;
 use super::mesh::planish_mesh;
 
@@ -11,7 +12,6 @@ use super::planish_status;
 use super::progress::{planish_progress, with_control};
 use super::report::{gravest, planish_stop_reason};
 use crate::fit::model::{Family, MeshModelOptions, ModelFit, ModelOptions, fit_mesh};
-use crate::fit::report::{Tolerance, ToleranceScale};
 use crate::layout::of_mesh::{LayoutKind, MeshLayoutOptions};
 use crate::mesh::FeatureOptions;
 use std::ffi::c_void;
@@ -247,14 +247,12 @@ impl planish_model_report {
 
 impl planish_model_options {
     fn core<'a>(&self, labels: &'a [u32]) -> Result<MeshModelOptions<'a>, ArgumentError> {
-        let scales = [ToleranceScale::Relative, ToleranceScale::Absolute];
-        let scale = choice(self.tolerance_scale, &scales, "tolerance_scale")?;
         let kinds = [LayoutKind::Auto, LayoutKind::Cube, LayoutKind::Complex];
         let is_smooth = flag(self.smooth, "smooth")?;
         Ok(MeshModelOptions {
             family: choice(self.family, &[Family::Auto, Family::Chart, Family::Patches], "family")?,
             fit: ModelOptions {
-                tolerance: Tolerance { value: self.tolerance, scale },
+                tolerance: tolerance(self.tolerance, self.tolerance_scale)?,
                 smoothing: self.smoothing,
                 start_level: self.start_level,
                 max_level: self.max_level,

@@ -2,7 +2,7 @@
 
 use super::arguments::{
     self, ArgumentError, ReportOut, array_len, choice, copy_rows, deref, flag, options, out, rows_or_none,
-    slice, slice_mut, slice_mut_or_none, stride, strided_len,
+    slice, slice_mut, slice_mut_or_none, stride,
 };
 use super::export::{planish_vtk_content, planish_vtk_options};
 use super::field::planish_gradient_options;
@@ -17,7 +17,7 @@ use super::query::{
     planish_tessellate_report,
 };
 use super::report::write_pairs;
-use super::surface_eval::planish_eval_options;
+use super::surface_eval::{derivative_order, planish_eval_options, status_of_values};
 use crate::control::{Pool, Stage};
 use crate::export::vtk;
 use crate::model::{ModelField, ModelProjector, ModelTessellation};
@@ -25,7 +25,7 @@ use crate::query::deviation::{DeviationError, DeviationOptions};
 use crate::query::gradient;
 use crate::query::project::ProjectOptions;
 use crate::surface::MAX_DERIVATIVE;
-use crate::surface::evaluate::{self, OutsideRule, Quantity};
+use crate::surface::evaluate::{self, Quantity};
 use glam::{DVec2, DVec3};
 use libc::c_char;
 
@@ -46,27 +46,21 @@ unsafe fn eval(
     unsafe {
         let model = deref(model, "model")?;
         let given = self::options(options)?;
-        let rules = [OutsideRule::Fail, OutsideRule::Flag, OutsideRule::Extrapolate];
-        let rule = choice(given.outside, &rules, "outside")?;
+        let rule = given.rule()?;
         let faces = slice(faces, count, "faces")?;
         let uv = copy_rows(uv, count, stride(given.uv_stride, 2, "uv_stride")?, "uv", DVec2::from_array)?;
         let width = quantity.width(model.field().map_or(3, ModelField::dim));
-        let out_stride = stride(given.out_stride, width, "out_stride")?;
-        let rows = slice_mut(out, strided_len::<f64>(count, out_stride, width, name)?, name)?;
-        let flags = slice_mut_or_none(given.out_flags, count, "out_flags")?;
+        let output = given.output((out, name), count, width)?;
         let pool = Pool::for_pieces(thread_count(given.thread_count)?, evaluate::piece_count(count));
         let values = match (model.field(), quantity) {
             (Some(field), Quantity::Derivatives(order)) => field.evaluate(order, faces, &uv, rule, &pool)?,
             _ => model.core()?.evaluate(quantity, faces, &uv, rule, &pool)?,
         };
-        for (to, row) in rows.chunks_mut(out_stride).zip(values.rows.chunks_exact(width)) {
+        for (to, row) in output.rows.chunks_mut(output.stride).zip(values.rows.chunks_exact(width)) {
             to[..width].copy_from_slice(row);
         }
-        if let Some(flags) = flags {
-            flags.copy_from_slice(&values.flags);
-        }
-        let has_nan = rule == OutsideRule::Flag && values.outside > 0;
-        Ok(if has_nan { planish_status::PointsOutside } else { planish_status::Ok })
+        output.flags.iter_mut().zip(&values.flags).for_each(|(to, flag)| *to = *flag);
+        Ok(status_of_values(rule, values.outside))
     }
 }
 
@@ -99,11 +93,7 @@ pub unsafe extern "C" fn planish_model_eval(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let order = max_derivative as usize;
-        if order > MAX_DERIVATIVE {
-            let (name, largest) = ("max_derivative", MAX_DERIVATIVE);
-            return Err(ArgumentError::Limit { name, given: order, largest }.into());
-        }
+        let order = derivative_order(max_derivative, MAX_DERIVATIVE)?;
         eval(model, Quantity::Derivatives(order), (faces, uv), count, options, out, "out")
     })
 }
@@ -395,12 +385,7 @@ pub unsafe extern "C" fn planish_model_write_vtk(
         let path = arguments::path(path, "path")?;
         let given = self::options(options)?;
         choice(given.content, &[planish_vtk_content::Triangles], "content")?;
-        let deviation_from = match given.deviation_from.is_null() {
-            true => None,
-            false => Some(&deref(given.deviation_from, "deviation_from")?.0),
-        };
-        let tessellate = self::options(given.tessellate)?.core()?;
-        let core = vtk::SurfaceOptions { tessellate, deviation_from };
+        let core = given.triangles()?;
         Ok(with_control(given.thread_count, listener!(given), |control| {
             control.enter(Stage::Write);
             vtk::write_model(model, &core, path, control.pool())

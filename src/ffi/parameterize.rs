@@ -1,6 +1,6 @@
 //! Where a mesh gets its (u,v) from.
 
-use super::arguments::{ArgumentError, Record, ReportOut, choice, deref_mut, flag, options, slice};
+use super::arguments::{ArgumentError, Record, ReportOut, choice, deref_mut, flag, options, slice_or_none};
 use super::guard::guard;
 use super::mesh::planish_mesh;
 use super::progress::with_control;
@@ -90,7 +90,20 @@ record! {
 }
 
 impl planish_parameterize_options {
-    pub(super) fn to_core(self) -> Result<ParameterizeOptions, ArgumentError> {
+    /// How a fit gives a mesh its parameters: a record in its options, which has no weights of nodes; NULL is for the defaults.
+    ///
+    /// # Safety
+    /// `at` is NULL or points to a record as the header says.
+    pub(super) unsafe fn of_fit(at: *const Self) -> Result<ParameterizeOptions, ArgumentError> {
+        // SAFETY: the caller's promise.
+        let given = unsafe { options(at) }?;
+        if !given.node_weights.is_null() {
+            return Err(ArgumentError::NotNull { name: "node_weights" });
+        }
+        given.to_core()
+    }
+
+    fn to_core(self) -> Result<ParameterizeOptions, ArgumentError> {
         if self.reserved != 0 {
             return Err(ArgumentError::Reserved { record: Self::NAME, given: self.reserved });
         }
@@ -214,10 +227,7 @@ pub unsafe extern "C" fn planish_mesh_parameterize(
         let mesh = &mut deref_mut(mesh, "mesh")?.0;
         let options = self::options(options)?;
         let report = ReportOut::new(out_report)?;
-        let weights = match options.node_weights {
-            at if at.is_null() => None,
-            at => Some(slice(at, mesh.points().len(), "node_weights")?),
-        };
+        let weights = slice_or_none(options.node_weights, mesh.points().len(), "node_weights")?;
         let core = options.to_core()?;
         let map = with_control(options.thread_count, listener!(options), |control| {
             parameterize_weighted(mesh, &core, weights, control)

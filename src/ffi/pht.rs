@@ -1,9 +1,11 @@
 //! PHT-splines: fits.
 
-use super::arguments::{ArgumentError, array_len, choice, copy_rows, deref, flag, options, slice, unused};
-use super::choices::missing;
+use super::arguments::{
+    ArgumentError, array_len, choice, copy_rows, deref, flag, options, slice, slice_or_none, unused,
+};
+use super::choices::{missing, regularize, tolerance};
 use super::curve::planish_curve;
-use super::demands::{GivenDemands, GivenSides, planish_symmetry};
+use super::demands::planish_symmetry;
 use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;
 use super::mesh_fields::check_field_count;
@@ -12,11 +14,10 @@ use super::report::{FitOutputs, planish_fit_report};
 use super::surface::planish_surface;
 use super::{planish_parameterize_options, planish_progress, planish_status};
 use crate::Control;
-use crate::fit::common::{FitError, Regularize};
+use crate::fit::common::FitError;
 use crate::fit::pht::{
     Coarsening, Continuity, Estimator, PhtFit, PhtOptions, fit_field, fit_mesh, fit_points,
 };
-use crate::fit::report::{Tolerance, ToleranceScale};
 use glam::DVec2;
 use libc::c_void;
 
@@ -178,41 +179,10 @@ impl planish_pht_options {
         if self.reserved_end != 0 {
             return Err(ArgumentError::Reserved { record: "planish_pht_options", given: self.reserved_end });
         }
-        let demands = GivenDemands {
-            tolerances: self.tolerances,
-            fixed: self.fixed,
-            fixed_count: self.fixed_count,
-            outlier_share: self.outlier_share,
-            outlier_scale: self.outlier_scale,
-            symmetry: self.symmetry,
-            plane: self.plane,
-        };
-        let sides = GivenSides {
-            curves: [self.curve_u_low, self.curve_u_high, self.curve_v_low, self.curve_v_high],
-            neighbours: [
-                self.neighbour_u_low,
-                self.neighbour_u_high,
-                self.neighbour_v_low,
-                self.neighbour_v_high,
-            ],
-        };
-        let scales = [ToleranceScale::Relative, ToleranceScale::Absolute];
-        let scale = choice(self.tolerance_scale, &scales, "tolerance_scale")?;
         let parameterize = match self.parameterize {
             at if at.is_null() => None,
-            at => {
-                // SAFETY: the caller's promise.
-                let parameterize: planish_parameterize_options = unsafe { options(at) }?;
-                if !parameterize.node_weights.is_null() {
-                    return Err(ArgumentError::NotNull { name: "node_weights" });
-                }
-                Some(parameterize.to_core()?)
-            }
-        };
-        let weights = match self.weights {
-            at if at.is_null() => None,
             // SAFETY: the caller's promise.
-            at => Some(unsafe { slice(at, count, "weights") }?),
+            at => Some(unsafe { planish_parameterize_options::of_fit(at) }?),
         };
         let continuity = match self.continuity {
             1 => Continuity::C1,
@@ -221,11 +191,10 @@ impl planish_pht_options {
         };
         let coarsening = [Coarsening::Auto, Coarsening::On, Coarsening::Off];
         let estimators = [Estimator::Global, Estimator::LocalQuadratic, Estimator::LocalCubic];
-        let regularize = [Regularize::Auto, Regularize::Never, Regularize::Always];
         Ok(PhtOptions {
             // SAFETY: the caller's promise.
-            sides: unsafe { sides.to_core() }?,
-            tolerance: Tolerance { value: self.tolerance, scale },
+            sides: unsafe { sides!(self).to_core() }?,
+            tolerance: tolerance(self.tolerance, self.tolerance_scale)?,
             continuity,
             coarsening: choice(self.coarsening, &coarsening, "coarsening")?,
             estimator: choice(self.estimator, &estimators, "estimator")?,
@@ -236,13 +205,14 @@ impl planish_pht_options {
             min_samples: self.min_samples as usize,
             grade: self.grade,
             correction_sweeps: self.correction_sweeps as usize,
-            regularize: choice(self.regularize, &regularize, "regularize")?,
+            regularize: regularize(self.regularize)?,
             parameterize,
-            weights,
+            // SAFETY: the caller's promise.
+            weights: unsafe { slice_or_none(self.weights, count, "weights") }?,
             measure_distance: flag(self.measure_distance, "measure_distance")?,
             missing: missing(self.missing)?,
             // SAFETY: the caller's promise.
-            demands: unsafe { demands.to_core(count) }?,
+            demands: unsafe { demands!(self).to_core(count) }?,
         })
     }
 }

@@ -3,47 +3,12 @@
 use super::arguments::{ArgumentError, check};
 use super::guard::Failure;
 use crate::Control;
-use crate::control::Stage;
 use libc::c_void;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicI32, AtomicU32, Ordering};
 
-/// What a long call is doing.
-#[repr(u32)]
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum planish_stage {
-    /// Looks at what it was given.
-    Prepare = 0,
-    /// Gives a mesh its parameters, or its places on a sphere.
-    Parameterize = 1,
-    /// Makes a mesh coarser.
-    Coarsen = 2,
-    /// Lays quadrilaterals over a mesh.
-    Layout = 3,
-    /// Fits, measures and refines.
-    Fit = 4,
-    /// Looks for the nearest places.
-    Project = 5,
-    /// Makes triangles of a surface.
-    Tessellate = 6,
-    /// Makes another form of a surface.
-    Convert = 7,
-    /// Writes a file.
-    Write = 8,
-}
-
-/// The numbers of the stages are those of the ABI.
-const _: () = {
-    assert!(Stage::Prepare as u32 == planish_stage::Prepare as u32);
-    assert!(Stage::Parameterize as u32 == planish_stage::Parameterize as u32);
-    assert!(Stage::Coarsen as u32 == planish_stage::Coarsen as u32);
-    assert!(Stage::Layout as u32 == planish_stage::Layout as u32);
-    assert!(Stage::Fit as u32 == planish_stage::Fit as u32);
-    assert!(Stage::Project as u32 == planish_stage::Project as u32);
-    assert!(Stage::Tessellate as u32 == planish_stage::Tessellate as u32);
-    assert!(Stage::Convert as u32 == planish_stage::Convert as u32);
-    assert!(Stage::Write as u32 == planish_stage::Write as u32);
-};
+// the numbers that callers see; tools/header follows the name
+pub use crate::control::Stage as planish_stage;
 
 /// Hears how far a call is and may end it. It is asked at least every 50 ms.
 ///

@@ -1,6 +1,7 @@
 //! The report as a page.
 
-use super::arguments::{self, ArgumentError, choice, deref, options, text};
+use super::arguments::{self, ArgumentError, deref, options, text};
+use super::choices::tolerance_scale;
 use super::guard::guard;
 use super::mesh::planish_mesh;
 use super::model::planish_model;
@@ -8,7 +9,7 @@ use super::planish_status;
 use super::progress::{planish_progress, with_control};
 use super::surface::planish_surface;
 use crate::export::html::{ReportOptions, write_model_report, write_report};
-use crate::fit::common::report::{Remarks, ToleranceScale};
+use crate::fit::common::report::Remarks;
 use libc::{c_char, c_void};
 
 record! {
@@ -55,11 +56,7 @@ impl planish_report_options {
             title: or(self.title, defaults.title, "title")?,
             unit: or(self.unit, defaults.unit, "unit")?,
             tolerance: Some(self.tolerance).filter(|&value| value != 0.0),
-            tolerance_scale: choice(
-                self.tolerance_scale,
-                &[ToleranceScale::Relative, ToleranceScale::Absolute],
-                "tolerance_scale",
-            )?,
+            tolerance_scale: tolerance_scale(self.tolerance_scale, "tolerance_scale")?,
             remarks: Remarks(self.remarks),
         })
     }

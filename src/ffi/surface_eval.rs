@@ -74,6 +74,47 @@ record! {
     }
 }
 
+impl planish_eval_options {
+    /// What to do with points outside.
+    pub(super) fn rule(&self) -> Result<OutsideRule, ArgumentError> {
+        let rules = [OutsideRule::Fail, OutsideRule::Flag, OutsideRule::Extrapolate];
+        choice(self.outside, &rules, "outside")
+    }
+
+    /// Where `width` numbers for each of `count` points go, and their flags.
+    ///
+    /// # Safety
+    /// `out` and the flags are NULL or as the header says, for so many points.
+    pub(super) unsafe fn output<'a>(
+        &self,
+        (out, name): (*mut f64, &'static str),
+        count: usize,
+        width: usize,
+    ) -> Result<Output<'a>, ArgumentError> {
+        let stride = stride(self.out_stride, width, "out_stride")?;
+        let len = strided_len::<f64>(count, stride, width, name)?;
+        // SAFETY: the caller's promise.
+        let (rows, flags) =
+            unsafe { (slice_mut(out, len, name)?, slice_mut_or_none(self.out_flags, count, "out_flags")?) };
+        Ok(Output { rows, stride, flags: flags.unwrap_or(&mut []) })
+    }
+}
+
+/// The status of values of which so many belong to points outside.
+pub(super) fn status_of_values(rule: OutsideRule, outside: usize) -> planish_status {
+    let has_nan = rule == OutsideRule::Flag && outside > 0;
+    if has_nan { planish_status::PointsOutside } else { planish_status::Ok }
+}
+
+/// The order that max_derivative asks for.
+pub(super) fn derivative_order(given: u32, largest: usize) -> Result<usize, ArgumentError> {
+    let order = given as usize;
+    if order > largest {
+        return Err(ArgumentError::Limit { name: "max_derivative", given: order, largest });
+    }
+    Ok(order)
+}
+
 /// Evaluates at points that are already borrowed.
 ///
 /// # Safety
@@ -86,20 +127,12 @@ unsafe fn eval(
     out: *mut f64,
     name: &'static str,
 ) -> Result<planish_status, Failure> {
-    let count = points.count();
-    let rules = [OutsideRule::Fail, OutsideRule::Flag, OutsideRule::Extrapolate];
-    let rule = choice(options.outside, &rules, "outside")?;
-    let width = quantity.width(surface.dim());
-    let stride = stride(options.out_stride, width, "out_stride")?;
-    let pool = Pool::for_pieces(thread_count(options.thread_count)?, piece_count(count));
-    let len = strided_len::<f64>(count, stride, width, name)?;
+    let (count, rule) = (points.count(), options.rule()?);
     // SAFETY: the caller's promise.
-    let (rows, flags) =
-        unsafe { (slice_mut(out, len, name)?, slice_mut_or_none(options.out_flags, count, "out_flags")?) };
-    let flags = flags.unwrap_or(&mut []);
-    let outside = evaluate(surface, quantity, points, rule, Output { rows, stride, flags }, &pool)?;
-    let has_nan = rule == OutsideRule::Flag && outside > 0;
-    Ok(if has_nan { planish_status::PointsOutside } else { planish_status::Ok })
+    let output = unsafe { options.output((out, name), count, quantity.width(surface.dim())) }?;
+    let pool = Pool::for_pieces(thread_count(options.thread_count)?, piece_count(count));
+    let outside = evaluate(surface, quantity, points, rule, output, &pool)?;
+    Ok(status_of_values(rule, outside))
 }
 
 /// Evaluates at rows of u and v.
@@ -175,11 +208,7 @@ pub unsafe extern "C" fn planish_surface_eval_derivatives(
 ) -> planish_status {
     // SAFETY: the caller's promises.
     guard(|| unsafe {
-        let order = max_derivative as usize;
-        if order > MAX_DERIVATIVE {
-            let (name, largest) = ("max_derivative", MAX_DERIVATIVE);
-            return Err(ArgumentError::Limit { name, given: order, largest }.into());
-        }
+        let order = derivative_order(max_derivative, MAX_DERIVATIVE)?;
         eval_points(surface, Quantity::Derivatives(order), uv, count, options, out, "out")
     })
 }

@@ -1,12 +1,14 @@
 //! Tensor product B-spline surfaces: fits.
 
-use super::arguments::{ArgumentError, array_len, choice, copy_rows, deref, flag, options, slice, unused};
+use super::arguments::{
+    ArgumentError, array_len, choice, copy_rows, deref, flag, options, slice, slice_or_none, unused,
+};
 use super::choices::{
-    missing, planish_ends, planish_energy, planish_knots, planish_missing, planish_regularize,
-    planish_tensor_method, planish_tolerance_scale,
+    ends, energy, missing, planish_ends, planish_energy, planish_knots, planish_missing, planish_regularize,
+    planish_tensor_method, planish_tolerance_scale, regularize, tolerance,
 };
 use super::curve::planish_curve;
-use super::demands::{GivenDemands, GivenSides, planish_symmetry};
+use super::demands::planish_symmetry;
 use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;
 use super::mesh_fields::check_field_count;
@@ -15,11 +17,8 @@ use super::report::{FitOutputs, planish_fit_report};
 use super::surface::planish_surface;
 use super::{planish_parameterize_options, planish_progress, planish_status};
 use crate::Control;
-use crate::fit::common::{FitError, Regularize};
-use crate::fit::report::{Tolerance, ToleranceScale};
-use crate::fit::tensor::{
-    Ends, Energy, Knots, Method, TensorFit, TensorOptions, fit_field, fit_mesh, fit_points,
-};
+use crate::fit::common::FitError;
+use crate::fit::tensor::{Knots, Method, TensorFit, TensorOptions, fit_field, fit_mesh, fit_points};
 use glam::DVec2;
 use libc::c_void;
 
@@ -160,45 +159,15 @@ impl planish_tensor_options {
     /// # Safety
     /// The pointers are NULL or as the header says, for `count` data, until the options are no longer used.
     pub(super) unsafe fn to_core<'a>(self, count: usize) -> Result<TensorOptions<'a>, ArgumentError> {
-        let demands = GivenDemands {
-            tolerances: self.tolerances,
-            fixed: self.fixed,
-            fixed_count: self.fixed_count,
-            outlier_share: self.outlier_share,
-            outlier_scale: self.outlier_scale,
-            symmetry: self.symmetry,
-            plane: self.plane,
-        };
-        let scales = [ToleranceScale::Relative, ToleranceScale::Absolute];
-        let scale = choice(self.tolerance_scale, &scales, "tolerance_scale")?;
-        // SAFETY: the caller's promise.
-        let parameterize: planish_parameterize_options = unsafe { options(self.parameterize) }?;
-        if !parameterize.node_weights.is_null() {
-            return Err(ArgumentError::NotNull { name: "node_weights" });
-        }
-        let weights = match self.weights {
-            at if at.is_null() => None,
-            // SAFETY: the caller's promise.
-            at => Some(unsafe { slice(at, count, "weights") }?),
-        };
-        let sides = GivenSides {
-            curves: [self.curve_u_low, self.curve_u_high, self.curve_v_low, self.curve_v_high],
-            neighbours: [
-                self.neighbour_u_low,
-                self.neighbour_u_high,
-                self.neighbour_v_low,
-                self.neighbour_v_high,
-            ],
-        };
         Ok(TensorOptions {
             periods: [self.period_u, self.period_v],
             // SAFETY: the caller's promise.
-            sides: unsafe { sides.to_core() }?,
-            tolerance: Tolerance { value: self.tolerance, scale },
+            sides: unsafe { sides!(self).to_core() }?,
+            tolerance: tolerance(self.tolerance, self.tolerance_scale)?,
             knots: choice(self.knots, &[Knots::Adaptive, Knots::Uniform], "knots")?,
             method: choice(self.method, &[Method::LeastSquares, Method::Ferguson], "method")?,
-            ends: choice(self.ends, &[Ends::Natural, Ends::Free], "ends")?,
-            energy: choice(self.energy, &[Energy::Beam, Energy::Plate], "energy")?,
+            ends: ends(self.ends)?,
+            energy: energy(self.energy)?,
             smoothing: self.smoothing,
             buffer: self.buffer,
             max_grid: self.max_grid as usize,
@@ -208,17 +177,15 @@ impl planish_tensor_options {
                 grid => Some(grid.map(|count| count as usize)),
             },
             correction_sweeps: self.correction_sweeps as usize,
-            regularize: choice(
-                self.regularize,
-                &[Regularize::Auto, Regularize::Never, Regularize::Always],
-                "regularize",
-            )?,
-            parameterize: parameterize.to_core()?,
-            weights,
+            regularize: regularize(self.regularize)?,
+            // SAFETY: the caller's promise.
+            parameterize: unsafe { planish_parameterize_options::of_fit(self.parameterize) }?,
+            // SAFETY: the caller's promise.
+            weights: unsafe { slice_or_none(self.weights, count, "weights") }?,
             measure_distance: flag(self.measure_distance, "measure_distance")?,
             missing: missing(self.missing)?,
             // SAFETY: the caller's promise.
-            demands: unsafe { demands.to_core(count) }?,
+            demands: unsafe { demands!(self).to_core(count) }?,
         })
     }
 }

@@ -3,8 +3,8 @@
 use super::arguments::{
     ArgumentError, ReportOut, array_len, choice, copy_rows, deref, options, out, rows_mut, slice,
 };
-use super::choices::planish_tolerance_scale;
-use super::field::{fitter_on_mesh, planish_field_options, tolerance_scale, with_field_options};
+use super::choices::{planish_tolerance_scale, tolerance_scale};
+use super::field::{fitter_on_mesh, planish_field_options, with_field_options};
 use super::guard::{Failure, guard};
 use super::mesh::planish_mesh;
 use super::model::planish_model;

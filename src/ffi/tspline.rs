@@ -3,6 +3,7 @@
 use super::arguments::{
     ArgumentError, ReportOut, array_len, choice, copy, deref, deref_mut, flag, options, out, rows_mut, slice,
 };
+use super::choices::tolerance;
 use super::curve::planish_curve;
 use super::guard::{Failure, guard};
 use super::progress::with_control;
@@ -11,7 +12,6 @@ use super::surface::{planish_surface, query_surface};
 use super::{planish_progress, planish_status};
 use crate::Control;
 use crate::curve::Curve;
-use crate::fit::report::{Tolerance, ToleranceScale};
 use crate::fit::skin::{
     Rows, SectionEnds, SkinError, SkinFit, SkinMethod, SkinOptions, SkinReport, VRule, VSlopes, skin,
     skin_curves,
@@ -209,7 +209,6 @@ impl planish_skin_options {
     /// # Safety
     /// The arrays are NULL or as the header says, for rows of these sizes, until the options are no longer used.
     unsafe fn to_core<'a>(self, sizes: Sizes) -> Result<SkinOptions<'a>, ArgumentError> {
-        let scales = [ToleranceScale::Relative, ToleranceScale::Absolute];
         let vectors = |at: *const f64, count: usize, name| match at.is_null() {
             true => Ok(None),
             // SAFETY: the caller's promise.
@@ -231,10 +230,7 @@ impl planish_skin_options {
             ends = SectionEnds::Slopes(slopes.ok_or(ArgumentError::Null { name: "end_slopes" })?);
         }
         Ok(SkinOptions {
-            tolerance: Tolerance {
-                value: self.tolerance,
-                scale: choice(self.tolerance_scale, &scales, "tolerance_scale")?,
-            },
+            tolerance: tolerance(self.tolerance, self.tolerance_scale)?,
             method: choice(self.method, &[SkinMethod::ControlCurves, SkinMethod::CommonKnots], "method")?,
             closed: flag(self.closed, "closed")?,
             ends,

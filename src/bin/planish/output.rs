@@ -13,7 +13,7 @@ use planish::export::{mesh as mesh_files, native, step, vtk};
 use planish::file;
 use planish::fit::conversion::to_model;
 use planish::fit::model::ModelFit;
-use planish::fit::report::{FitReport, ToleranceScale};
+use planish::fit::report::{FitReport, Remarks, ToleranceScale};
 use planish::memory;
 use planish::mesh::{Format, Mesh, MeshRepairs};
 use planish::model::Model;
@@ -208,6 +208,12 @@ pub(crate) fn write_model(model: &Model, path: &Path, step: &Step) -> Result<(),
     Ok(())
 }
 
+/// A page about a fit with a tolerance in model units.
+fn report_options(title: &str, tolerance: f64, remarks: Remarks) -> ReportOptions<'_> {
+    let tolerance_scale = ToleranceScale::Absolute;
+    ReportOptions { title, unit: "", tolerance: Some(tolerance), tolerance_scale, remarks }
+}
+
 /// Writes a report of the surface against the mesh that it was fitted to.
 pub(crate) fn write_report(
     mesh: &Mesh,
@@ -216,13 +222,7 @@ pub(crate) fn write_report(
     path: &Path,
     control: &mut Control,
 ) -> Result<(), Failure> {
-    let options = ReportOptions {
-        title,
-        unit: "",
-        tolerance: Some(fit.report.tolerance),
-        tolerance_scale: ToleranceScale::Absolute,
-        remarks: fit.report.remarks,
-    };
+    let options = report_options(title, fit.report.tolerance, fit.report.remarks);
     Ok(html::write_report(fit.surface.as_surface(), mesh, &options, path, control)?)
 }
 
@@ -234,13 +234,7 @@ pub(crate) fn write_model_report(
     path: &Path,
     control: &mut Control,
 ) -> Result<(), Failure> {
-    let options = ReportOptions {
-        title,
-        unit: "",
-        tolerance: Some(fit.report.tolerance),
-        tolerance_scale: ToleranceScale::Absolute,
-        remarks: fit.report.remarks,
-    };
+    let options = report_options(title, fit.report.tolerance, fit.report.remarks);
     Ok(html::write_model_report(&fit.model, mesh, &options, path, control)?)
 }
 

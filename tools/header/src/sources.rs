@@ -1,11 +1,12 @@
-//! The files of `src/ffi`, with every `record!` written out: cbindgen does not look into macros.
+//! The files of `src/ffi`, with every `record!` written out, since cbindgen does not look into macros, and every enumeration of
+//! the core that C has under another name.
 
 use std::error::Error;
 use std::fs;
 use std::path::Path;
 use syn::parse::{Parse, ParseStream};
 use syn::punctuated::Punctuated;
-use syn::{Attribute, Expr, Ident, Item, Token, Type, Visibility, parse_quote};
+use syn::{Attribute, Expr, Ident, Item, ItemEnum, Token, Type, UseTree, Visibility, parse_quote};
 
 /// The files in the order of the header.
 const ORDER: &[&str] = &[
@@ -150,18 +151,44 @@ impl Record {
     }
 }
 
-/// The items of a file with those of its records.
-fn written_out(items: Vec<Item>) -> syn::Result<Vec<Item>> {
+/// The items of a file with those of its records, and with enumerations of the core below `source`.
+fn written_out(items: Vec<Item>, source: &Path) -> Result<Vec<Item>, Box<dyn Error>> {
     let mut all = Vec::new();
     for item in items {
         match &item {
             Item::Macro(call) if is_record(call) => {
                 all.extend(call.mac.parse_body::<Record>()?.items());
             }
+            Item::Use(used) if matches!(used.vis, Visibility::Public(_)) => {
+                all.push(Item::Enum(core_enumeration(&used.tree, source)?));
+            }
             _ => all.push(item),
         }
     }
     Ok(all)
+}
+
+/// `pub use crate::module::Name as planish_name;`: the enumeration of the core, under its name in C.
+fn core_enumeration(tree: &UseTree, source: &Path) -> Result<ItemEnum, Box<dyn Error>> {
+    let mut modules = Vec::new();
+    let mut rest = tree;
+    while let UseTree::Path(path) = rest {
+        modules.push(path.ident.to_string());
+        rest = &path.tree;
+    }
+    let UseTree::Rename(named) = rest else {
+        return Err("a public use has to name an enumeration anew".into());
+    };
+    let place = source.join(modules[1..].join("/"));
+    let file = [place.with_extension("rs"), place.join("mod.rs")].into_iter().find(|file| file.exists());
+    let file =
+        syn::parse_file(&fs::read_to_string(file.ok_or(format!("{} is no module", place.display()))?)?)?;
+    let mut enumerations = file.items.into_iter().filter_map(|item| match item {
+        Item::Enum(item) if item.ident == named.ident => Some(item),
+        _ => None,
+    });
+    let found = enumerations.next().ok_or(format!("there is no enumeration {}", named.ident))?;
+    Ok(ItemEnum { ident: named.rename.clone(), ..found })
 }
 
 fn is_record(call: &syn::ItemMacro) -> bool {
@@ -178,9 +205,10 @@ pub fn read(folder: &Path) -> Result<Vec<Source>, Box<dyn Error>> {
         }
     }
     let parsed = ORDER.iter().map(|&name| -> Result<Source, Box<dyn Error>> {
-        let told = |error| format!("src/ffi/{name}: {error}");
-        let mut file = syn::parse_file(&fs::read_to_string(folder.join(name))?).map_err(told)?;
-        file.items = written_out(file.items).map_err(told)?;
+        let told = |error: &dyn std::fmt::Display| format!("src/ffi/{name}: {error}");
+        let text = fs::read_to_string(folder.join(name))?;
+        let mut file = syn::parse_file(&text).map_err(|error| told(&error))?;
+        file.items = written_out(file.items, &folder.join("..")).map_err(|error| told(&error))?;
         Ok(Source { name, file })
     });
     parsed.collect()
