@@ -24,29 +24,7 @@ pub fn shape_slopes(s: f64) -> [f64; 4] {
     [6.0 * (s2 - s), 6.0 * (s - s2), 1.0 - 4.0 * s + 3.0 * s2, 3.0 * s2 - 2.0 * s]
 }
 
-/// The slopes of the natural C2 cubic spline through `values` on uniform knots.
-pub fn natural_slopes(values: &[f64]) -> Vec<f64> {
-    let last = values.len() - 1;
-    // Thomas elimination: `upper` is the eliminated superdiagonal
-    let mut upper = vec![0.5; last + 1];
-    let mut slopes = vec![1.5 * (values[1] - values[0]); last + 1];
-    for i in 1..=last {
-        let (diagonal, right) = if i < last {
-            (4.0, 3.0 * (values[i + 1] - values[i - 1]))
-        } else {
-            (2.0, 3.0 * (values[last] - values[last - 1]))
-        };
-        let pivot = diagonal - upper[i - 1];
-        upper[i] = 1.0 / pivot;
-        slopes[i] = (right - slopes[i - 1]) / pivot;
-    }
-    for i in (0..last).rev() {
-        slopes[i] -= upper[i] * slopes[i + 1];
-    }
-    slopes
-}
-
-/// The control points of the same spline over the knots `u_1 x4, u_2, ..., u_{I-1}, u_I x4`: two more
+/// The control points of the C2 spline with these values and slopes over the knots `u_1 x4, u_2, ..., u_{I-1}, u_I x4`: two more
 /// than values. Right for any C2 data, natural or not.
 ///
 /// `P_0 = x_1, P_1 = x_1 + X_1/3, P_i = 2x_i - x_{i+1} + (2X_i + X_{i+1})/3, P_I = x_I - X_I/3, P_{I+1} = x_I`
@@ -71,26 +49,22 @@ mod tests {
     }
 
     #[test]
-    fn a_tent_has_the_slopes_and_control_points_worked_out_by_hand() {
-        let slopes = natural_slopes(&[0., 1., 0.]);
-        assert_close(&slopes, &[1.5, 0., -1.5]);
+    fn a_tent_has_the_control_points_worked_out_by_hand() {
+        let slopes = [1.5, 0., -1.5];
         assert_close(&control_points(&[0., 1., 0.], &slopes), &[0., 0.5, 1.5, 0.5, 0.]);
         let [a, b, c, d] = shape_functions(0.5);
         assert_close(&[b + c * slopes[0] + d * slopes[1] + a * 0.0], &[11. / 16.]);
     }
 
     #[test]
-    fn a_zigzag_has_the_slopes_and_control_points_worked_out_by_hand() {
+    fn a_zigzag_has_the_control_points_worked_out_by_hand() {
         let values = [0., 1., 0., 1.];
-        let slopes = natural_slopes(&values);
-        assert_close(&slopes, &[5. / 3., -1. / 3., -1. / 3., 5. / 3.]);
+        let slopes = [5. / 3., -1. / 3., -1. / 3., 5. / 3.];
         assert_close(&control_points(&values, &slopes), &[0., 5. / 9., 5. / 3., -2. / 3., 4. / 9., 1.]);
     }
 
     #[test]
     fn two_values_give_a_straight_line() {
-        let slopes = natural_slopes(&[1., 4.]);
-        assert_close(&slopes, &[3., 3.]);
-        assert_close(&control_points(&[1., 4.], &slopes), &[1., 2., 3., 4.]);
+        assert_close(&control_points(&[1., 4.], &[3., 3.]), &[1., 2., 3., 4.]);
     }
 }

@@ -1,5 +1,6 @@
 //! Bilinear maps over the square.
 
+use crate::linalg::shares;
 use glam::DVec2;
 
 /// Newton steps: in a convex quad that is not nearly flat five are enough for all digits.
@@ -14,9 +15,7 @@ pub(super) fn place_in(quad: &[DVec2; 4], point: DVec2) -> DVec2 {
         let along = (quad[1] - quad[0]).lerp(quad[2] - quad[3], uv.y);
         let across = high - low;
         let off = point - low.lerp(high, uv.y);
-        let det = along.perp_dot(across);
-        let step = DVec2::new(off.perp_dot(across), along.perp_dot(off)) / det;
-        uv = (uv + step).clamp(DVec2::ZERO, DVec2::ONE);
+        uv = (uv + shares(off, along, across)).clamp(DVec2::ZERO, DVec2::ONE);
     }
     uv
 }

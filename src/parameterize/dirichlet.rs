@@ -18,6 +18,7 @@
 //! ```
 //! in tangent coordinates; on the sphere minus (x . g) for its curvature.
 
+use crate::linalg::Symmetric2;
 use crate::memory;
 use glam::{DVec2, DVec3};
 
@@ -192,12 +193,9 @@ impl Star {
         }
         /// The least eigenvalue must be this share of the trace.
         const LEAST_EIGENVALUE: f64 = 1e-3;
-        let trace = ss + tt;
-        let least = 0.5 * (trace - (ss - tt).hypot(2.0 * st));
-        let shift = (LEAST_EIGENVALUE * trace.abs() - least).max(0.0);
-        let (ss, tt) = (ss + shift, tt + shift);
-        let det = ss * tt - st * st;
-        let step = DVec2::new(st * gradient.y - tt * gradient.x, st * gradient.x - ss * gradient.y) / det;
+        let hessian = Symmetric2 { uu: ss, uv: st, vv: tt };
+        let shift = (LEAST_EIGENVALUE * hessian.trace().abs() - hessian.least_eigenvalue()).max(0.0);
+        let step = hessian.shifted(shift).solve(-gradient);
         (step.is_finite() && gradient.dot(step) < 0.0).then_some((gradient, step))
     }
 }

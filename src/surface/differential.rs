@@ -1,7 +1,8 @@
 //! Normals and curvatures from derivatives.
 
 use crate::geometry::safe_scale;
-use glam::DVec3;
+use crate::linalg::Symmetric2;
+use glam::{DVec2, DVec3};
 
 /// The unit normal `Su x Sv / |Su x Sv|`; NaN where the tangents are parallel or zero.
 pub fn normal(su: DVec3, sv: DVec3) -> DVec3 {
@@ -28,8 +29,9 @@ pub fn surface_gradient(su: DVec3, sv: DVec3, fu: f64, fv: f64) -> DVec3 {
     // a shape of another size has gradients of the inverse size
     let scale = safe_scale(su.abs().max(sv.abs()).max_element());
     let (su, sv) = (su * scale, sv * scale);
-    let (e, f, g) = (su.length_squared(), su.dot(sv), sv.length_squared());
-    scale * (((g * fu - f * fv) * su + (e * fv - f * fu) * sv) / su.cross(sv).length_squared())
+    let sum = Symmetric2::of_products(su, sv).adjugate(DVec2::new(fu, fv));
+    // the product of the tangents keeps digits of E G - F^2 that the difference loses
+    scale * ((sum.x * su + sum.y * sv) / su.cross(sv).length_squared())
 }
 
 /// The principal curvatures and their directions.

@@ -5,6 +5,7 @@
 
 use crate::control::Pool;
 use crate::geometry::safe_scale;
+use crate::linalg::Symmetric2;
 use crate::memory::{self, CollectVec};
 use crate::mesh::{HalfEdge, Mesh};
 use crate::parameterize::crossing_nodes;
@@ -66,13 +67,11 @@ fn gauss_newton_step(row: &[f64], value: &[f64]) -> DVec2 {
     let scale = safe_scale(row[dim..].iter().fold(0.0, |most: f64, x| most.max(x.abs())));
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (scale * a) * (scale * b)).sum::<f64>();
     let miss: Vec<f64> = value.iter().zip(s).map(|(p, s)| p - s).collect_vec();
-    let (a, b, c) = (dot(su, su), dot(su, sv), dot(sv, sv));
-    let (p, q) = (dot(su, &miss), dot(sv, &miss));
-    let determinant = a * c - b * b;
-    if determinant <= PARALLEL * a * c {
+    let metric = Symmetric2 { uu: dot(su, su), uv: dot(su, sv), vv: dot(sv, sv) };
+    if metric.is_within(PARALLEL) {
         return DVec2::ZERO;
     }
-    DVec2::new(c * p - b * q, a * q - b * p) / determinant
+    metric.solve(DVec2::new(dot(su, &miss), dot(sv, &miss)))
 }
 
 /// Halves the moves of the nodes of every triangle that would lose nearly all its area, and of every two pieces of the

@@ -22,12 +22,13 @@ use crate::fit::common::report::Remarks;
 use crate::layout::HalfEdge;
 use crate::layout::of_features::{FeatureLayout, FeatureLayoutOptions, VertexSource, layout_of_features};
 use crate::layout::of_mesh::LayoutKind;
+use crate::linalg::Symmetric2;
 use crate::mesh::{Features, Mesh, Region, Regions, Side};
 use crate::model::{
     Carrier, Frame, ModelError, Patchwork, Plane, PlaneFace, Planes, Rim, RimVertex, of_patches,
 };
 use crate::summary::summarize;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Share of the time in which the layout is made.
@@ -90,9 +91,8 @@ fn plane_of(mesh: &Mesh, region: &Region, distance: f64) -> Option<PlaneEquation
         [xx + x * x, xy + x * y, yy + y * y, xz + x * z, yz + y * z]
     });
     let [xx, xy, yy, xz, yz] = sums;
-    let determinant = xx * yy - xy * xy;
-    let (a, b) = ((xz * yy - yz * xy) / determinant, (yz * xx - xz * xy) / determinant);
-    let normal = (rough - a * x - b * y).try_normalize()?;
+    let slope = Symmetric2 { uu: xx, uv: xy, vv: yy }.solve(DVec2::new(xz, yz));
+    let normal = (rough - slope.x * x - slope.y * y).try_normalize()?;
     let offset = normal.dot(middle);
     let is_on = |point: &DVec3| (normal.dot(*point) - offset).abs() <= distance;
     points.iter().all(is_on).then_some(PlaneEquation { normal, offset })

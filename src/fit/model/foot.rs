@@ -3,6 +3,7 @@
 use super::locks::{Lock, along, on_side};
 use crate::control::Pool;
 use crate::layout::{Layout, Place};
+use crate::linalg::Symmetric2;
 use crate::memory;
 use crate::surface::Surface;
 use crate::surface::pht::PhtSurface;
@@ -84,13 +85,12 @@ fn step_along(miss: DVec3, tangent: DVec3) -> f64 {
 
 /// The step that would reach the foot on the tangent plane.
 fn step(miss: DVec3, along_u: DVec3, along_v: DVec3) -> DVec2 {
-    let (a, b, c) = (along_u.length_squared(), along_u.dot(along_v), along_v.length_squared());
-    let (p, q) = (along_u.dot(miss), along_v.dot(miss));
-    let determinant = (a * c - b * b).max(LEAST_ANGLE * a * c);
+    let metric = Symmetric2::of_products(along_u, along_v);
+    let determinant = metric.determinant().max(LEAST_ANGLE * metric.uu * metric.vv);
     if !(determinant > 0.0) {
         return DVec2::ZERO;
     }
-    let step = DVec2::new(c * p - b * q, a * q - b * p) / determinant;
+    let step = metric.adjugate(DVec2::new(along_u.dot(miss), along_v.dot(miss))) / determinant;
     step.clamp(DVec2::splat(-LONGEST_STEP), DVec2::splat(LONGEST_STEP))
 }
 

@@ -12,6 +12,7 @@
 //! pictures of edge and vertex then agree.
 
 use crate::layout::{Layout, Place, Sector, Side};
+use crate::linalg::shares;
 use glam::DVec2;
 use std::f64::consts::TAU;
 
@@ -97,9 +98,8 @@ impl<'a> Chart<'a> {
                 }
                 let k = k.min(sector.valence() - 1);
                 let [first, second] = rays(sector, k);
-                let area = first.perp_dot(second);
-                let [along, across] = [point.perp_dot(second), first.perp_dot(point)];
-                inside(sector.corners[k].place((along / area).max(0.0), (across / area).max(0.0)))
+                let [along, across] = shares(point, first, second).to_array();
+                inside(sector.corners[k].place(along.max(0.0), across.max(0.0)))
             }
         }
     }

@@ -5,6 +5,7 @@
 //! tessellation: the answer is the global minimum where no other is nearer by less than the tessellation is off.
 
 use super::ProjectOptions;
+use crate::linalg::Symmetric2;
 use crate::mesh::Mesh;
 use crate::query::tessellate::subdivide::subdivided;
 use crate::query::tessellate::{TessellateError, TessellateOptions, tessellate};
@@ -117,13 +118,12 @@ impl FacetProjector {
         self.surface.eval_rows(&[uv], 2, &mut rows);
         let [s, su, sv, suu, suv, svv] = [0, 3, 6, 9, 12, 15].map(|k| DVec3::from_slice(&rows[k..]));
         let r = s - point;
-        let metric = [su.dot(su), su.dot(sv), sv.dot(sv)];
-        let bent = [r.dot(suu), r.dot(suv), r.dot(svv)];
+        let metric = Symmetric2::of_products(su, sv);
         Local {
             distance_sq: r.length_squared(),
-            slope: [r.dot(su), r.dot(sv)],
+            slope: DVec2::new(r.dot(su), r.dot(sv)),
             metric,
-            hessian: [0, 1, 2].map(|k| metric[k] + bent[k]),
+            hessian: metric + Symmetric2 { uu: r.dot(suu), uv: r.dot(suv), vv: r.dot(svv) },
         }
     }
 }
@@ -134,24 +134,20 @@ const PARALLEL: f64 = 1e-14;
 /// Half the squared distance with its derivatives.
 struct Local {
     distance_sq: f64,
-    slope: [f64; 2],
-    metric: [f64; 3],
-    hessian: [f64; 3],
+    slope: DVec2,
+    metric: Symmetric2,
+    hessian: Symmetric2,
 }
 
 impl Local {
     /// The damped Newton step, with the metric alone where the Hessian is not positive.
     fn step(&self, damping: f64) -> DVec2 {
-        let is_positive = |[a, b, c]: [f64; 3]| a > 0.0 && c > 0.0 && a * c > b * b;
-        let [a, b, c] = if is_positive(self.hessian) { self.hessian } else { self.metric };
-        let added = damping * (self.metric[0] + self.metric[2]);
-        let (a, c) = (a + added, c + added);
-        let determinant = a * c - b * b;
-        let [p, q] = self.slope;
-        if !(determinant > PARALLEL * a * c) {
+        let matrix = if self.hessian.is_positive() { self.hessian } else { self.metric };
+        let matrix = matrix.shifted(damping * self.metric.trace());
+        if matrix.is_within(PARALLEL) {
             // parallel tangents: straight down
-            return -DVec2::new(p, q) / (a + c).max(f64::MIN_POSITIVE);
+            return -self.slope / matrix.trace().max(f64::MIN_POSITIVE);
         }
-        DVec2::new(b * q - c * p, b * p - a * q) / determinant
+        matrix.solve(-self.slope)
     }
 }

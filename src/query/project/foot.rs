@@ -5,6 +5,8 @@
 //! (K. Levenberg 1944, D. Marquardt 1963), starting from the Gauss-Newton matrix, which never is negative.
 
 use super::kernel::{Form, MAX_FUNCTIONS};
+use crate::linalg::Symmetric2;
+use glam::DVec2;
 
 /// Most steps; a regular foot point takes three or four, a singular one some twenty.
 const MAX_STEPS: usize = 60;
@@ -34,10 +36,10 @@ pub(super) struct Foot {
 struct Local {
     distance_sq: f64,
     slope: [f64; 2],
-    /// uu, uv, vv of the full Hessian.
-    hessian: [f64; 3],
+    /// The full Hessian.
+    hessian: Symmetric2,
     /// The part of it without second derivatives of the surface.
-    metric: [f64; 3],
+    metric: Symmetric2,
 }
 
 /// The squared distance at a place.
@@ -86,16 +88,20 @@ fn constrained_step(form: &Form, here: &Local, at: [f64; 2], damping: f64) -> [f
             || (at[k] >= 1.0 && here.slope[k] <= 0.0)
             || form.degree[k] == 0
     };
-    let added = damping * (here.metric[0] + here.metric[2]);
+    let added = damping * here.metric.trace();
     let along = |k: usize| {
-        let curvature = if here.hessian[2 * k] > 0.0 { here.hessian[2 * k] } else { here.metric[2 * k] };
+        let [bent, flat] = [here.hessian, here.metric].map(|matrix| [matrix.uu, matrix.vv][k]);
+        let curvature = if bent > 0.0 { bent } else { flat };
         single_step(here.slope[k], curvature + added)
     };
     match [is_held(0), is_held(1)] {
         [true, true] => [0.0; 2],
         [true, false] => [0.0, along(1)],
         [false, true] => [along(0), 0.0],
-        [false, false] => boxed_step(here, positive(here, added), at),
+        [false, false] => {
+            let matrix = if here.hessian.is_positive() { here.hessian } else { here.metric };
+            boxed_step(here, matrix.shifted(added), at)
+        }
     }
 }
 
@@ -105,17 +111,17 @@ const PARALLEL: f64 = 1e-14;
 
 /// The minimum of the model in the box around `at`, or on the side it crosses first.
 #[inline(always)]
-fn boxed_step(here: &Local, [a, b, c]: [f64; 3], at: [f64; 2]) -> [f64; 2] {
+fn boxed_step(here: &Local, matrix: Symmetric2, at: [f64; 2]) -> [f64; 2] {
     let [p, q] = here.slope;
-    let determinant = a * c - b * b;
+    let Symmetric2 { uu: a, uv: b, vv: c } = matrix;
     let clip = |k: usize, step: f64| step.clamp(-at[k], 1.0 - at[k]);
-    if determinant <= PARALLEL * a * c {
+    if matrix.is_within(PARALLEL) {
         // parallel tangents: down the slope to the minimum of the model along it
         let curvature = (a * p + 2.0 * b * q) * p + c * q * q;
         let length = if curvature > 0.0 { (p * p + q * q) / curvature } else { 1.0 };
         return [clip(0, -length * p), clip(1, -length * q)];
     }
-    let mut step = [(b * q - c * p) / determinant, (b * p - a * q) / determinant];
+    let mut step = matrix.solve(DVec2::new(-p, -q)).to_array();
     // beyond a side the other parameter's best place moves with the one that is held
     let excess = [0, 1].map(|k| (step[k] - clip(k, step[k])).abs());
     if excess[0] > 0.0 && excess[0] >= excess[1] {
@@ -131,15 +137,6 @@ fn boxed_step(here: &Local, [a, b, c]: [f64; 3], at: [f64; 2]) -> [f64; 2] {
 #[inline(always)]
 fn single_step(slope: f64, curvature: f64) -> f64 {
     if curvature > 0.0 { -slope / curvature } else { -slope.signum() * f64::from(slope != 0.0) }
-}
-
-/// The Hessian if it is positive, else the metric, with `added` on the diagonal.
-#[inline(always)]
-fn positive(here: &Local, added: f64) -> [f64; 3] {
-    let [a, b, c] = here.hessian;
-    let is_positive = a > 0.0 && c > 0.0 && a * c > b * b;
-    let [a, b, c] = if is_positive { here.hessian } else { here.metric };
-    [a + added, b, c + added]
 }
 
 /// Bernstein functions of `degree < N` with first and second derivatives.
@@ -212,10 +209,10 @@ fn local_of<const N: usize>(
         sum.distance_sq += r[0] * r[0];
         sum.slope[0] += r[0] * r[1];
         sum.slope[1] += r[0] * r[2];
-        for (k, product) in [r[1] * r[1], r[1] * r[2], r[2] * r[2]].into_iter().enumerate() {
-            sum.metric[k] += product;
-            sum.hessian[k] += product + r[0] * r[3 + k];
-        }
+        let metric = Symmetric2 { uu: r[1] * r[1], uv: r[1] * r[2], vv: r[2] * r[2] };
+        let bent = Symmetric2 { uu: r[0] * r[3], uv: r[0] * r[4], vv: r[0] * r[5] };
+        sum.metric = sum.metric + metric;
+        sum.hessian = sum.hessian + (metric + bent);
     }
     sum
 }

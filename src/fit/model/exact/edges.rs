@@ -1,8 +1,9 @@
 //! Where planes and cylinders meet: lines, circles and ellipses, and the points where three of them do.
 
 use super::evidence::{gradient, least_aligned, signed_distance};
+use crate::linalg::Symmetric2;
 use crate::model::{Arc, Carrier, Cylinder, EdgeCurve, Frame, Plane};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::{PI, TAU};
 
@@ -51,9 +52,8 @@ fn planes(Plane(a): &Plane, Plane(b): &Plane, near: &[DVec3]) -> Option<Meeting>
     let middle = near.iter().sum::<DVec3>() / near.len().max(1) as f64;
     let off = [a, b].map(|frame| (frame.origin() - middle).dot(frame.z()));
     let cosine = a.z().dot(b.z());
-    let determinant = 1.0 - cosine * cosine;
-    let shares = [(off[0] - cosine * off[1]) / determinant, (off[1] - cosine * off[0]) / determinant];
-    let origin = middle + shares[0] * a.z() + shares[1] * b.z();
+    let shares = Symmetric2 { uu: 1.0, uv: cosine, vv: 1.0 }.solve(DVec2::from_array(off));
+    let origin = middle + shares.x * a.z() + shares.y * b.z();
     Some(Meeting { shape: Shape::Line { origin, along }, is_smooth: false })
 }
 

@@ -1,9 +1,10 @@
 //! Planes and cylinders by least squares from the nodes and facets of a region.
 
+use crate::linalg::principal_axes;
 use crate::memory::CollectVec;
 use crate::mesh::Mesh;
 use crate::model::{Carrier, Cylinder, Frame, Plane};
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 use nalgebra::{Matrix3, SMatrix, SVector};
 
 /// What a region says of the surface under it.
@@ -233,13 +234,9 @@ impl Evidence {
         (cylinder.radius() <= LARGEST_RADIUS * self.extent).then_some(cylinder)
     }
 
-    /// Eigenvectors of the sum of squares of some vectors, that of the least eigenvalue first.
+    /// Principal axes of some vectors, that of the least spread first.
     fn axes(&self, vectors: impl Iterator<Item = DVec3>) -> Option<[DVec3; 3]> {
-        let sum = vectors.fold(DMat3::ZERO, |sum, v| sum + DMat3::from_cols(v.x * v, v.y * v, v.z * v));
-        let eigen = Matrix3::from_column_slice(&sum.to_cols_array()).symmetric_eigen();
-        let mut order = [0, 1, 2];
-        order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
-        let axes = order.map(|k| DVec3::from_slice(eigen.eigenvectors.column(k).as_slice()));
+        let axes = principal_axes(vectors);
         axes.iter().all(|axis| axis.is_finite()).then_some(axes)
     }
 }

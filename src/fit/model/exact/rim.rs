@@ -4,9 +4,9 @@
 //! a plane, or on a plane through a cylinder.
 
 use super::evidence::{circle, least_aligned};
+use crate::linalg::principal_axes;
 use crate::model::{Carrier, Cylinder, Frame, Plane};
-use glam::{DMat3, DVec2, DVec3};
-use nalgebra::Matrix3;
+use glam::{DVec2, DVec3};
 
 /// What meets a carrier along some places within a distance.
 pub(super) fn rim(carrier: &Carrier, places: &[DVec3], reach: f64) -> Option<Carrier> {
@@ -30,12 +30,7 @@ fn middle(places: &[DVec3]) -> DVec3 {
 /// Directions in which places spread, the least first.
 fn spread(places: &[DVec3]) -> [DVec3; 3] {
     let centre = middle(places);
-    let outer = |v: DVec3| DMat3::from_cols(v.x * v, v.y * v, v.z * v);
-    let sum = places.iter().fold(DMat3::ZERO, |sum, &place| sum + outer(place - centre));
-    let eigen = Matrix3::from_column_slice(&sum.to_cols_array()).symmetric_eigen();
-    let mut order = [0, 1, 2];
-    order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
-    order.map(|k| DVec3::from_slice(eigen.eigenvectors.column(k).as_slice()))
+    principal_axes(places.iter().map(|&place| place - centre))
 }
 
 fn plane(origin: DVec3, normal: DVec3) -> Option<Carrier> {
