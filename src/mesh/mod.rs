@@ -6,6 +6,7 @@
 //! nodes where the surface only touches itself ([`Mesh::pinched_nodes`]). Arrays and files that are no mesh yet are
 //! repaired ([`Repair`]) where that needs no guess.
 
+mod boundary;
 mod cut;
 mod decimate;
 mod error;
@@ -19,6 +20,7 @@ mod tests;
 mod topology;
 mod weld;
 
+pub(crate) use boundary::{close_loop, loop_edges};
 pub use cut::{CutError, Piece};
 pub(crate) use decimate::Quadric;
 pub use decimate::{DecimateError, DecimateOptions, DecimateReport, Decimation};
@@ -534,8 +536,7 @@ fn ordered_loops(points: &[DVec3], triangles: &[[u32; 3]], topology: &Topology) 
         let mut nodes: Vec<u32> = chain.iter().map(|half_edge| half_edge.origin(triangles)).collect_vec();
         let smallest = (0..nodes.len()).min_by_key(|&i| nodes[i]).unwrap_or(0);
         nodes.rotate_left(smallest);
-        let ends = nodes.iter().zip(nodes.iter().cycle().skip(1));
-        let length = ends.map(|(&a, &b)| points[a as usize].distance(points[b as usize])).sum();
+        let length = loop_edges(&nodes).map(|[a, b]| points[a as usize].distance(points[b as usize])).sum();
         loops.push((length, nodes));
     }
     loops.sort_by(|(a, x), (b, y)| b.total_cmp(a).then_with(|| x.cmp(y)));

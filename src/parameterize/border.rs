@@ -13,7 +13,7 @@
 
 use super::{Border, ParameterizeError, ParameterizeOptions, patch};
 use crate::memory::{self, CollectVec};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, loop_edges};
 use glam::{DVec2, DVec3};
 
 /// Corners are wanted this far apart, as a share of the border, before any place will do: below it lies rounding.
@@ -125,7 +125,7 @@ impl BorderLine {
     pub(super) fn slid(&self, s: &[f64], eta: f64) -> Self {
         let mut line = self.clone();
         if self.slide > 0.0 {
-            for (length, (a, b)) in line.lengths.iter_mut().zip(patch::edges(&self.nodes)) {
+            for (length, [a, b]) in line.lengths.iter_mut().zip(loop_edges(&self.nodes)) {
                 *length *= (s[a as usize] * s[b as usize]).powf(self.slide * eta / 2.0);
             }
         }

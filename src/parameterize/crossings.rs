@@ -4,7 +4,6 @@
 //! its tree: few pieces are over one place. All decisions are exact. Without flips and without such meetings a map
 //! covers no place twice, and its trims are simple polygons.
 
-use super::patch::edges;
 use crate::geometry::{Orientation, orientation};
 use crate::memory::{self, CollectVec};
 use crate::mesh::Mesh;
@@ -33,8 +32,7 @@ fn visit_meetings(
     uv: &[DVec2],
     mut visit: impl FnMut([u32; 2], [u32; 2]) -> ControlFlow<()>,
 ) -> ControlFlow<()> {
-    let mut pieces: Vec<[u32; 2]> =
-        mesh.loops().iter().flat_map(|nodes| edges(nodes).map(|(a, b)| [a, b])).collect_vec();
+    let mut pieces: Vec<[u32; 2]> = mesh.boundary_edges().collect_vec();
     let place = |node: u32| uv[node as usize];
     let left = |piece: &[u32; 2]| place(piece[0]).x.min(place(piece[1]).x);
     let right = |piece: &[u32; 2]| place(piece[0]).x.max(place(piece[1]).x);

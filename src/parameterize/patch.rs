@@ -6,7 +6,7 @@
 use super::ParameterizeError;
 use crate::lists::Lists;
 use crate::memory::{self, CollectVec};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, close_loop, loop_edges};
 use glam::DVec3;
 use std::cmp::Ordering;
 
@@ -19,9 +19,9 @@ pub(super) struct Neighbours(Lists);
 
 impl Neighbours {
     /// From half-edges and the reverses of those without a partner.
-    fn new(node_count: usize, triangles: &[[u32; 3]], open_edges: &[(u32, u32)]) -> Self {
+    fn new(node_count: usize, triangles: &[[u32; 3]], open_edges: &[[u32; 2]]) -> Self {
         let inner = triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
-        let half_edges = inner.chain(open_edges.iter().map(|&(a, b)| (b, a)));
+        let half_edges = inner.chain(open_edges.iter().map(|&[a, b]| (b, a)));
         let mut lists = Lists::new(node_count, half_edges);
         (0..node_count).for_each(|node| lists.of_mut(node).sort_unstable());
         Self(lists)
@@ -94,13 +94,13 @@ impl Patch {
         let all = [outer.clone(), inner.clone()].concat();
         let (open, fixed) = match holes {
             Holes::Filled => {
-                inner.iter().for_each(|hole| fill(hole, &mut points, &mut triangles));
+                inner.iter().for_each(|hole| close_loop(hole, &mut points, &mut triangles));
                 (outer.clone(), outer)
             }
             Holes::Open => (all, outer),
             Holes::Fixed => (all.clone(), all),
         };
-        let open_edges: Vec<(u32, u32)> = open.iter().flat_map(|nodes| edges(nodes)).collect_vec();
+        let open_edges: Vec<[u32; 2]> = open.iter().flat_map(|nodes| loop_edges(nodes)).collect_vec();
         let neighbours = Neighbours::new(points.len(), &triangles, &open_edges);
         let mut is_fixed: Vec<bool> = (0..points.len()).map(|i| neighbours.slots(i).is_empty()).collect_vec();
         fixed.iter().copied().flatten().for_each(|&node| is_fixed[node as usize] = true);
@@ -135,7 +135,7 @@ const SAME_LENGTH: f64 = 1e-9;
 /// so that it is the same one however nodes are numbered.
 pub(super) fn outer_loop(mesh: &Mesh) -> Option<usize> {
     let place = |node: u32| mesh.points()[node as usize];
-    let length = |nodes: &Vec<u32>| edges(nodes).map(|(a, b)| place(a).distance(place(b))).sum::<f64>();
+    let length = |nodes: &Vec<u32>| loop_edges(nodes).map(|[a, b]| place(a).distance(place(b))).sum::<f64>();
     let lengths: Vec<f64> = mesh.loops().iter().map(length).collect_vec();
     let longest = lengths.iter().copied().fold(0.0, f64::max);
     let first = |k: usize| place(mesh.loops()[k][landmark(mesh, &mesh.loops()[k])]);
@@ -153,19 +153,6 @@ pub(super) fn landmark(mesh: &Mesh, nodes: &[u32]) -> usize {
 
 fn in_space_order(a: &DVec3, b: &DVec3) -> Ordering {
     a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z))
-}
-
-/// A loop's edges, closing one last.
-pub(super) fn edges(nodes: &[u32]) -> impl Iterator<Item = (u32, u32)> + '_ {
-    nodes.iter().copied().zip(nodes.iter().copied().cycle().skip(1))
-}
-
-// The loop runs with the mesh on its left, so the fan takes its edges the other way.
-fn fill(hole: &[u32], points: &mut Vec<DVec3>, triangles: &mut Vec<[u32; 3]>) {
-    let centre = points.len() as u32;
-    let sum: DVec3 = hole.iter().map(|&node| points[node as usize]).sum();
-    points.push(sum / hole.len() as f64);
-    triangles.extend(edges(hole).map(|(a, b)| [b, a, centre]));
 }
 
 /// Refuses what is no disk, naming what is in the way.

@@ -74,7 +74,7 @@ impl Placement {
         let mut lines = memory::filled(Line::None, uv.len());
         sharp.0.iter().flatten().for_each(|&node| lines[node as usize] = Line::Crease);
         mesh.loops().iter().flatten().for_each(|&node| lines[node as usize] = Line::Boundary);
-        let boundary = boundary_edges(coarse).map(segment).collect_vec();
+        let boundary = coarse.boundary_edges().map(segment).collect_vec();
         let creases = sharp.1.iter().copied().map(segment).collect_vec();
         let mut placement = Self { uv, lines, boundary, creases };
         placement.uv =
@@ -96,12 +96,6 @@ impl Placement {
 fn flat(mesh: &Mesh) -> Option<Mesh> {
     let places = mesh.parameters()?.iter().map(|uv| uv.extend(0.0));
     Mesh::new(places.collect_vec(), memory::copied(mesh.triangles())).ok()
-}
-
-fn boundary_edges(mesh: &Mesh) -> impl Iterator<Item = [u32; 2]> {
-    mesh.loops()
-        .iter()
-        .flat_map(|nodes| nodes.iter().zip(nodes.iter().cycle().skip(1)).map(|(&from, &to)| [from, to]))
 }
 
 /// The nearest place on some segments; the point itself if there are none.

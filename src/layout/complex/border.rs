@@ -6,7 +6,7 @@
 //!     tip           node of the border, as many triangles must be left.
 //! ```
 
-use crate::mesh::{Mesh, MeshError};
+use crate::mesh::{Mesh, MeshError, close_loop};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_4, PI};
@@ -79,12 +79,7 @@ impl Border {
     fn closed(mesh: &Mesh) -> Result<Self, MeshError> {
         let first_tip = mesh.points().len() as u32;
         let (mut points, mut triangles) = (mesh.points().to_vec(), mesh.triangles().to_vec());
-        for nodes in mesh.loops() {
-            let tip = points.len() as u32;
-            let sum: DVec3 = nodes.iter().map(|&node| mesh.points()[node as usize]).sum();
-            points.push(sum / nodes.len() as f64);
-            triangles.extend(pairs(nodes).map(|[a, b]| [b, a, tip]));
-        }
+        mesh.loops().iter().for_each(|nodes| close_loop(nodes, &mut points, &mut triangles));
         Ok(Self {
             nodes: vec![None; points.len()],
             lengths: Vec::new(),
@@ -143,11 +138,6 @@ impl Border {
         }
         self.lengths.push(line.length());
     }
-}
-
-/// Each node with the next, around.
-fn pairs(nodes: &[u32]) -> impl Iterator<Item = [u32; 2]> + '_ {
-    nodes.iter().zip(nodes.iter().cycle().skip(1)).map(|(&a, &b)| [a, b])
 }
 
 /// The angles of the triangles at a node.
