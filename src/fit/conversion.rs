@@ -8,6 +8,7 @@ use crate::Control;
 use crate::control::Stage;
 use crate::failure::{Classify, ErrorKind};
 use crate::model::{FormOptions, Model, ModelError, of_surface};
+use crate::options::with_fields;
 use crate::query::tessellate::{TessellateError, TessellateOptions, tessellate_watched};
 use crate::surface::AnySurface;
 use crate::surface::d1rc::D1rcSurface;
@@ -21,6 +22,13 @@ pub struct ConversionOptions {
     /// A spline over triangles becomes a tensor surface fitted within this, in model units, at the nodes of a fine
     /// tessellation; 0 takes 1e-3 of the diagonal.
     pub tolerance: f64,
+}
+
+impl ConversionOptions {
+    with_fields! {
+        with_form form: FormOptions,
+        with_tolerance tolerance: f64,
+    }
 }
 
 /// A surface has no model.

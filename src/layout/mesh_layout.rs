@@ -4,6 +4,7 @@ use super::{Layout, LayoutError, NodeMap};
 use crate::control::Cancelled;
 use crate::failure::{Classify, ErrorKind};
 use crate::mesh::MeshError;
+use crate::options::with_fields;
 use crate::parameterize::sphere::SphereError;
 
 /// Which layout a mesh gets.
@@ -32,6 +33,14 @@ pub struct MeshLayoutOptions {
 impl Default for MeshLayoutOptions {
     fn default() -> Self {
         Self { kind: LayoutKind::Auto, patches: 40, sweeps: 300 }
+    }
+}
+
+impl MeshLayoutOptions {
+    with_fields! {
+        with_kind kind: LayoutKind,
+        with_patches patches: usize,
+        with_sweeps sweeps: usize,
     }
 }
 

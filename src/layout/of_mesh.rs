@@ -11,23 +11,6 @@ use crate::mesh::Mesh;
 use crate::parameterize::sphere::{SphereOptions, map_to_sphere};
 use std::time::Instant;
 
-impl MeshLayoutOptions {
-    /// The same with another kind.
-    pub const fn with_kind(self, kind: LayoutKind) -> Self {
-        Self { kind, ..self }
-    }
-
-    /// The same with another number of patches.
-    pub const fn with_patches(self, patches: usize) -> Self {
-        Self { patches, ..self }
-    }
-
-    /// The same with another number of sweeps.
-    pub const fn with_sweeps(self, sweeps: usize) -> Self {
-        Self { sweeps, ..self }
-    }
-}
-
 /// Makes a layout for a mesh of one component, closed or with a border.
 pub fn layout_of_mesh(
     mesh: &Mesh,

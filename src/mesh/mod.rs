@@ -33,6 +33,7 @@ pub use topology::{HalfEdge, Topology};
 
 use crate::geometry::{Bounds, safe_scale};
 use crate::memory::{self, CollectVec};
+use crate::options::with_fields;
 use glam::{DVec2, DVec3};
 use polygon::Triangulation;
 use repair::Draft;
@@ -55,24 +56,12 @@ pub struct MeshOptions {
 }
 
 impl MeshOptions {
-    /// The same with another weld distance.
-    pub const fn with_weld_distance(self, weld_distance: f64) -> Self {
-        Self { weld_distance, ..self }
-    }
-
-    /// The same with another choice of what is mended.
-    pub const fn with_repair(self, repair: Repair) -> Self {
-        Self { repair, ..self }
-    }
-
-    /// The same for other components.
-    pub const fn with_components(self, components: Components) -> Self {
-        Self { components, ..self }
-    }
-
-    /// The same for nodes counted from another number.
-    pub const fn with_index_base(self, index_base: u32) -> Self {
-        Self { index_base, ..self }
+    with_fields! {
+        with_weld_distance weld_distance: f64,
+        with_repair repair: Repair,
+        with_components components: Components,
+        with_index_base index_base: u32,
+        with_max_memory max_memory: u64,
     }
 }
 

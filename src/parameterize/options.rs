@@ -1,6 +1,7 @@
 //! What can be chosen about a map.
 
 use super::ParameterizeError;
+use crate::options::with_fields;
 
 /// Which weights an interior node gives its neighbours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -94,44 +95,15 @@ impl ParameterizeOptions {
     /// The harmonic map alone.
     pub const HARMONIC: Self = Self { method: Method::Harmonic, ..Self::MEAN_VALUE };
 
-    /// The same with other weights.
-    pub const fn with_method(self, method: Method) -> Self {
-        Self { method, ..self }
-    }
-
-    /// The same with another border.
-    pub const fn with_border(self, border: Border) -> Self {
-        Self { border, ..self }
-    }
-
-    /// The same with another limit of stretch steps.
-    pub const fn with_stretch_steps(self, stretch_steps: usize) -> Self {
-        Self { stretch_steps, ..self }
-    }
-
-    /// The same with another number of smoothing sweeps.
-    pub const fn with_rings(self, rings: usize) -> Self {
-        Self { rings, ..self }
-    }
-
-    /// The same with another bulge.
-    pub const fn with_bulge(self, bulge: f64) -> Self {
-        Self { bulge, ..self }
-    }
-
-    /// The same with or without fans in holes.
-    pub const fn with_fill_holes(self, fill_holes: bool) -> Self {
-        Self { fill_holes, ..self }
-    }
-
-    /// The same with sliding border nodes.
-    pub const fn with_boundary_slide(self, boundary_slide: f64) -> Self {
-        Self { boundary_slide, ..self }
-    }
-
-    /// The same with or without unrolling.
-    pub const fn with_unroll(self, unroll: bool) -> Self {
-        Self { unroll, ..self }
+    with_fields! {
+        with_method method: Method,
+        with_border border: Border,
+        with_stretch_steps stretch_steps: usize,
+        with_rings rings: usize,
+        with_bulge bulge: f64,
+        with_fill_holes fill_holes: bool,
+        with_boundary_slide boundary_slide: f64,
+        with_unroll unroll: bool,
     }
 
     pub(super) fn check(&self) -> Result<(), ParameterizeError> {

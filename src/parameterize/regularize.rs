@@ -13,6 +13,7 @@ use crate::Control;
 use crate::control::Stage;
 use crate::memory::{self, CollectVec};
 use crate::mesh::Mesh;
+use crate::options::with_fields;
 use glam::{DVec2, DVec3};
 use std::time::Instant;
 
@@ -62,19 +63,10 @@ impl RegularizeOptions {
     /// 30 degrees: less splits round boundaries, more loses corners of cut sheets.
     pub const DEFAULT_CORNER_ANGLE: f64 = std::f64::consts::PI / 6.0;
 
-    /// The same with or without the test.
-    pub const fn with_when(self, when: RegularizeWhen) -> Self {
-        Self { when, ..self }
-    }
-
-    /// The same with another rule for boundary nodes.
-    pub const fn with_boundary(self, boundary: Boundary) -> Self {
-        Self { boundary, ..self }
-    }
-
-    /// The same with another corner angle.
-    pub const fn with_corner_angle(self, corner_angle: f64) -> Self {
-        Self { corner_angle, ..self }
+    with_fields! {
+        with_when when: RegularizeWhen,
+        with_boundary boundary: Boundary,
+        with_corner_angle corner_angle: f64,
     }
 }
 

@@ -6,6 +6,7 @@ use crate::control::Pool;
 use crate::failure::{Classify, ErrorKind};
 use crate::memory::{self, CollectVec, ParallelCollectVec};
 use crate::mesh::Mesh;
+use crate::options::with_fields;
 use crate::query::extent::bounding_box;
 use crate::query::project::{ProjectError, ProjectOptions, Projector};
 use crate::query::tessellate::{TessellateError, TessellateOptions, tessellate_watched};
@@ -41,6 +42,16 @@ impl Default for DeviationOptions {
             chord_tolerance: 0.0,
             max_edge_length: 0.0,
         }
+    }
+}
+
+impl DeviationOptions {
+    with_fields! {
+        with_keep_trims keep_trims: bool,
+        with_use_parameters use_parameters: bool,
+        with_measure_back measure_back: bool,
+        with_chord_tolerance chord_tolerance: f64,
+        with_max_edge_length max_edge_length: f64,
     }
 }
 

@@ -6,6 +6,7 @@ use crate::layout::of_mesh::{LayoutKind, MeshLayoutOptions};
 use crate::layout::{Layout, Place};
 use crate::mesh::{FeatureOptions, Mesh};
 use crate::model::{FaceId, Model, NodePlace, PatchPiece, Planes};
+use crate::options::with_fields;
 use crate::summary::summarize;
 use crate::surface::pht::PhtSurface;
 use glam::DVec2;
@@ -50,6 +51,17 @@ impl Default for MeshModelOptions<'_> {
             layout: MeshLayoutOptions::default(),
             level_spread: 1,
         }
+    }
+}
+
+impl<'a> MeshModelOptions<'a> {
+    with_fields! {
+        with_family family: Family,
+        with_exact exact: bool,
+        with_features features: FeatureOptions<'a>,
+        with_fit fit: ModelOptions,
+        with_layout layout: MeshLayoutOptions,
+        with_level_spread level_spread: u32,
     }
 }
 

@@ -27,6 +27,7 @@ use super::{Creases, Layout, NodeMap, Place, Sector, Side, complex};
 use crate::Control;
 use crate::control::Stage;
 use crate::mesh::{Features, Mesh, Regions};
+use crate::options::with_fields;
 use border::{ChainEdge, Loop};
 use fill::Quads;
 use over::Halving;
@@ -53,14 +54,9 @@ impl Default for FeatureLayoutOptions {
 }
 
 impl FeatureLayoutOptions {
-    /// The same with another number of patches.
-    pub const fn with_patches(self, patches: usize) -> Self {
-        Self { patches, ..self }
-    }
-
-    /// The same with another number of sweeps.
-    pub const fn with_sweeps(self, sweeps: usize) -> Self {
-        Self { sweeps, ..self }
+    with_fields! {
+        with_patches patches: usize,
+        with_sweeps sweeps: usize,
     }
 }
 

@@ -23,6 +23,7 @@ use crate::control::{Cancelled, Control, Stage};
 use crate::failure::{Classify, ErrorKind};
 use crate::geometry::{Orientation, orientation};
 use crate::memory::{self, CollectVec};
+use crate::options::with_fields;
 use collapse::Collapsing;
 use features::Features;
 use glam::{DVec2, DVec3};
@@ -60,19 +61,12 @@ impl Default for DecimateOptions<'_> {
 }
 
 impl<'a> DecimateOptions<'a> {
-    /// The same for another number of nodes.
-    pub const fn with_target_count(self, target_count: usize) -> Self {
-        Self { target_count, ..self }
-    }
-
-    /// The same with sharp edges found by their angle.
-    pub const fn with_sharp_angle(self, sharp_angle: Option<f64>) -> Self {
-        Self { sharp_angle, ..self }
-    }
-
-    /// The same with these sharp edges.
-    pub const fn with_sharp_edges(self, sharp_edges: &'a [[u32; 2]]) -> Self {
-        Self { sharp_edges, ..self }
+    with_fields! {
+        with_target_count target_count: usize,
+        with_sharp_angle sharp_angle: Option<f64>,
+        with_sharp_edges sharp_edges: &'a [[u32; 2]],
+        with_corner_angle corner_angle: f64,
+        with_keep_map keep_map: bool,
     }
 
     /// The parameters that count.

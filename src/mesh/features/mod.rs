@@ -21,6 +21,7 @@ use super::decimate::{half_edges, normal};
 use super::{HalfEdge, Mesh};
 use crate::failure::{Classify, ErrorKind};
 use crate::memory::CollectVec;
+use crate::options::with_fields;
 use chains::Net;
 use glam::DVec3;
 pub use regions::{Region, Regions, Side};
@@ -66,24 +67,15 @@ impl Default for FeatureOptions<'_> {
 }
 
 impl<'a> FeatureOptions<'a> {
-    /// The same with another angle of sharp edges.
-    pub const fn with_sharp_angle(self, sharp_angle: Option<f64>) -> Self {
-        Self { sharp_angle, ..self }
-    }
-
-    /// The same with another angle of edges along which chains go on.
-    pub const fn with_weak_angle(self, weak_angle: f64) -> Self {
-        Self { weak_angle, ..self }
-    }
-
-    /// The same with further feature edges.
-    pub const fn with_sharp_edges(self, sharp_edges: &'a [[u32; 2]]) -> Self {
-        Self { sharp_edges, ..self }
-    }
-
-    /// The same with labels.
-    pub const fn with_labels(self, labels: &'a [u32]) -> Self {
-        Self { labels, ..self }
+    with_fields! {
+        with_sharp_angle sharp_angle: Option<f64>,
+        with_weak_angle weak_angle: f64,
+        with_corner_angle corner_angle: f64,
+        with_least_length least_length: f64,
+        with_sharp_edges sharp_edges: &'a [[u32; 2]],
+        with_labels labels: &'a [u32],
+        with_filter_noise filter_noise: bool,
+        with_find_blunt find_blunt: bool,
     }
 
     /// Refuses options out of their ranges, labels that are not as many as triangles, and sharp edges that the mesh does

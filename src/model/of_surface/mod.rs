@@ -15,6 +15,7 @@ use super::{Builder, Coedge, Model, ModelError, Role};
 use crate::control::Watch;
 use crate::curve::Curve;
 use crate::geometry::{Bounds, Domain};
+use crate::options::with_fields;
 use crate::surface::tensor::{Axis, TensorSurface};
 use crate::surface::{AnySurface, ConvertError, Surface};
 use glam::{DVec2, DVec3};
@@ -48,6 +49,14 @@ pub struct FormOptions {
 impl Default for FormOptions {
     fn default() -> Self {
         Self { form: Form::default(), level_spread: 1, max_coefficients: 4_000_000 }
+    }
+}
+
+impl FormOptions {
+    with_fields! {
+        with_form form: Form,
+        with_level_spread level_spread: u32,
+        with_max_coefficients max_coefficients: usize,
     }
 }
 

@@ -31,6 +31,7 @@ use crate::curve::Curve;
 use crate::failure::{Classify, ErrorKind};
 use crate::geometry::{Bounds, Domain, safe_scale};
 use crate::memory::{self, CollectVec};
+use crate::options::with_fields;
 use crate::surface::{Kind, Surface};
 use cells::{curve_cells, surface_cells, trim_pieces};
 use facets::FacetProjector;
@@ -56,6 +57,14 @@ pub struct ProjectOptions<'a> {
 impl Default for ProjectOptions<'_> {
     fn default() -> Self {
         Self { guesses: None, max_distance: f64::INFINITY, keep_trims: true }
+    }
+}
+
+impl<'a> ProjectOptions<'a> {
+    with_fields! {
+        with_guesses guesses: Option<&'a [DVec2]>,
+        with_max_distance max_distance: f64,
+        with_keep_trims keep_trims: bool,
     }
 }
 

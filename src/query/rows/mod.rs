@@ -15,6 +15,7 @@ use crate::control::{Cancelled, Control};
 use crate::failure::{Classify, ErrorKind};
 use crate::linalg::NotPositiveDefinite;
 use crate::mesh::{HalfEdge, Mesh};
+use crate::options::with_fields;
 use curve::{level_curve, resample};
 use field::{harmonic, levels_of_equal_area};
 use glam::DVec3;
@@ -40,6 +41,15 @@ pub struct SampleRowsOptions {
     pub row_count: usize,
     /// About how far apart points are along a row; 0 takes the mean length of the mesh's edges.
     pub spacing: f64,
+}
+
+impl SampleRowsOptions {
+    with_fields! {
+        with_begin begin: Source,
+        with_end end: Source,
+        with_row_count row_count: usize,
+        with_spacing spacing: f64,
+    }
 }
 
 /// Closed rows; no first point is repeated.

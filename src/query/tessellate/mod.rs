@@ -16,6 +16,7 @@ pub use tessellation::Tessellation;
 use crate::control::Watch;
 use crate::memory::{self, CollectVec};
 use crate::mesh::Mesh;
+use crate::options::with_fields;
 use crate::surface::Surface;
 use bisect::{Fineness, tessellate_facets};
 use glam::{DVec2, DVec3};
@@ -46,6 +47,13 @@ impl Default for TessellateOptions {
 }
 
 impl TessellateOptions {
+    with_fields! {
+        with_chord_tolerance chord_tolerance: f64,
+        with_max_edge_length max_edge_length: f64,
+        with_max_points max_points: usize,
+        with_keep_trims keep_trims: bool,
+    }
+
     /// Refuses lengths that are none.
     pub fn check(&self) -> Result<(), TessellateError> {
         for (option, value) in

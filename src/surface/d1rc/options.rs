@@ -2,6 +2,7 @@
 
 use super::error::D1rcError;
 use super::frame::Boundary;
+use crate::options::with_fields;
 
 /// Which functions there are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -55,24 +56,12 @@ impl Default for D1rcOptions {
 }
 
 impl D1rcOptions {
-    /// The same with another degree.
-    pub const fn with_degree(self, degree: usize) -> Self {
-        Self { degree, ..self }
-    }
-
-    /// The same with another mode.
-    pub const fn with_mode(self, mode: D1rcMode) -> Self {
-        Self { mode, ..self }
-    }
-
-    /// The same with another boundary rule.
-    pub const fn with_boundary(self, boundary: Boundary) -> Self {
-        Self { boundary, ..self }
-    }
-
-    /// The same with another rule for sharp edges.
-    pub const fn with_sharp(self, sharp: SharpRule) -> Self {
-        Self { sharp, ..self }
+    with_fields! {
+        with_degree degree: usize,
+        with_mode mode: D1rcMode,
+        with_boundary boundary: Boundary,
+        with_sharp sharp: SharpRule,
+        with_sharp_weight sharp_weight: f64,
     }
 
     /// The rule for sharp edges, chosen by the mode if it is automatic.

@@ -9,6 +9,7 @@ use crate::control::Watch;
 use crate::geometry::Domain;
 use crate::knots::KnotVector;
 use crate::memory::{self, CollectVec};
+use crate::options::with_fields;
 use crate::surface::tensor::{Axis, TensorSurface};
 use crate::surface::{Patches, Surface};
 use crate::tmesh::{Cell, MAX_LEVEL, NodeId, TMesh, TMeshError, Topology, Vertex};
@@ -30,6 +31,14 @@ pub struct ConvertOptions {
 impl Default for ConvertOptions {
     fn default() -> Self {
         Self { tolerance: 0.0, max_level: 12, max_cells: 200_000 }
+    }
+}
+
+impl ConvertOptions {
+    with_fields! {
+        with_tolerance tolerance: f64,
+        with_max_level max_level: u32,
+        with_max_cells max_cells: usize,
     }
 }
 
