@@ -9,9 +9,12 @@ mod fields;
 mod fits;
 mod forms;
 mod layouts;
+mod mesh_files;
+mod mesh_parts;
 mod meshes;
 mod model_fits;
 mod models;
+mod parameterizations;
 mod pht;
 mod queries;
 pub(super) mod records;
@@ -66,6 +69,9 @@ impl Surface for OtherFamily {
         out.fill(0.0);
     }
 }
+
+/// Five points in the plane.
+const POINTS: [f64; 15] = [0., 0., 0., 1., 0., 0., 1., 1., 0., 0., 1., 0., 2., 0., 1.];
 
 /// Every byte of an output before a call that must not touch it.
 const CANARY: u8 = 0xA5;
