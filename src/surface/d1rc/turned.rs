@@ -8,6 +8,9 @@ use crate::memory;
 use glam::DVec2;
 use std::ops::Range;
 
+/// A number and three corners.
+type Thing = (u32, [DVec2; 3]);
+
 /// Things of a leaf.
 const LEAF: usize = 4;
 /// Against the largest coordinate: turning a point rounds by less, and places on a border computed from its ends are not
@@ -40,7 +43,7 @@ struct Node {
 
 impl TurnedBoxes {
     /// Around things that are numbered; no coordinate is larger than `largest`.
-    pub(super) fn new(mut things: Vec<(u32, [DVec2; 3])>, largest: f64) -> Self {
+    pub(super) fn new(mut things: Vec<Thing>, largest: f64) -> Self {
         let mut tree = Self { slack: SLACK * largest, ..Self::default() };
         if !things.is_empty() {
             tree.add(&mut things);
@@ -52,7 +55,7 @@ impl TurnedBoxes {
         self.nodes.is_empty()
     }
 
-    fn add(&mut self, things: &mut [(u32, [DVec2; 3])]) {
+    fn add(&mut self, things: &mut [Thing]) {
         let place = self.nodes.len();
         memory::push(&mut self.nodes, Node::around(things, self.slack));
         if things.len() <= LEAF {
@@ -83,7 +86,7 @@ impl TurnedBoxes {
 }
 
 /// Two halves on either side of the middle, across the longer side of the box around all middles.
-fn halves(things: &mut [(u32, [DVec2; 3])]) -> (&mut [(u32, [DVec2; 3])], &mut [(u32, [DVec2; 3])]) {
+fn halves(things: &mut [Thing]) -> (&mut [Thing], &mut [Thing]) {
     let middle = |corners: &[DVec2; 3]| corners[0] + corners[1] + corners[2];
     let around = crate::geometry::Domain::around(things.iter().map(|(_, corners)| middle(corners)));
     let axis = usize::from(around.size().y > around.size().x);
@@ -96,7 +99,7 @@ fn halves(things: &mut [(u32, [DVec2; 3])]) -> (&mut [(u32, [DVec2; 3])], &mut [
 
 impl Node {
     /// Along the longest side of all things.
-    fn around(things: &[(u32, [DVec2; 3])], slack: f64) -> Self {
+    fn around(things: &[Thing], slack: f64) -> Self {
         let sides = things.iter().flat_map(|(_, [a, b, c])| [*b - *a, *c - *b, *a - *c]);
         let longest = sides.max_by(|p, q| p.length_squared().total_cmp(&q.length_squared()));
         let along = longest.unwrap_or_default().normalize_or(DVec2::X);
