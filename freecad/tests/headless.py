@@ -206,6 +206,7 @@ def creased(document):
     source = mesh_object(document, shapes.open_box(), "Control")
     obj = made(document, "SmoothCreased", Source=source, SharpAngle=100)
     assert obj.Mesh.CountPoints > 8 and obj.State == ["Up-to-date"]
+    assert obj.ControlPoints == source.Mesh.CountPoints, obj.ControlPoints
     mesh = source.Mesh.copy()
     mesh.setPoint(0, mesh.Points[0].Vector + FreeCAD.Vector(-5, -5, -5))
     surface = obj.Proxy.surface
@@ -253,7 +254,7 @@ def main():
         assert said["an upright edge of the extruded sheet"] == said["the rim of the ball cut flat"] == "valid"
         skin(document)
         decimated = made(document, "Decimate", Source=source, Nodes=150)
-        assert decimated.Mesh.CountPoints == 150
+        assert decimated.Mesh.CountPoints == 150 and decimated.Excess == 0
         creased(document)
         deviation(document, source, face)
         errors_are_sentences(document)

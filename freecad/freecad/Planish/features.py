@@ -240,15 +240,23 @@ class Decimate(Proxy):
         add(obj, "Link", "Source", "Decimate", "The mesh")
         add(obj, "Integer", "Nodes", "Decimate", "Nodes that are to be left", 1000)
         add(obj, "Angle", "SharpAngle", "Decimate", "Edges that turn by more are kept", 40.0)
+        report = (
+            ("Excess", "Nodes beyond the number asked for that had to stay"),
+            ("SharpEdges", "Edges of the coarse mesh that are sharp"),
+        )
+        for name, tip in report:
+            add(obj, "Integer", name, "Report", tip, mode=_READ_ONLY | _NO_RECOMPUTE)
 
     def execute(self, obj):
         if not obj.Source:
             return
         angle = math.radians(float(obj.SharpAngle))
         try:
-            obj.Mesh = convert.to_mesh(convert.mesh_of(obj.Source).decimate(obj.Nodes, sharp_angle=angle))
+            coarse = convert.mesh_of(obj.Source).decimate(obj.Nodes, sharp_angle=angle)
         except planish.Error as error:
             raise RuntimeError(f"{obj.Label}: {error}") from None
+        obj.Mesh = convert.to_mesh(coarse)
+        obj.Excess, obj.SharpEdges = coarse.report.excess_count, coarse.report.sharp_edge_count
 
 
 class SmoothCreased(Proxy):
@@ -261,6 +269,8 @@ class SmoothCreased(Proxy):
         add(obj, "Link", "Source", "Creased", "The control mesh")
         add(obj, "Angle", "SharpAngle", "Creased", "Edges that turn by more stay sharp", 40.0)
         add(obj, "Length", "Chord", "Creased", "Largest distance between the mesh shown and the surface; 0 chooses")
+        mode = _READ_ONLY | _NO_RECOMPUTE
+        add(obj, "Integer", "ControlPoints", "Report", "Control points of the surface", mode=mode)
 
     def execute(self, obj):
         if not obj.Source:
@@ -270,6 +280,7 @@ class SmoothCreased(Proxy):
             self._follow(points, triangles, math.radians(float(obj.SharpAngle)))
             chord = float(obj.Chord)
             obj.Mesh = convert.to_mesh(self.surface.tessellate(**({"chord_tolerance": chord} if chord > 0 else {})))
+            obj.ControlPoints = self.surface.n_control_points
         except planish.Error as error:
             raise RuntimeError(f"{obj.Label}: {error}") from None
 
