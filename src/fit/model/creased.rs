@@ -38,14 +38,15 @@ const SMOOTHING: f64 = 1e-3;
 /// A region is a plane if its nodes lie within this part of the tolerance of one: what the other errors leave.
 const PLANE_SHARE: f64 = 1.0 / 3.0;
 
-/// A body as patches and planes, which make a model; none if its features part nothing.
+/// A body as patches and planes, which make a model; none if its features part nothing. With them come the labels of its
+/// triangles, or none.
 pub(super) fn over_features(
     body: &Body,
+    (features, labels): (&Features, &[u32]),
     options: &MeshModelOptions,
     control: &mut Control,
 ) -> Result<Option<Component>, ModelFitError> {
     let mesh = &body.mesh;
-    let features = mesh.find_features(&options.features)?;
     let regions = features.regions(mesh);
     let is_parted = regions.regions.len() > 1 || !mesh.loops().is_empty();
     let (tolerance, _) = options.fit.tolerance.absolute(&mesh.bounds());
@@ -54,7 +55,7 @@ pub(super) fn over_features(
     }
     let planes =
         regions.regions.iter().map(|region| plane_of(mesh, region, PLANE_SHARE * tolerance)).collect();
-    let part = Part { mesh, features: &features, regions: &regions, labels: options.features.labels };
+    let part = Part { mesh, features, regions: &regions, labels };
     let fit = part.fit(planes, (&options.fit, tolerance), control)?;
     let component = fit.component(body, &part);
     check_shell(&component.piece, mesh.loops().is_empty(), options.level_spread)?;

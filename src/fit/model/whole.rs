@@ -25,7 +25,7 @@ use crate::fit::pht::{self, PhtOptions};
 use crate::layout::Layout;
 use crate::layout::of_mesh::{LayoutKind, MeshLayout, MeshLayoutError, MeshLayoutOptions, layout_of_mesh};
 use crate::memory;
-use crate::mesh::{FeatureOptions, Mesh};
+use crate::mesh::{FeatureOptions, Features, Mesh};
 use crate::model::{
     FaceId, Form, FormOptions, Origin, PatchModel, Patchwork, Role, ShellId, of_patches, of_surface,
 };
@@ -305,12 +305,7 @@ fn component(
     if !is_open && (!asks_for_features(options) || options.layout.kind != LayoutKind::Auto) {
         return smooth(body, options, control);
     }
-    let (labels, sharp_edges) = of_body(&options.features, body);
-    // blunt edges make more and narrower regions than layouts of patches bear
-    let features =
-        FeatureOptions { labels: &labels, sharp_edges: &sharp_edges, find_blunt: false, ..options.features };
-    let of_body = MeshModelOptions { features, ..*options };
-    match control.within(0.0, 0.5, |control| over_features(body, &of_body, control)) {
+    match control.within(0.0, 0.5, |control| creased(body, options, control)) {
         Ok(None) if is_open => Err(open_body(body)),
         Ok(Some(made)) if is_open || is_good(&made.report.fit) => Ok(made),
         Err(error) if is_open || error.kind() == ErrorKind::Cancelled => Err(error),
@@ -323,6 +318,41 @@ fn component(
             }),
         },
     }
+}
+
+/// One component over its features: those that are sharp, and where nothing good comes of them, blunt ones too.
+fn creased(
+    body: &Body,
+    options: &MeshModelOptions,
+    control: &mut Control,
+) -> Result<Option<Component>, ModelFitError> {
+    let (labels, sharp_edges) = of_body(&options.features, body);
+    let find = |find_blunt: bool| {
+        let features =
+            FeatureOptions { labels: &labels, sharp_edges: &sharp_edges, find_blunt, ..options.features };
+        body.mesh.find_features(&features)
+    };
+    let (sharp, all) = (find(false)?, find(options.features.find_blunt)?);
+    let fit = |features: &Features, control: &mut Control| {
+        over_features(body, (features, &labels), options, control)
+    };
+    if sharp == all {
+        return fit(&sharp, control);
+    }
+    let over_sharp = match control.within(0.0, 0.5, |control| fit(&sharp, control)) {
+        Ok(Some(made)) if !is_good(&made.report.fit) => Some(made),
+        Err(error) if error.kind() != ErrorKind::Cancelled => None,
+        Ok(None) => None,
+        done => return done,
+    };
+    let over_all = match control.within(0.5, 1.0, |control| fit(&all, control)) {
+        Err(error) if error.kind() != ErrorKind::Cancelled && over_sharp.is_some() => None,
+        made => made?,
+    };
+    Ok(match (over_sharp, over_all) {
+        (Some(sharp), Some(all)) if !is_better(&all.report.fit, &sharp.report.fit) => Some(sharp),
+        (sharp, all) => all.or(sharp),
+    })
 }
 
 fn open_body(body: &Body) -> ModelFitError {

@@ -83,11 +83,11 @@ pub(in crate::layout) struct Fine {
 pub(super) enum Collapsing {
     /// All but corners.
     Any,
-    /// When so many are left only those of the border, until its corners alone are left.
+    /// When so many are left beside nodes of the border that are no corners, only these, until none of them is left.
     ToCorners,
 }
 
-/// Collapses edges of a mesh closed by cones until `target` nodes are left, or none can go; nodes are tracked from a
+/// Collapses edges of a mesh closed by cones until about `target` nodes are left, or none can go; nodes are tracked from a
 /// middle level of `tracked` nodes on.
 pub(super) fn decimate(
     border: &Border,
@@ -99,16 +99,17 @@ pub(super) fn decimate(
     let mut decimation = Decimation::new(border);
     let used = decimation.present().count();
     let mut left = used;
+    // those of the border that go at last: they are not counted, or nothing inside would be left beside them
+    let mut loose = match collapsing {
+        Collapsing::Any => 0,
+        Collapsing::ToCorners => decimation.present().filter(|&node| decimation.is_loose(node)).count(),
+    };
     let mut target = target;
     loop {
         let before = left;
-        if collapsing == Collapsing::ToCorners && left <= target {
-            let loose = decimation.present().filter(|&node| decimation.is_loose(node)).count();
-            decimation.is_border_only = true;
-            target = left - loose;
-        }
+        decimation.is_border_only |= collapsing == Collapsing::ToCorners && left <= target + loose;
         decimation.fill();
-        while left > target {
+        while if decimation.is_border_only { loose > 0 } else { left > target + loose } {
             let Some((node, to)) = decimation.next() else { break };
             if left > tracked.max(target) {
                 decimation.order.push(node);
@@ -117,17 +118,19 @@ pub(super) fn decimate(
                 decimation.collapse(node, to);
             }
             left -= 1;
+            loose -= usize::from(collapsing == Collapsing::ToCorners && decimation.is_loose(node));
             if (used - left).is_multiple_of(COLLAPSES_PER_REPORT) {
                 control.report((used - left) as f64 / (used - target) as f64, f64::NAN)?;
             }
         }
         // what was refused may have become possible by changes two edges away
-        let is_done = collapsing == Collapsing::Any || decimation.is_border_only;
-        if left == before || (left <= target && is_done) {
-            if is_done {
+        let is_last = collapsing == Collapsing::Any || decimation.is_border_only;
+        let is_reached = if decimation.is_border_only { loose == 0 } else { left <= target + loose };
+        if left == before || (is_reached && is_last) {
+            if is_last {
                 return Ok(decimation.finish());
             }
-            target = left;
+            target = left - loose;
         }
     }
 }

@@ -151,20 +151,24 @@ pub(super) fn make_over(
 }
 
 /// The same with one more vertex in the middle of each edge of the border, even or not; it has two to four times the
-/// patches. None if the border cannot be kept.
+/// patches. None if the border cannot be kept, or with more than `most` patches.
 pub(super) fn make_halved(
     mesh: &Mesh,
     needs: &BTreeMap<u32, u32>,
-    patches: usize,
+    [patches, most]: [usize; 2],
     control: &mut Control,
 ) -> Result<Option<Over>, MeshLayoutError> {
     let Some((_, base)) = base_over(mesh, needs, patches, control)? else { return Ok(None) };
+    // a pair of triangles becomes four quads, one alone three
+    if 2 * base.triangles.len() > most {
+        return Ok(None);
+    }
     let Some(mut pairing) = search::first(&base, control)? else { return Ok(None) };
     halves::take_apart(&mut pairing);
     let Halves { corners, edges, mut places } = halves::halved(&base, &pairing);
     places.truncate(mesh.points().len());
     let splits = base.triangles.len();
-    Ok(Some(Over { corners, edges, nodes: base.nodes, places, fine: base.fine, splits, doublets: 0 }))
+    Ok((corners.len() <= most).then_some(Over { corners, edges, nodes: base.nodes, places, fine: base.fine, splits, doublets: 0 }))
 }
 
 /// The coarse triangles over a surface whose border is given; none if more nodes of the border are left.

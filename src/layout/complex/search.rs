@@ -13,6 +13,10 @@ use crate::control::Cancelled;
 const MOST_SPLITS: usize = 25;
 /// Up to so many triangles all those; no matching is cheaper than one round, so of larger ones fewer edges are split.
 const FULL_SPLITS: usize = 640;
+/// A split mends no more than so many of what is left over, and two in three mend one or nothing.
+const GAIN: usize = 2;
+/// More than so many for each split are not worth a thorough pairing.
+const QUICK_GAIN: usize = 1;
 /// Edges tried at each step.
 const CANDIDATES: usize = 5;
 /// For the first pairing, which closed surfaces keep.
@@ -41,13 +45,16 @@ pub(super) fn quads(
     splitting: Splitting,
     control: &mut Control,
 ) -> Result<Option<(Base, Pairing, usize)>, Cancelled> {
-    if splitting == Splitting::Any {
-        make_even(&mut base, lengths);
+    match splitting {
+        Splitting::Any => make_even(&mut base, lengths),
+        Splitting::Inside if !is_hopeful(&base, control)? => return Ok(None),
+        Splitting::Inside => {}
     }
     let Some(mut pairing) = pairing(&base, FIRST, control)? else { return Ok(None) };
     let vertex_count = base.points.len();
-    for _ in 0..most_splits(&base) {
-        if left_over(&base, &pairing) == 0 {
+    for splits_left in (1..=most_splits(&base)).rev() {
+        let left = left_over(&base, &pairing);
+        if left == 0 || left > GAIN * splits_left {
             break;
         }
         let mut best: Option<(usize, Base, Pairing)> = None;
@@ -69,6 +76,12 @@ pub(super) fn quads(
     }
     let splits = base.points.len() - vertex_count;
     Ok((left_over(&base, &pairing) == 0).then_some((base, pairing, splits)))
+}
+
+/// Whether a quick pairing leaves no more over than splits mend.
+fn is_hopeful(base: &Base, control: &mut Control) -> Result<bool, Cancelled> {
+    let quick = pairing(base, TRIAL, control)?;
+    Ok(quick.is_some_and(|pairing| left_over(base, &pairing) <= QUICK_GAIN * most_splits(base)))
 }
 
 fn most_splits(base: &Base) -> usize {

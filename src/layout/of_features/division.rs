@@ -51,6 +51,13 @@ const UNEQUAL_COST: f64 = 0.4;
 /// Of other regions: the share of an edge, more than that of any filling, so that none is made long for its own sake.
 const LONG_EDGE_COST: f64 = 0.15;
 
+/// What an edge costs that is shorter than half the mean of its loop, for each further time that it is: quads at it are
+/// wedges, and fold.
+const SHORT_COST: f64 = 0.1;
+
+/// Times that an edge is shorter than the mean of its loop before it costs.
+const SHORT: f64 = 2.0;
+
 /// Rounds over all changes.
 const ROUNDS: usize = 12;
 
@@ -324,6 +331,7 @@ impl<'a> Counts<'a> {
             .iter()
             .map(|runs| runs.iter().map(|side| self.of_chains[side.chain as usize]).sum())
             .collect();
+        let shortness: f64 = loops.iter().map(|runs| self.shortness(runs)).sum();
         let cost = if total % 2 == 1 || of_loops.iter().any(|&edges| edges < LEAST_LOOP) {
             UNFILLED
         } else if let ([runs], true) = (&loops[..], total <= MOST_FILLED) {
@@ -340,8 +348,20 @@ impl<'a> Counts<'a> {
         } else {
             LONG_EDGE_COST * f64::from(total)
         };
-        self.known.insert(key, cost);
-        cost
+        self.known.insert(key, cost + shortness);
+        cost + shortness
+    }
+
+    /// What the short edges of a loop cost.
+    fn shortness(&self, runs: &[Side]) -> f64 {
+        let length = |side: &Side| self.lines[side.chain as usize].length();
+        let edges: u32 = runs.iter().map(|side| self.least[side.chain as usize]).sum();
+        let mean = runs.iter().map(length).sum::<f64>() / f64::from(edges.max(1));
+        let cost = |side: &Side| {
+            let count = f64::from(self.of_chains[side.chain as usize]);
+            (mean * count / length(side).max(f64::MIN_POSITIVE) - SHORT).max(0.0)
+        };
+        SHORT_COST * runs.iter().map(cost).sum::<f64>()
     }
 }
 

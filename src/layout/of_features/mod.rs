@@ -227,14 +227,6 @@ const GOOD_ENERGY: f64 = 8.5;
 /// Beyond it, more are taken if they have no more than this part of the energy.
 const WORTH_PATCHES: f64 = 0.7;
 
-/// Halved cells are taken up to so many times the patches that are wanted: around ragged borders there are hundreds, which
-/// neither hold nodes enough nor can be relaxed in seconds.
-const MOST_HALVED: usize = 4;
-
-/// Base complexes are made over borders of up to so many edges for each patch that is wanted: they have at least half as
-/// many patches, and what scans have in edges that seem sharp has a thousand.
-const MOST_SIDES: usize = 16;
-
 /// All pieces with their patches, put together.
 struct Assembly<'a> {
     lines: &'a [Line],
@@ -306,7 +298,7 @@ impl<'a> Assembly<'a> {
         if let Some(few) = few.as_ref().filter(|few| few.rank() == 0 && few.quality.energy <= GOOD_ENERGY) {
             return Ok(few.clone());
         }
-        let many = match self.complex(sheet, loops, patches, control)? {
+        let many = match over::over(sheet, loops, patches, self.halving, control)? {
             Some(quads) => self.candidate(sheet, loops, quads, sweeps, control)?,
             None => None,
         };
@@ -319,23 +311,6 @@ impl<'a> Assembly<'a> {
             (Some(few), Some(many)) => Ok(if is_worth_it(&few, &many) { many } else { few }),
             (few, many) => few.or(many).ok_or(FeatureLayoutError::NoLayout { region: sheet.region as usize }),
         }
-    }
-
-    /// The base complex of a piece with about so many patches, if its border does not ask for many times as many.
-    fn complex(
-        &self,
-        sheet: &Sheet,
-        loops: &[Loop],
-        patches: usize,
-        control: &mut Control,
-    ) -> Result<Option<Quads>, FeatureLayoutError> {
-        let sides: usize = loops.iter().map(|border| border.stops.len()).sum();
-        if sides > MOST_SIDES * patches {
-            return Ok(None);
-        }
-        let over = over::over(sheet, loops, patches.max(sides / 2 + 1), self.halving, control)?;
-        let most = if self.halving == Halving::Yes { MOST_HALVED * patches } else { usize::MAX };
-        Ok(over.filter(|quads| quads.corners.len() <= most))
     }
 
     /// A piece relaxed over quads, if they make a layout: no quad may meet a vertex twice, from both sides of a chain.

@@ -19,14 +19,28 @@ pub(super) enum Halving {
     Yes,
 }
 
-/// About so many quads over a piece; none if a stop lies between nodes, or there is no such complex.
+/// Halved cells are taken up to so many times the quads that are wanted: around ragged borders there are hundreds, which
+/// neither hold nodes enough nor can be relaxed in seconds.
+const MOST_HALVED: usize = 4;
+
+/// Complexes are made over borders of up to so many edges for each quad that is wanted: they have at least half as many
+/// quads, and what scans have in edges that seem sharp has a thousand.
+const MOST_SIDES: usize = 16;
+
+/// About so many quads over a piece; none if a stop lies between nodes, or there is no such complex that has not many times as
+/// many.
 pub(super) fn over(
     sheet: &Sheet,
     loops: &[Loop],
-    patches: usize,
+    wanted: usize,
     halving: Halving,
     control: &mut Control,
 ) -> Result<Option<Quads>, FeatureLayoutError> {
+    let sides: usize = loops.iter().map(|border| border.stops.len()).sum();
+    if sides > MOST_SIDES * wanted {
+        return Ok(None);
+    }
+    let patches = wanted.max(sides / 2 + 1);
     let (mut needs, mut stop_of, mut next) = (BTreeMap::new(), BTreeMap::new(), Vec::new());
     for border in loops {
         let first = next.len() as u32;
@@ -43,7 +57,9 @@ pub(super) fn over(
     }
     let made = match halving {
         Halving::No => complex::make_over(&sheet.mesh, &needs, patches, control)?,
-        Halving::Yes => complex::make_halved(&sheet.mesh, &needs, patches, control)?,
+        Halving::Yes => {
+            complex::make_halved(&sheet.mesh, &needs, [patches, MOST_HALVED * wanted], control)?
+        }
     };
     Ok(made.and_then(|made| numbered(made, &stop_of, &next)))
 }

@@ -15,14 +15,14 @@ use super::super::{HalfEdge, Mesh};
 use glam::DVec3;
 
 /// A ridge turns by more than so many times what the surface beside it bends. On scanned heads and cast parts few edges do,
-/// and no three of them in a row.
-pub(super) const LEAST_RATIO: f64 = 4.0;
+/// and hardly any chain of them divides the surface.
+pub(super) const LEAST_RATIO: f64 = 3.0;
 
 /// A crease that fades out goes on as long as its edges turn by more than so many times; along a round wall they turn once.
 pub(super) const FADING_RATIO: f64 = 1.5;
 
 /// Ridges shorter than this part of the diagonal are accidents of the triangulation.
-pub(super) const LEAST_LENGTH: f64 = 0.07;
+pub(super) const LEAST_LENGTH: f64 = 0.015;
 
 /// Surfaces bend by no less: rounding of coordinates in single precision.
 const LEAST_BEND: f64 = 1e-4;
