@@ -14,6 +14,11 @@ use rayon::prelude::*;
 const LONGEST_STEP: f64 = 0.1;
 /// Least part of a right angle's determinant that a step is divided by: below it the tangents are nearly parallel.
 const LEAST_ANGLE: f64 = 1e-6;
+/// Times that a step which leads away is halved: beside narrow corners, and across edges to patches of another size, full
+/// steps go too far.
+const HALVINGS: i32 = 3;
+/// A step that changes the distance by less than this part has arrived.
+const ARRIVED: f64 = 1e-9;
 /// Samples of one piece of work.
 const PIECE: usize = 512;
 
@@ -57,23 +62,39 @@ impl Ground<'_> {
             self.surfaces[place.quad as usize].eval_rows(&[place.uv], 1, &mut row);
             let [on_surface, along_u, along_v] = [0, 3, 6].map(|k| DVec3::from_slice(&row[k..k + 3]));
             let miss = point - on_surface;
-            let (next, next_lock) = match *lock {
-                Lock::Fixed => return miss.length(),
-                Lock::Free => {
-                    (self.layout.cross(place.quad, place.uv + step(miss, along_u, along_v)), Lock::Free)
-                }
-                Lock::Along(side) => {
-                    let step = step_along(miss, along(side, along_u, along_v));
-                    let next = on_side(*place, side).slide(self.layout, step, self.is_corner);
-                    (next.place(), next.lock())
-                }
-            };
-            if !(distance(self.surfaces, next, point) < miss.length()) {
-                return miss.length();
+            let before = miss.length();
+            let moved = |share: f64| self.moved(*place, *lock, share, [miss, along_u, along_v]);
+            let mut tried = (0..=HALVINGS).map(|k| {
+                let to = moved(0.5_f64.powi(k));
+                (to, distance(self.surfaces, to.0, point))
+            });
+            match tried.find(|(_, after)| *after < (1.0 + ARRIVED) * before) {
+                Some((to, after)) if after < before => (*place, *lock) = to,
+                _ => return before,
             }
-            (*place, *lock) = (next, next_lock);
         }
         distance(self.surfaces, *place, point)
+    }
+
+    /// Where a share of the step to the foot leads.
+    fn moved(
+        &self,
+        place: Place,
+        lock: Lock,
+        share: f64,
+        [miss, along_u, along_v]: [DVec3; 3],
+    ) -> (Place, Lock) {
+        match lock {
+            Lock::Fixed => (place, lock),
+            Lock::Free => {
+                (self.layout.cross(place.quad, place.uv + share * step(miss, along_u, along_v)), lock)
+            }
+            Lock::Along(side) => {
+                let step = share * step_along(miss, along(side, along_u, along_v));
+                let next = on_side(place, side).slide(self.layout, step, self.is_corner);
+                (next.place(), next.lock())
+            }
+        }
     }
 }
 

@@ -40,7 +40,6 @@ pub(super) fn over(
     if sides > MOST_SIDES * wanted {
         return Ok(None);
     }
-    let patches = wanted.max(sides / 2 + 1);
     let (mut needs, mut stop_of, mut next) = (BTreeMap::new(), BTreeMap::new(), Vec::new());
     for border in loops {
         let first = next.len() as u32;
@@ -56,9 +55,11 @@ pub(super) fn over(
         }
     }
     let made = match halving {
-        Halving::No => complex::make_over(&sheet.mesh, &needs, patches, control)?,
+        Halving::No => complex::make_over(&sheet.mesh, &needs, wanted.max(sides / 2 + 1), control)?,
         Halving::Yes => {
-            complex::make_halved(&sheet.mesh, &needs, [patches, MOST_HALVED * wanted], control)?
+            // halving makes four of each
+            let whole = (wanted / 2).max(sides / 4 + 1);
+            complex::make_halved(&sheet.mesh, &needs, [whole, MOST_HALVED * wanted], control)?
         }
     };
     Ok(made.and_then(|made| numbered(made, &stop_of, &next)))
