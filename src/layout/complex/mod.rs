@@ -168,7 +168,15 @@ pub(super) fn make_halved(
     let Halves { corners, edges, mut places } = halves::halved(&base, &pairing);
     places.truncate(mesh.points().len());
     let splits = base.triangles.len();
-    Ok((corners.len() <= most).then_some(Over { corners, edges, nodes: base.nodes, places, fine: base.fine, splits, doublets: 0 }))
+    Ok((corners.len() <= most).then_some(Over {
+        corners,
+        edges,
+        nodes: base.nodes,
+        places,
+        fine: base.fine,
+        splits,
+        doublets: 0,
+    }))
 }
 
 /// The coarse triangles over a surface whose border is given; none if more nodes of the border are left.
