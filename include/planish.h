@@ -1685,7 +1685,7 @@ typedef struct planish_feature_options {
     double sharp_angle;
     /**
      * Chains of feature edges that end go on along edges whose facets turn by more than this, in radians, at most
-     * pi, which lets none go on. Chains of such edges that turn four times more than the surface beside them bends
+     * pi, which lets none go on. Chains of such edges that turn three times more than the surface beside them bends
      * are features too if they divide it, and a chain that fades out goes on to the next feature straight ahead.
      * Default 0.26, which is 15 degrees; none of this happens if sharp_angle is 0 or this is pi.
      */
