@@ -2,8 +2,8 @@
 //!
 //! Basis functions come from their coefficients ([`CubicSpan`]). The sums run over rows of twelve numbers, the four
 //! control points of one line, and are compiled twice (through `pulp`, which looks at the processor): for AVX2 with FMA,
-//! where twelve numbers are three registers, and for any processor. AVX-512 would gain nothing: twelve numbers are one and a half
-//! of its registers, and points of three numbers do not fill one.
+//! where twelve numbers are three registers, and for any processor. There is no third time for AVX-512: twelve numbers are one
+//! and a half of its registers, and points of three numbers do not fill one.
 //!
 //! Points in a row have the same u, and many of them the same four control points along v: these are computed once. On a
 //! grid each point takes four loads, products and one store of a whole register, whose last number is that of the next point.
