@@ -17,9 +17,6 @@ const LEAF: usize = 4;
 /// farther outside (see `locate`).
 const SLACK: f64 = 32.0 * f64::EPSILON;
 
-/// A number and a triangle.
-type Thing = (u32, [DVec2; 3]);
-
 /// A tree of boxes around triangles, or sides with one end given twice.
 #[derive(Debug, Clone, Default)]
 pub(super) struct TurnedBoxes {
