@@ -38,6 +38,30 @@ fn real_meshes_become_solids_within_the_tolerance() {
 }
 
 #[test]
+fn a_part_with_fading_edges_keeps_them() {
+    let Some(mesh) = common::mesh("fandisk_closed_6k.off") else { return };
+    let fit = fit_mesh(&mesh, &MeshModelOptions::default(), &mut Control::new(2)).unwrap();
+    let (report, component) = (&fit.report, &fit.components[0]);
+    eprintln!(
+        "{} patches, {} planes, {} control points, nodes {:.2e}, between {:.2e}, creases {:.2e}",
+        report.patches.len(),
+        component.exact_faces,
+        report.coefficient_count,
+        report.max_error / report.diagonal,
+        report.max_interior_error / report.diagonal,
+        report.crease_error / report.diagonal
+    );
+    assert!(!component.rounds_edges);
+    assert!(component.exact_faces >= 7 && report.patches.len() <= 50 && report.coefficient_count <= 5_500);
+    // nodes, creases, and between the nodes what facets do not explain
+    assert!(report.max_error.max(report.crease_error) <= report.tolerance);
+    assert!(report.max_interior_error - report.facet_sagitta <= report.tolerance);
+    assert_eq!((report.folded_cells, report.crossings), (0, Some(0)));
+    assert_eq!(fit.model.free_edge_count(), 0);
+    assert!((report.volume / report.mesh_volume - 1.0).abs() <= 5e-4, "{}", report.volume);
+}
+
+#[test]
 fn fields_on_a_closed_brain_are_followed() {
     let Some(mesh) = common::mesh("brain_pial_10k_fields.ply") else { return };
     assert!(mesh.loops().is_empty(), "it is not cut open");
