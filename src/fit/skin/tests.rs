@@ -197,7 +197,24 @@ fn closed_rows_have_no_seam() {
 
 #[test]
 fn a_surface_closed_along_v_has_no_seam_either() {
-    // a torus of rings with unlike counts
+    let options = SkinOptions { closed: true, closed_v: true, ends: SectionEnds::Auto, ..paper(1e-4) };
+    let fit = fit(&torus(), &options);
+    assert!(fit.report.max_error < fit.report.tolerance);
+    assert_eq!(fit.surface.curves().len(), 15);
+    assert_eq!(fit.surface.curves()[..3], fit.surface.curves()[12..]);
+    for k in 0..=50 {
+        let u = f64::from(k) / 50.0;
+        let mut rows = [0.0; 36];
+        fit.surface.eval_rows(&[DVec2::new(u, 0.0), DVec2::new(u, 1.0)], 2, &mut rows);
+        for (c, (a, b)) in rows[..18].iter().zip(&rows[18..]).enumerate() {
+            let scale = [1.0, 1e2, 1e2, 1e4, 1e4, 1e4][c / 3];
+            assert!((a - b).abs() <= 1e-11 * scale, "u {u}, row {}: {a} is not {b}", c / 3);
+        }
+    }
+}
+
+/// Rings of a torus with unlike counts; each ends before it comes to its first point again.
+fn torus() -> RowSet {
     let mut set = RowSet::default();
     for j in 0..12 {
         let around = std::f64::consts::TAU * f64::from(j) / 12.0;
@@ -209,18 +226,66 @@ fn a_surface_closed_along_v_has_no_seam_either() {
         }));
         set.counts.push(count);
     }
-    let options = SkinOptions { closed: true, closed_v: true, ends: SectionEnds::Auto, ..paper(1e-4) };
-    let fit = fit(&set, &options);
-    assert!(fit.report.max_error < fit.report.tolerance);
-    assert_eq!(fit.surface.curves().len(), 15);
-    assert_eq!(fit.surface.curves()[..3], fit.surface.curves()[12..]);
-    for k in 0..=50 {
-        let u = f64::from(k) / 50.0;
+    set
+}
+
+/// The largest jump of value and two derivatives between two sides of the unit square, as a share of what rounding
+/// explains, and the largest second derivative across there in the same measure.
+fn seam_jump(surface: &TSplineSurface, axis: usize) -> (f64, f64) {
+    let shortest = |breaks: &[f64]| breaks.windows(2).map(|pair| pair[1] - pair[0]).fold(1.0, f64::min);
+    let of_curves = surface.curves().iter().map(|curve| shortest(&curve.knots().breaks()));
+    let spans = [of_curves.fold(1.0, f64::min), shortest(&surface.knots_v().breaks())];
+    let numbers = surface.curves().iter().flat_map(|curve| curve.control_points());
+    let largest = numbers.fold(0.0, |most: f64, x| most.max(x.abs()));
+    // basis functions have derivatives of at most 6 / h and 36 / h^2 over spans h, of sixteen terms; knots that come
+    // again a period later are rounded in proportion to 1 / h
+    let rounding = 16.0 * f64::EPSILON * largest / spans[0].min(spans[1]);
+    let scale = |[i, j]: [i32; 2]| rounding * (6.0 / spans[0]).powi(i) * (6.0 / spans[1]).powi(j);
+    let orders = [[0, 0], [1, 0], [0, 1], [2, 0], [1, 1], [0, 2]];
+    let (mut jump, mut bend) = (0.0_f64, 0.0_f64);
+    for k in 0..=100 {
+        let ends = [0.0, 1.0].map(|end| {
+            let mut uv = DVec2::splat(f64::from(k) / 100.0);
+            uv[axis] = end;
+            uv
+        });
         let mut rows = [0.0; 36];
-        fit.surface.eval_rows(&[DVec2::new(u, 0.0), DVec2::new(u, 1.0)], 2, &mut rows);
+        surface.eval_rows(&ends, 2, &mut rows);
         for (c, (a, b)) in rows[..18].iter().zip(&rows[18..]).enumerate() {
-            let scale = [1.0, 1e2, 1e2, 1e4, 1e4, 1e4][c / 3];
-            assert!((a - b).abs() <= 1e-11 * scale, "u {u}, row {}: {a} is not {b}", c / 3);
+            jump = jump.max((a - b).abs() / scale(orders[c / 3]));
+            if orders[c / 3][axis] == 2 {
+                bend = bend.max(a.abs() / scale(orders[c / 3]));
+            }
+        }
+    }
+    (jump, bend)
+}
+
+#[test]
+fn skins_of_data_that_close_have_two_derivatives_across_both_seams() {
+    let set = torus();
+    // the same rings as closed cubics, each over its own knots
+    let ring = |j: usize| {
+        let count = set.counts[j];
+        let u: Vec<f64> = (0..=count).map(|k| k as f64 / count as f64).collect();
+        let row = set.row(j);
+        let points = [row, &row[..3]].concat();
+        crate::curve::interpolate(3, &u, &points, crate::curve::EndRule::Periodic).unwrap()
+    };
+    let rings: Vec<Curve> = (0..set.counts.len()).map(ring).collect();
+    for method in [SkinMethod::ControlCurves, SkinMethod::CommonKnots] {
+        for removal in [false, true] {
+            let closed = SkinOptions { closed: true, closed_v: true, ends: SectionEnds::Auto, ..paper(1e-4) };
+            let options = SkinOptions { method, removal, ..closed };
+            let of_curves = skin_curves(&rings, &options, &mut Control::new(1)).unwrap();
+            for (what, fit) in [("rows", fit(&set, &options)), ("curves", of_curves)] {
+                assert!(fit.report.max_error < fit.report.tolerance);
+                for axis in [0, 1] {
+                    let (jump, bend) = seam_jump(&fit.surface, axis);
+                    assert!(jump <= 1.0, "{what}, {method:?}, {removal}, axis {axis}: {jump}");
+                    assert!(bend > 1e3, "a jump of a thousandth of {bend} would not be seen");
+                }
+            }
         }
     }
 }
