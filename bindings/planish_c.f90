@@ -735,6 +735,45 @@ module planish_records
     integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 (default) for all cores
   end type
 
+  !> How trims follow curves.
+  type, bind(c), public :: planish_trim_options
+    integer(c_size_t) :: struct_size = 5 * word + 24
+    !> How far the trims may lie from the curves, and the curves from the surface, positive, measured in
+    !> tolerance_scale
+    real(c_double) :: tolerance = 1e-3_c_double
+    type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
+    type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
+    !> Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag
+    type(c_ptr) :: cancel = c_null_ptr
+    !> Shows what the call is doing, before progress hears of it: a planish_stage
+    type(c_ptr) :: out_stage = c_null_ptr
+    !> A planish_tolerance_scale; relative is to the diagonal of the box of the curves' control points
+    integer(c_int32_t) :: tolerance_scale = PLANISH_TOLERANCE_SCALE_RELATIVE
+    !> 1 adds the loops to the trims that the surface has, so that a closed curve inside cuts a hole; 0 (default)
+    !> replaces them
+    integer(c_int32_t) :: add = 0
+    integer(c_int32_t) :: thread_count = 0 !! Threads to use, at most 1024; 0 (default) for all cores
+    integer(c_int32_t) :: reserved = 0
+  end type
+
+  !> How near trims are to the curves that they follow: distances of the surface over them to the pieces of curve that
+  !> they stand for, in model units.
+  type, bind(c), public :: planish_trim_report
+    integer(c_size_t) :: struct_size = 4 * word + 64
+    real(c_double) :: max_vertex_distance = 0 !! Largest distance at a vertex
+    real(c_double) :: rms_vertex_distance = 0 !! Root mean square of the distances at vertices
+    !> Largest distance between vertices, measured at seven places of each side
+    real(c_double) :: max_distance_between = 0
+    real(c_double) :: rms_distance_between = 0 !! Root mean square of the distances between vertices
+    real(c_double) :: worst_parameter = 0 !! The parameter of the place on its curve that the trims are farthest from
+    real(c_double) :: tolerance = 0 !! The tolerance, which is no less than what rounding leaves
+    real(c_double) :: diagonal = 0 !! What a relative tolerance is measured in
+    real(c_double) :: seconds = 0 !! Wall time in seconds
+    integer(c_size_t) :: worst_curve = 0 !! The curve of that place
+    integer(c_size_t) :: vertex_count = 0 !! Vertices of the new trims
+    integer(c_size_t) :: unproven_count = 0 !! Of these those whose places are not proved to be nearest to the curve
+  end type
+
   !> A Bezier patch: the polynomial or rational piece of a surface over a rectangle of parameters.
   type, bind(c), public :: planish_patch
     integer(c_size_t) :: struct_size = 3 * word + 48
@@ -2337,6 +2376,26 @@ module planish_calls
       real(c_double), intent(in) :: uv(*)
       integer(c_size_t), intent(in) :: point_counts(*)
       integer(c_size_t), value :: trim_count
+    end function
+
+    integer(c_int) function c_trim_options_init(options, struct_size) bind(c, name="planish_trim_options_init")
+      import
+      implicit none
+      type(planish_trim_options), intent(inout) :: options
+      integer(c_size_t), value :: struct_size
+    end function
+
+    integer(c_int) function c_surface_trim_by_curves( &
+        surface, curves, curve_counts, trim_count, options, out_report) &
+        bind(c, name="planish_surface_trim_by_curves")
+      import
+      implicit none
+      type(c_ptr), value :: surface
+      type(c_ptr), intent(in) :: curves(*)
+      integer(c_size_t), intent(in), optional :: curve_counts(*)
+      integer(c_size_t), value :: trim_count
+      type(planish_trim_options), intent(in), optional :: options
+      type(planish_trim_report), intent(inout), optional :: out_report
     end function
 
     pure integer(c_size_t) function c_surface_patch_count(surface) bind(c, name="planish_surface_patch_count")
@@ -4136,6 +4195,7 @@ module planish_calls
     module procedure init_layout_options
     module procedure init_mesh_layout_options
     module procedure init_eval_options
+    module procedure init_trim_options
     module procedure init_convert_options
     module procedure init_tensor_options
     module procedure init_field_options
@@ -4169,6 +4229,7 @@ module planish_calls
   private :: init_layout_options
   private :: init_mesh_layout_options
   private :: init_eval_options
+  private :: init_trim_options
   private :: init_convert_options
   private :: init_tensor_options
   private :: init_field_options
@@ -4247,6 +4308,12 @@ contains
     type(planish_eval_options), intent(inout) :: options
     integer(c_int) :: status
     status = c_eval_options_init(options, c_sizeof(options)) ! which cannot fail
+  end subroutine
+
+  subroutine init_trim_options(options)
+    type(planish_trim_options), intent(inout) :: options
+    integer(c_int) :: status
+    status = c_trim_options_init(options, c_sizeof(options)) ! which cannot fail
   end subroutine
 
   subroutine init_convert_options(options)

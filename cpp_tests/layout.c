@@ -220,6 +220,32 @@ FOLLOWS(planish_eval_options, out_flags, outside);
 FOLLOWS(planish_eval_options, outside, thread_count);
 LAST(planish_eval_options, thread_count);
 
+FIRST(planish_trim_options);
+FOLLOWS(planish_trim_options, struct_size, tolerance);
+FOLLOWS(planish_trim_options, tolerance, progress);
+FOLLOWS(planish_trim_options, progress, user);
+FOLLOWS(planish_trim_options, user, cancel);
+FOLLOWS(planish_trim_options, cancel, out_stage);
+FOLLOWS(planish_trim_options, out_stage, tolerance_scale);
+FOLLOWS(planish_trim_options, tolerance_scale, add);
+FOLLOWS(planish_trim_options, add, thread_count);
+FOLLOWS(planish_trim_options, thread_count, reserved);
+LAST(planish_trim_options, reserved);
+
+FIRST(planish_trim_report);
+FOLLOWS(planish_trim_report, struct_size, max_vertex_distance);
+FOLLOWS(planish_trim_report, max_vertex_distance, rms_vertex_distance);
+FOLLOWS(planish_trim_report, rms_vertex_distance, max_distance_between);
+FOLLOWS(planish_trim_report, max_distance_between, rms_distance_between);
+FOLLOWS(planish_trim_report, rms_distance_between, worst_parameter);
+FOLLOWS(planish_trim_report, worst_parameter, tolerance);
+FOLLOWS(planish_trim_report, tolerance, diagonal);
+FOLLOWS(planish_trim_report, diagonal, seconds);
+FOLLOWS(planish_trim_report, seconds, worst_curve);
+FOLLOWS(planish_trim_report, worst_curve, vertex_count);
+FOLLOWS(planish_trim_report, vertex_count, unproven_count);
+LAST(planish_trim_report, unproven_count);
+
 FIRST(planish_patch);
 FOLLOWS(planish_patch, struct_size, u_min);
 FOLLOWS(planish_patch, u_min, u_max);

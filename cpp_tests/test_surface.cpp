@@ -358,6 +358,84 @@ TEST(SurfaceTrims, GoInAndOut) {
   CHECK_EQUAL(planish_surface_trim_count(surface.get()), 0u);
 }
 
+// A polyline in space as a curve of degree 1 over 0, 1, ...
+static Curve polyline(const std::vector<double> &points) {
+  std::vector<double> knots{0};
+  for (std::size_t k = 0; k < points.size() / 3; ++k) knots.push_back(static_cast<double>(k));
+  knots.push_back(knots.back());
+  planish_curve *curve = nullptr;
+  CHECK(planish_curve_new(3, 1, knots.data(), knots.size(), points.data(), &curve) == PLANISH_STATUS_OK);
+  return Curve(curve);
+}
+
+TEST(SurfaceTrims, FollowCurves) {
+  const Surface surface = cylinder();
+  // a square on the cylinder of radius 2: two lines along it, and arcs as chords of a hundredth of a right angle and of half
+  // that
+  std::vector<double> arc_low, arc_high;
+  const double right = std::acos(0.0);
+  for (int k = 40; k <= 160; ++k) {
+    const double x = 2 * std::cos(0.005 * k * right), y = 2 * std::sin(0.005 * k * right);
+    if (k % 2 == 0) arc_low.insert(arc_low.end(), {x, y, 1});
+    arc_high.insert(arc_high.end(), {x, y, 2});
+  }
+  const double *low = arc_low.data(), *end = low + arc_low.size() - 3;
+  const Curve sides[4] = {polyline(arc_low), polyline({end[0], end[1], 1, end[0], end[1], 2}), polyline(arc_high),
+                          polyline({low[0], low[1], 1, low[0], low[1], 2})};
+  const planish_curve *curves[4] = {sides[0].get(), sides[1].get(), sides[2].get(), sides[3].get()};
+  const std::size_t four = 4;
+  planish_trim_options options;
+  CHECK(planish_trim_options_init(&options, sizeof options) == PLANISH_STATUS_OK);
+  options.tolerance_scale = PLANISH_TOLERANCE_SCALE_ABSOLUTE;
+  auto report = fresh<planish_trim_report>();
+  CHECK(planish_surface_trim_by_curves(surface.get(), curves, &four, 1, &options, &report) == PLANISH_STATUS_OK);
+  CHECK_EQUAL(planish_surface_trim_count(surface.get()), 1u);
+  CHECK_EQUAL(planish_surface_trim_point_count(surface.get(), 0), report.vertex_count);
+  CHECK_EQUAL(report.unproven_count, 0u);
+  CHECK_EQUAL(report.tolerance, 1e-3);
+  // corners lie on the cylinder, and chords inside it: by 2 (1 - cos(right / 200))
+  CHECK(report.max_vertex_distance < 1e-12);
+  CHECK_NEAR(report.max_distance_between, 2 * (1 - std::cos(right / 200)), 1e-6);
+  CHECK(report.rms_distance_between < report.max_distance_between);
+  std::vector<double> uv(2 * report.vertex_count);
+  CHECK(planish_surface_copy_trim(surface.get(), 0, uv.data(), report.vertex_count) == PLANISH_STATUS_OK);
+
+  const check::untouched before(uv), told(report);
+  const auto refuse = [&](planish_status status, long long index, const char *words) {
+    CHECK_FAILS(planish_surface_trim_by_curves(surface.get(), curves, &four, 1, &options, &report), status, index, words);
+    CHECK_EQUAL(planish_surface_trim_point_count(surface.get(), 0), uv.size() / 2);
+    CHECK(told.holds());
+  };
+  const auto invalid = PLANISH_STATUS_INVALID_ARGUMENT;
+  options.tolerance = 1e-5;
+  refuse(invalid, 0, "from the surface");
+  options.tolerance = 0;
+  refuse(invalid, -1, "tolerance is 0");
+  options.tolerance = 1e-3;
+  const Curve away = polyline({low[0], low[1], 1.25, low[0], low[1], 2});
+  curves[3] = away.get();
+  refuse(invalid, 3, "not closed: curve 3 ends 2.5e-1 from where curve 0 begins");
+  curves[3] = nullptr;
+  refuse(PLANISH_STATUS_NULL_POINTER, -1, "a curve is NULL");
+  curves[3] = sides[3].get();
+  options.add = 1;
+  refuse(PLANISH_STATUS_TOPOLOGY, 1, "trim 1 meets trim 0");
+  options.add = 2;
+  refuse(invalid, -1, "add is 2");
+  options.add = 0;
+  const auto null = PLANISH_STATUS_NULL_POINTER;
+  CHECK_FAILS(planish_surface_trim_by_curves(nullptr, curves, &four, 1, nullptr, nullptr), null, -1, "surface is NULL");
+  CHECK_FAILS(planish_surface_trim_by_curves(surface.get(), nullptr, &four, 1, nullptr, nullptr), null, -1, "curves is NULL");
+  CHECK_FAILS(planish_surface_trim_by_curves(surface.get(), curves, nullptr, 0, nullptr, nullptr), invalid, -1, "no loops");
+  const std::size_t zero = 0;
+  CHECK_FAILS(planish_surface_trim_by_curves(surface.get(), curves, &zero, 1, nullptr, nullptr), invalid, 0, "loop 0");
+  // without numbers each curve is a loop, which a line is not
+  CHECK_FAILS(planish_surface_trim_by_curves(surface.get(), curves + 1, nullptr, 1, &options, nullptr), invalid, 0,
+              "not closed");
+  CHECK(planish_surface_copy_trim(surface.get(), 0, uv.data(), uv.size() / 2) == PLANISH_STATUS_OK);
+  CHECK(before.holds());
+}
+
 TEST(TensorNew, PartsComeBack) {
   const Surface surface = cylinder();
   CHECK_EQUAL(planish_tensor_degree(surface.get(), PLANISH_AXIS_U), 2u);

@@ -179,6 +179,7 @@ module planish_types
     procedure :: trim_point_count => surface_trim_point_count
     procedure :: copy_trim => surface_copy_trim
     procedure :: set_trims => surface_set_trims
+    procedure :: trim_by_curves => surface_trim_by_curves
     procedure :: patch_count => surface_patch_count
     procedure :: patch_at => surface_patch_at
     procedure :: copy_patch => surface_copy_patch
@@ -1528,6 +1529,41 @@ contains
     if (refuse_extent(size(uv, 1, c_size_t), 2_c_size_t, "the first extent of uv", stat, errmsg)) return
     if (refuse_extent(size(uv, 2, c_size_t), sum(counts), "the second extent of uv", stat, errmsg)) return
     call conclude(c_surface_set_trims(self%get(), uv, counts, size(counts, kind=c_size_t)), stat, errmsg)
+  end subroutine
+
+  !> Makes trims that follow curves in space, loop after loop, and how many curves each loop has; one without
+  !> curve_counts. worst_curve of the report counts from 1.
+  subroutine surface_trim_by_curves(self, curves, curve_counts, options, report, progress, stat, errmsg)
+    class(planish_surface_t), intent(inout) :: self
+    class(planish_curve_t), intent(in) :: curves(:)
+    integer, intent(in), optional :: curve_counts(:)
+    type(planish_trim_options), intent(in), optional :: options
+    type(planish_trim_report), intent(inout), optional :: report
+    procedure(planish_progress), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(planish_trim_options) :: call_options
+    type(listener), target :: user
+    integer(c_size_t), allocatable :: counts(:)
+    integer(c_int) :: status
+    if (present(options)) call_options = options
+    if (present(curve_counts)) then
+      if (refuse(any(curve_counts < 0), PLANISH_STATUS_INVALID_ARGUMENT, "a loop has less than no curves", &
+          stat, errmsg)) return
+      allocate (counts(size(curve_counts)), source=int(curve_counts, c_size_t))
+    else
+      allocate (counts(size(curves)), source=1_c_size_t)
+    end if
+    if (refuse_extent(size(curves, kind=c_size_t), sum(counts), "the number of curves", stat, errmsg)) return
+    if (present(progress)) then
+      user%hear => progress
+      call_options%progress = c_funloc(relay)
+      call_options%user = c_loc(user)
+    end if
+    status = c_surface_trim_by_curves(self%get(), handles_of(curves), counts, size(counts, kind=c_size_t), &
+      call_options, report)
+    if (status >= 0 .and. present(report)) report%worst_curve = report%worst_curve + 1
+    call conclude(status, stat, errmsg)
   end subroutine
 
   !> Number of Bezier patches: they cover the domain without overlap and are the surface exactly.

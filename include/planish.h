@@ -1876,6 +1876,112 @@ typedef struct planish_eval_options {
 } planish_eval_options;
 
 /**
+ * How trims follow curves. Fill with planish_trim_options_init(), then change what you need.
+ */
+typedef struct planish_trim_options {
+    /**
+     * Set by planish_trim_options_init().
+     */
+    size_t struct_size;
+    /**
+     * How far the trims may lie from the curves, and the curves from the surface, positive, measured in
+     * tolerance_scale. Default 1e-3.
+     */
+    double tolerance;
+    /**
+     * Hears of the progress and may cancel; NULL (default) for nobody.
+     */
+    planish_progress progress;
+    /**
+     * Handed to progress as it is.
+     */
+    void *user;
+    /**
+     * Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag.
+     */
+    const volatile int32_t *cancel;
+    /**
+     * Shows what the call is doing, before progress hears of it: a planish_stage. NULL (default) for nobody.
+     * Array: [1].
+     */
+    uint32_t *out_stage;
+    /**
+     * A planish_tolerance_scale; relative is to the diagonal of the box of the curves' control points. Default
+     * PLANISH_TOLERANCE_SCALE_RELATIVE.
+     */
+    uint32_t tolerance_scale;
+    /**
+     * 1 adds the loops to the trims that the surface has, so that a closed curve inside cuts a hole; 0 (default)
+     * replaces them.
+     */
+    uint32_t add;
+    /**
+     * Threads to use, at most 1024; 0 (default) for all cores. Results do not depend on it.
+     */
+    uint32_t thread_count;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} planish_trim_options;
+
+/**
+ * How near trims are to the curves that they follow: distances of the surface over them to the pieces of curve that
+ * they stand for, in model units. Set struct_size to sizeof(planish_trim_report) before the call; the report is
+ * filled as far as that goes, on success only.
+ */
+typedef struct planish_trim_report {
+    /**
+     * sizeof(planish_trim_report) as the caller sees it.
+     */
+    size_t struct_size;
+    /**
+     * Largest distance at a vertex.
+     */
+    double max_vertex_distance;
+    /**
+     * Root mean square of the distances at vertices.
+     */
+    double rms_vertex_distance;
+    /**
+     * Largest distance between vertices, measured at seven places of each side.
+     */
+    double max_distance_between;
+    /**
+     * Root mean square of the distances between vertices.
+     */
+    double rms_distance_between;
+    /**
+     * The parameter of the place on its curve that the trims are farthest from.
+     */
+    double worst_parameter;
+    /**
+     * The tolerance, which is no less than what rounding leaves.
+     */
+    double tolerance;
+    /**
+     * What a relative tolerance is measured in.
+     */
+    double diagonal;
+    /**
+     * Wall time in seconds.
+     */
+    double seconds;
+    /**
+     * The curve of that place.
+     */
+    size_t worst_curve;
+    /**
+     * Vertices of the new trims.
+     */
+    size_t vertex_count;
+    /**
+     * Of these those whose places are not proved to be nearest to the curve.
+     */
+    size_t unproven_count;
+} planish_trim_report;
+
+/**
  * A Bezier patch: the polynomial or rational piece of a surface over a rectangle of parameters. Set struct_size
  * to sizeof(planish_patch) before the call; filled as far as that goes, on success only.
  */
@@ -5649,6 +5755,47 @@ enum planish_status planish_surface_set_trims(struct planish_surface *surface,
                                               const double *uv,
                                               const size_t *point_counts,
                                               size_t trim_count);
+
+/**
+ * Fills options with the defaults.
+ *
+ * options:     struct_size writable bytes.
+ * struct_size: sizeof(planish_trim_options).
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NULL_POINTER or PLANISH_STATUS_INVALID_ARGUMENT (struct_size).
+ */
+PLANISH_API
+enum planish_status planish_trim_options_init(struct planish_trim_options *options,
+                                              size_t struct_size);
+
+/**
+ * Makes trims that follow curves in space: each loop is projected on to the surface, to the nearest of all its places
+ * whatever trims it has, and its feet are joined by lines in (u, v) that are halved until the surface over them is within
+ * the tolerance of the curve, and the curve of it. The surface stays as it is on error.
+ *
+ * surface:      not NULL, of dimension 3; changed.
+ * curves:       curves of dimension 3, loop after loop, none of them NULL. The curves of a loop follow one another, each
+ *               in either direction; gaps within the tolerance are closed. A loop may not cross a seam of the surface.
+ * curve_counts: trim_count numbers of curves, each at least 1; NULL if each loop is one closed curve.
+ * trim_count:   number of loops, at least 1; the outer one first, unless they are added.
+ * options:      NULL for the defaults.
+ * out_report:   receives how near the trims are to the curves; NULL for no report.
+ * Arrays: curves[*], curve_counts[trim_count].
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_NOT_PROVEN (some places are not proved to be nearest, as on a D1RC-spline) or
+ * an error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option, no loops, a loop without curves, a
+ * dimension, a gap, or a curve farther from the surface than the tolerance; the index is the curve, or the loop without
+ * curves), PLANISH_STATUS_TOPOLOGY (a seam or a fold of the surface is in the way of a curve, the index is the curve; or
+ * trims meet, the index is the trim), PLANISH_STATUS_DEGENERATE (a loop is no polygon, the index is the loop),
+ * PLANISH_STATUS_WRONG_KIND, PLANISH_STATUS_TOO_LARGE, PLANISH_STATUS_OUT_OF_MEMORY, PLANISH_STATUS_VERSION or
+ * PLANISH_STATUS_CANCELLED.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_surface_trim_by_curves(struct planish_surface *surface,
+                                                   const struct planish_curve *const *curves,
+                                                   const size_t *curve_counts,
+                                                   size_t trim_count,
+                                                   const struct planish_trim_options *options,
+                                                   struct planish_trim_report *out_report);
 
 /**
  * Number of Bezier patches of a surface: they cover the domain without overlap and are the surface exactly. 0

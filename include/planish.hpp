@@ -154,6 +154,9 @@ inline planish_status init(planish_tensor_options &options) {
 inline planish_status init(planish_fair_options &options) {
   return planish_fair_options_init(&options, sizeof options);
 }
+inline planish_status init(planish_trim_options &options) {
+  return planish_trim_options_init(&options, sizeof options);
+}
 inline planish_status init(planish_sample_rows_options &options) {
   return planish_sample_rows_options_init(&options, sizeof options);
 }
@@ -1576,6 +1579,24 @@ inline faired fair(const surface &surface, const planish_fair_options &given = d
   planish::surface owner(made); // freed even if the callback's last call has thrown
   listener.checked(status);
   return {std::move(owner), report};
+}
+
+/// Gives a surface trims that follow loops of curves in space within the tolerance; a loop is one closed curve, or several
+/// in order. Says how near they are.
+inline planish_trim_report trim_by_curves(surface &surface, const std::vector<std::vector<curve>> &loops,
+                                          const planish_trim_options &given = defaults<planish_trim_options>(),
+                                          const progress &hear = {}) {
+  std::vector<const planish_curve *> handles;
+  std::vector<std::size_t> counts;
+  for (const auto &loop : loops) {
+    for (const curve &one : loop) handles.push_back(one.get());
+    counts.push_back(loop.size());
+  }
+  auto report = detail::sized<planish_trim_report>();
+  detail::heard(given, hear, [&](const planish_trim_options *options) {
+    return planish_surface_trim_by_curves(surface.get(), handles.data(), counts.data(), counts.size(), options, &report);
+  });
+  return report;
 }
 
 /// Fits a D1RC-spline to the shape of a mesh: a triangular control mesh, sharp edges kept. A mesh without parameters

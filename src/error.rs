@@ -17,6 +17,7 @@ use crate::fit::field::transfer::TransferError;
 use crate::fit::model::ModelFitError;
 use crate::fit::model::from_patches::FromPatchesError;
 use crate::fit::skin::SkinError;
+use crate::fit::trim::CurveTrimError;
 use crate::knots::KnotError;
 use crate::layout::LayoutError;
 use crate::layout::of_mesh::MeshLayoutError;
@@ -135,6 +136,8 @@ union! {
     Load(LoadError),
     /// A trim is not one.
     Trim(TrimError),
+    /// No trims follow curves.
+    CurveTrim(CurveTrimError),
     /// Surfaces cannot be added.
     Combine(CombineError),
     /// A surface cannot be converted.

@@ -61,6 +61,7 @@ program test_calls
   call derivatives_grids_and_normals()
   call points_outside_are_flagged()
   call trims_count_from_1()
+  call trims_follow_curves()
   call points_are_projected()
   call files_are_written()
   call curves_are_evaluated()
@@ -538,6 +539,42 @@ contains
     call surface%set_trims(uv(:, :0), [integer ::])
     call check(surface%trim_count() == 0, "no trims")
   end subroutine
+
+  subroutine trims_follow_curves()
+    type(planish_surface_t) :: surface
+    type(planish_curve_t) :: rings(2), lines(1)
+    type(planish_trim_options) :: options
+    type(planish_trim_report) :: report
+    real(real64), parameter :: ends(4) = [0, 0, 1, 1]
+    character(200) :: errmsg
+    integer :: stat
+    call planish_tensor_new(1, 1, ends, ends, &
+      reshape(real([0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0], real64), [3, 2, 2]), surface)
+    rings(1) = square(0.1_real64, 0.9_real64)
+    rings(2) = square(0.4_real64, 0.6_real64)
+    call surface%trim_by_curves(rings, options=options, report=report)
+    call check(surface%trim_count() == 2 .and. surface%trim_point_count(2) == 4, "trim_by_curves")
+    call check(report%vertex_count == 8 .and. report%max_distance_between < 1e-12_real64, "a report of trims")
+    call surface%trim_by_curves(rings(1:1), [1])
+    options%add = 1
+    call surface%trim_by_curves(rings(2:2), options=options)
+    call check(surface%trim_count() == 2, "a hole is added")
+    call lines(1)%new(1, ends, reshape(real([0, 0, 0, 1, 0, 0], real64), [3, 2]))
+    call surface%trim_by_curves(lines, stat=stat, errmsg=errmsg)
+    call check(stat == PLANISH_STATUS_INVALID_ARGUMENT .and. index(errmsg, "not closed") > 0, "an open loop")
+    call check(surface%trim_count() == 2, "trims stay")
+  end subroutine
+
+  !> A square between two places on the diagonal.
+  function square(from, to) result(ring)
+    real(real64), intent(in) :: from, to
+    type(planish_curve_t) :: ring
+    real(real64) :: points(3, 5)
+    points = 0
+    points(1, :) = [from, to, to, from, from]
+    points(2, :) = [from, from, to, to, from]
+    call ring%new(1, real([0, 0, 1, 2, 3, 4, 4], real64), points)
+  end function
 
   subroutine points_are_projected()
     type(planish_surface_t) :: surface

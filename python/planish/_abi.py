@@ -658,6 +658,48 @@ class planish_eval_options(Structure):
     }
 
 
+class planish_trim_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("tolerance", c_double),
+        ("progress", planish_progress),
+        ("user", c_void_p),
+        ("cancel", c_void_p),
+        ("out_stage", c_void_p),
+        ("tolerance_scale", c_uint32),
+        ("add", c_uint32),
+        ("thread_count", c_uint32),
+        ("reserved", c_uint32),
+    ]
+    choices = {
+        "out_stage": "planish_stage",
+        "tolerance_scale": "planish_tolerance_scale",
+    }
+    elements = {
+        "out_stage": c_uint32,
+    }
+    arrays = {
+        "out_stage": ("1",),
+    }
+
+
+class planish_trim_report(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("max_vertex_distance", c_double),
+        ("rms_vertex_distance", c_double),
+        ("max_distance_between", c_double),
+        ("rms_distance_between", c_double),
+        ("worst_parameter", c_double),
+        ("tolerance", c_double),
+        ("diagonal", c_double),
+        ("seconds", c_double),
+        ("worst_curve", c_size_t),
+        ("vertex_count", c_size_t),
+        ("unproven_count", c_size_t),
+    ]
+
+
 class planish_patch(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -1752,6 +1794,8 @@ SIZES = {
     planish_mesh_layout_report: 72,
     planish_fit_report: 248,
     planish_eval_options: 40,
+    planish_trim_options: 64,
+    planish_trim_report: 96,
     planish_patch: 72,
     planish_convert_options: 48,
     planish_tensor_options: 304,
@@ -1874,6 +1918,8 @@ FUNCTIONS = {
     "planish_surface_trim_point_count": (c_size_t, c_void_p, c_size_t),
     "planish_surface_copy_trim": (c_int32, c_void_p, c_size_t, c_void_p, c_size_t),
     "planish_surface_set_trims": (c_int32, c_void_p, c_void_p, c_void_p, c_size_t),
+    "planish_trim_options_init": (c_int32, c_void_p, c_size_t),
+    "planish_surface_trim_by_curves": (c_int32, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p, c_void_p),
     "planish_surface_patch_count": (c_size_t, c_void_p),
     "planish_surface_patch_at": (c_size_t, c_void_p, c_double, c_double),
     "planish_surface_copy_patch": (c_int32, c_void_p, c_size_t, c_void_p, c_void_p, c_size_t),
@@ -2108,6 +2154,7 @@ ELEMENTS = {
     ("planish_layout_copy_valences", "out_valences"): c_uint32,
     ("planish_layout_copy_node_map", "out_quads"): c_uint32,
     ("planish_surface_set_trims", "point_counts"): c_size_t,
+    ("planish_surface_trim_by_curves", "curve_counts"): c_size_t,
     ("planish_field_fitter_grid", "out_grid"): c_size_t,
     ("planish_mesh_sample_rows", "out_row_counts"): c_size_t,
     ("planish_mesh_sample_rows", "out_point_count"): c_size_t,
@@ -2233,6 +2280,7 @@ class ReportFields:
     max_back_distance: float
     max_deviation: float
     max_distance: float
+    max_distance_between: float
     max_error: float
     max_fixed_error: float
     max_gap: float
@@ -2244,6 +2292,7 @@ class ReportFields:
     max_side_error: float
     max_stretch: float
     max_tolerance_share: float
+    max_vertex_distance: float
     mean_deviation: float
     mean_distance: float
     mean_error: float
@@ -2272,8 +2321,10 @@ class ReportFields:
     removed_knot_count: int
     rms_deviation: float
     rms_distance: float
+    rms_distance_between: float
     rms_error: float
     rms_shape_error: float
+    rms_vertex_distance: float
     rough_cell_count: int
     seconds: float
     sharp_edge_count: int
@@ -2295,6 +2346,7 @@ class ReportFields:
     unproven_count: int
     unused_node_count: int
     v_error: float
+    vertex_count: int
     void_count: int
     volume: float
     welded_node_count: int
@@ -2303,8 +2355,10 @@ class ReportFields:
     work_given: float
     worst_back_u: float
     worst_back_v: float
+    worst_curve: int
     worst_index: int
     worst_node: int
+    worst_parameter: float
     worst_patch: int
 
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _abi
 from ._calls import LongCall, ProgressCallback
+from ._curve import Curve
 from ._library import (
     OUT,
     Handle,
@@ -317,6 +318,31 @@ class Surface(Handle):
         counts = np.array([len(loop) for loop in loops], np.uintp)
         points = np.concatenate(loops) if loops else np.empty((0, 2))
         call("planish_surface_set_trims", self, pointer(points), pointer(counts), len(loops))
+
+    def trim_by_curves(
+        self,
+        loops: Iterable[Curve | Iterable[Curve]],
+        tolerance: float = 1e-3,
+        *,
+        absolute: bool = False,
+        progress: ProgressCallback | None = None,
+        **trim_options: Any,
+    ) -> Report:
+        """Trims that follow curves in space within a tolerance; the report says how near they are.
+
+        A loop is one closed curve, or several in order. ``add=1`` keeps the trims that there are, so that a closed curve
+        inside cuts a hole.
+        """
+        loops = [[loop] if isinstance(loop, Curve) else list(loop) for loop in loops]
+        counts = np.array([len(loop) for loop in loops], np.uintp)
+        handles = (ctypes.c_void_p * int(counts.sum()))(*(curve._as_parameter_ for loop in loops for curve in loop))
+        long = LongCall(progress)
+        report = report_record("trim_report")
+        filled = long.fields("trim_options")
+        filled.update(tolerance=tolerance, tolerance_scale="absolute" if absolute else "relative")
+        record = options("trim_options", trim_options, **filled)
+        arguments = (ctypes.addressof(handles), pointer(counts), len(loops), by_reference(record), by_reference(report))
+        return Report(report, long("planish_surface_trim_by_curves", self, *arguments))
 
     # parts
 

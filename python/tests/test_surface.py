@@ -147,6 +147,22 @@ def test_tessellation_follows_the_trims(surface):
     assert triangles.n_loops == len(surface.trims) == 1 and triangles.n_points > 20
 
 
+def test_trims_follow_curves():
+    sheet = planish.tensor([0, 0, 1, 1], [0, 0, 1, 1], np.array([[[0, 0, 0], [0, 4, 0]], [[4, 0, 0], [4, 4, 0.0]]]))
+    angle = np.linspace(0, 2 * np.pi, 65)
+    ring = np.stack([np.cos(angle), np.sin(angle), 0 * angle], 1)
+    ring[-1] = ring[0]
+    big, small = (planish.interpolate_curve(angle, [2, 2, 0] + radius * ring, ends="periodic") for radius in (1.5, 0.5))
+    report = sheet.trim_by_curves([big, [small]], 1e-4, absolute=True)
+    assert report.ok and max(report.max_vertex_distance, report.max_distance_between) <= 1e-4
+    assert report.vertex_count == sum(map(len, sheet.trims)) and len(sheet.trims) == 2
+    # a vertex is on its circle, but for the cubic's 5/384 h^4
+    assert np.abs(np.hypot(*(4 * sheet.trims[1] - 2).T) - 0.5).max() < 2e-6
+    with pytest.raises(planish.InvalidError, match="not closed"):
+        sheet.trim_by_curves([planish.interpolate_curve(angle[:9], ring[:9])])
+    assert len(sheet.trims) == 2
+
+
 def test_normals_and_curvatures_of_a_cylinder():
     # a quarter of a cylinder of radius 2 as a rational quadratic arc
     points = np.array([[[2, 0, z], [2, 2, z], [0, 2, z]] for z in (0.0, 1.0)]).transpose(1, 0, 2)

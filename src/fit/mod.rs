@@ -16,5 +16,6 @@ pub mod model;
 pub mod pht;
 pub mod skin;
 pub mod tensor;
+pub mod trim;
 
 pub use common::{errors, report};
