@@ -95,8 +95,8 @@ pub(super) struct Stiff {
     factor: f64,
 }
 
-/// What the energy of a folded cell and around it is multiplied by, each time it is found. The part grows with the logarithm
-/// of that to base ten: what is around a cell folds it.
+/// What the energy of a folded cell and half a cell around it is multiplied by, each time it is found. Over smooth patches it
+/// is half a cell more each time, as what is around a cell folds it; patches between creases are too narrow for that.
 const STIFFER: f64 = 10.0;
 /// Most of that: a thousand times the energy makes a cell a plane plate.
 const STIFFEST: f64 = 1e3;
@@ -211,7 +211,8 @@ impl Refinement<'_> {
         for &(quad, domain) in &round.folded {
             let factor = STIFFER * self.stiffness(quad, &domain);
             if factor <= STIFFEST {
-                let margin = DVec2::splat(0.5 * factor.log10() * domain.size().x);
+                let times = if self.has_creases { 1.0 } else { factor.log10() };
+                let margin = DVec2::splat(0.5 * times * domain.size().x);
                 let domain = Domain { min: domain.min - margin, max: domain.max + margin };
                 self.stiff.push(Stiff { quad, domain, factor });
             }
