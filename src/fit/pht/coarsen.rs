@@ -10,8 +10,9 @@
 //! ```
 //! Between scattered data the surface is watched by some that are withheld from the fits, but must be met.
 
+use super::leaf::LeafErrors;
 use super::options::{COARSENING_SOLVES, Coarsening};
-use super::refine::{LeafErrors, Refinement, Round};
+use super::refine::{Refinement, Round};
 use super::{Continuity, Estimator};
 use crate::control::Control;
 use crate::fit::common::FitError;

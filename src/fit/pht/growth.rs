@@ -1,41 +1,15 @@
-//! How fits with two continuous derivatives grow: from several initial grids, and by single functions.
-//!
-//! A cell that is split alone adds no function: one of the next level is there when the four by four cells of its support
-//! are. For a datum that misses the tolerance the least that helps are two by two cells around it, so chosen that it
-//! lies in the middle half of the new function's support.
-//! ```text
-//! +-------+-------+      x misses the tolerance, in the upper right quarter of its cell:
-//! |       |       |      that cell and those to the right and above are split, and with
-//! |       |       |      them the function over all four is there
-//! +-------+-------+
-//! |     x |       |
-//! |       |       |
-//! +-------+-------+
-//! ```
+//! How fits with two continuous derivatives grow: from several initial grids, of which the best is kept.
 
 use super::PhtOptions;
-use super::refine::{LeafErrors, NoiseTest, Refinement, Round};
+use super::refine::{NoiseTest, Refinement, Round};
 use crate::control::Control;
 use crate::fit::common::FitError;
 use crate::fit::common::report::StopReason;
 use crate::fit::common::rounds::{self, Outcome};
 use crate::surface::Surface;
-use crate::tmesh::{Cell, NodeId, QUADRANTS, TMesh};
-
-/// The weight of the plate over the domain, mapped to a square, against the mean square error, by the smoothing that is asked
-/// for: 1e-11 by default. A tenth leaves surfaces that swing between their data by up to twice the tolerance, ten times
-/// as much asks for a third more coefficients on steep ridges.
-pub(super) const PLATE_SHARE: f64 = 1e-8;
-/// Where splits do not help, the plate's weight is lowered by this factor,
-pub(super) const SMOOTH_STEP: f64 = 0.1;
-/// to no less than this share of the one asked for: with less, surfaces swing between the data.
-pub(super) const SMOOTH_LEAST: f64 = 1e-2;
 
 /// Two rounds that leave more than this share of the error have not helped.
 const STALLED: f64 = 0.95;
-/// Where the tolerance is missed, cells are split that use up more than this share of it: half the rounds, and few
-/// functions more.
-const MARGIN: f64 = 0.8;
 
 /// Cells along each direction of the initial grids that are tried. Lines of halved cells are those of twice as many: 1 stands
 /// for 2, 4, 8 and more, 3 for 6 and 12. Which fits best is luck, and worth a quarter of the coefficients of small fits.
@@ -88,52 +62,5 @@ impl Refinement<'_> {
         self.known.renew();
         let grown = rounds::run(self, control)?;
         self.coarsened(grown, control)
-    }
-}
-
-/// Splits the two by two cells around each quarter of a leaf in which an error is too large.
-pub(super) fn split_around<E>(
-    mesh: &mut TMesh,
-    leaf: &LeafErrors,
-    tolerance: f64,
-    allow: &mut impl FnMut(&TMesh, NodeId) -> Result<(), E>,
-) -> Result<(), E> {
-    let doubt = if leaf.error > 0.0 { leaf.expected / leaf.error } else { 1.0 };
-    for (error, quadrant) in leaf.quarters.into_iter().zip(QUADRANTS) {
-        if doubt * error <= MARGIN * tolerance {
-            continue;
-        }
-        for other in QUADRANTS {
-            let Cell { level, i, j } = leaf.cell;
-            // the lower left cell of the four is one to the left, or below, where the quarter is the left or lower one
-            let along = |at: u32, near: u32, far: u32| (at + near + far).checked_sub(1);
-            let (i, j) = (along(i, quadrant[0], other[0]), along(j, quadrant[1], other[1]));
-            if let (Some(i), Some(j)) = (i, j) {
-                split_cell(mesh, Cell { level, i, j }, allow)?;
-            }
-        }
-    }
-    Ok(())
-}
-
-/// Splits a cell, and before it those that it is a part of; nothing beyond the border.
-fn split_cell<E>(
-    mesh: &mut TMesh,
-    cell: Cell,
-    allow: &mut impl FnMut(&TMesh, NodeId) -> Result<(), E>,
-) -> Result<(), E> {
-    if mesh.find(cell).is_none() {
-        match cell.parent() {
-            Some(parent) => split_cell(mesh, parent, allow)?,
-            None => return Ok(()),
-        }
-    }
-    match mesh.find(cell).filter(|&node| mesh.is_leaf(node)) {
-        Some(leaf) => {
-            allow(mesh, leaf)?;
-            mesh.split(leaf);
-            Ok(())
-        }
-        None => Ok(()),
     }
 }

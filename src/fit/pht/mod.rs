@@ -17,6 +17,7 @@ mod coarsen;
 mod data;
 mod global;
 mod growth;
+mod leaf;
 mod local;
 mod mirror;
 mod options;

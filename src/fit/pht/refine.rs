@@ -2,7 +2,7 @@
 
 use super::data::Data;
 use super::global::System;
-use super::growth::{PLATE_SHARE, SMOOTH_LEAST, SMOOTH_STEP, split_around};
+use super::leaf::{LeafErrors, split_around};
 use super::smooth::SmoothSystem;
 use super::sums::{ByLeaf, Energy, KnownSums};
 use super::{Continuity, Estimator, PhtFit, PhtOptions, local};
@@ -54,22 +54,19 @@ impl Round {
     }
 }
 
-/// The errors of one leaf.
-pub(super) struct LeafErrors {
-    pub cell: Cell,
-    pub samples: usize,
-    /// The largest error in it.
-    pub error: f64,
-    /// What may be expected at the places between its data.
-    pub expected: f64,
-    /// The largest error in each quarter, in the order of the quadrants.
-    pub quarters: [f64; 4],
-}
-
 /// Where no cell can be split the energy is lowered by this factor,
 const SMOOTHING_STEP: f64 = 1e-2;
 /// as long as its weight is above this: far below, rounding decides in cells without data.
 const LEAST_SMOOTHING: f64 = 1e-6;
+
+/// The weight of the plate over the domain, mapped to a square, against the mean square error, by the smoothing that is asked
+/// for: 1e-11 by default. A tenth leaves surfaces that swing between their data by up to twice the tolerance, ten times
+/// as much asks for a third more coefficients on steep ridges.
+const PLATE_SHARE: f64 = 1e-8;
+/// Where splits do not help, the plate's weight is lowered by this factor,
+const SMOOTH_STEP: f64 = 0.1;
+/// to no less than this share of the one asked for: with less, surfaces swing between the data.
+const SMOOTH_LEAST: f64 = 1e-2;
 
 /// Smallest share of its first area that a triangle keeps when its nodes move. Sweeps follow each other; with less
 /// the map is crushed here and there, and the surface swings between the nodes: of 0, 0.1, .. 0.75 this needed the
