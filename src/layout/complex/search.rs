@@ -15,8 +15,6 @@ const MOST_SPLITS: usize = 25;
 const FULL_SPLITS: usize = 640;
 /// A split mends no more than so many of what is left over, and two in three mend one or nothing.
 const GAIN: usize = 2;
-/// More than so many for each split are not worth a thorough pairing.
-const QUICK_GAIN: usize = 1;
 /// Edges tried at each step.
 const CANDIDATES: usize = 5;
 /// For the first pairing, which closed surfaces keep.
@@ -78,10 +76,10 @@ pub(super) fn quads(
     Ok((left_over(&base, &pairing) == 0).then_some((base, pairing, splits)))
 }
 
-/// Whether a quick pairing leaves no more over than splits mend.
+/// Whether a quick pairing leaves no more over than there are splits: more are not worth a thorough one.
 fn is_hopeful(base: &Base, control: &mut Control) -> Result<bool, Cancelled> {
     let quick = pairing(base, TRIAL, control)?;
-    Ok(quick.is_some_and(|pairing| left_over(base, &pairing) <= QUICK_GAIN * most_splits(base)))
+    Ok(quick.is_some_and(|pairing| left_over(base, &pairing) <= most_splits(base)))
 }
 
 fn most_splits(base: &Base) -> usize {
