@@ -359,14 +359,18 @@ pub fn ridged_sheet(seed: u64) -> Result<Mesh, MeshError> {
     mesh_over(grid([200, 200], 0.3, seed, |_| true), |uv| (surface(uv), uv))
 }
 
+/// The sheet of [`noisy_sheet`] without noise, over the unit square.
+fn wavy_sheet(uv: DVec2) -> DVec3 {
+    DVec3::new(2.0 * uv.x, uv.y, 0.2 * (3.0 * uv.x).sin() * (2.0 * uv.y + 0.4).cos())
+}
+
 /// A wavy sheet of 3,600 nodes with parameters, each node off by up to 0.002 in every direction.
 pub fn noisy_sheet(seed: u64) -> Result<Mesh, MeshError> {
     let mut random = Random::new(seed);
     let mut error = move || 0.002 * random.signed();
-    let sheet = |uv: DVec2| DVec3::new(2.0 * uv.x, uv.y, 0.2 * (3.0 * uv.x).sin() * (2.0 * uv.y + 0.4).cos());
     let (places, triangles) = grid([60, 60], 0.3, seed, |_| true);
     let errors: Vec<DVec3> = places.iter().map(|_| DVec3::new(error(), error(), error())).collect();
-    let points = places.iter().zip(errors).map(|(&uv, error)| sheet(uv) + error).collect();
+    let points = places.iter().zip(errors).map(|(&uv, error)| wavy_sheet(uv) + error).collect();
     let mut mesh = Mesh::new(points, triangles)?;
     mesh.set_parameters(places)?;
     Ok(mesh)

@@ -1,5 +1,6 @@
 //! Rows of points to be skinned: shapes with counts that differ from row to row.
 
+use glam::DVec2;
 use std::f64::consts::PI;
 
 /// Rows of points in space.
@@ -174,6 +175,28 @@ pub fn head() -> RowSet {
     set
 }
 
+/// A border with round corners and a hole like a flower on the sheet of [`super::noisy_sheet`]: closed rows of 96 and 80
+/// points, the first one of each repeated at its end.
+pub fn sheet_loops() -> RowSet {
+    // a superellipse of fourth degree, whose sides are nearly straight
+    let border = |angle: f64| {
+        let at = DVec2::from_angle(angle);
+        at / (at.x.powi(4) + at.y.powi(4)).powf(0.25)
+    };
+    let flower = |angle: f64| (1.0 + 0.2 * (5.0 * angle).cos()) * DVec2::from_angle(angle);
+    let row = |count: usize, size: DVec2, shape: &dyn Fn(f64) -> DVec2| {
+        let place = |angle: f64| super::wavy_sheet(DVec2::splat(0.5) + size * shape(angle)).to_array();
+        let mut points: Vec<[f64; 3]> =
+            (0..count).map(|k| place(2.0 * PI * k as f64 / count as f64)).collect();
+        points.push(points[0]);
+        points
+    };
+    let mut set = RowSet::default();
+    set.push(row(96, DVec2::splat(0.45), &border));
+    set.push(row(80, DVec2::new(0.125, 0.25), &flower));
+    set
+}
+
 /// `count` points on a polyline, even in its length times `density` of the segments.
 fn resample(curve: &[[f64; 3]], count: usize, density: impl Fn(usize) -> f64) -> Vec<[f64; 3]> {
     let mut at = vec![0.0];
@@ -203,6 +226,7 @@ mod tests {
             (screwdriver(), 12, 1224, 90, 150),
             (limb(), 14, 820, 40, 76),
             (head(), 100, 18_368, 127, 268),
+            (sheet_loops(), 2, 178, 81, 97),
         ] {
             assert_eq!((set.counts.len(), set.points.len()), (rows, 3 * points));
             assert_eq!(set.counts.iter().sum::<usize>(), points);

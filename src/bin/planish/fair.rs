@@ -5,13 +5,16 @@ use crate::output::{self, Table};
 use crate::step::StepArguments;
 use crate::{Failure, Given, Outcome};
 use clap::{Args, ValueEnum};
+use glam::DVec2;
 use planish::Control;
 use planish::export::native;
-use planish::fit::fair::{FairData, FairLimit, FairOptions, Fairness, KeptBorder, fair};
+use planish::fit::fair::{FairData, FairLimit, FairOptions, FairReport, Fairness, KeptBorder, fair};
 use planish::fit::report::{Tolerance, ToleranceScale};
 use planish::mesh::{MeshOptions, read};
 use planish::query::project::{ProjectOptions, Projector};
-use std::path::PathBuf;
+use planish::surface::Surface;
+use serde_json::json;
+use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub(crate) struct FairArguments {
@@ -40,6 +43,9 @@ pub(crate) struct FairArguments {
     out: Vec<PathBuf>,
     #[command(flatten)]
     step: StepArguments,
+    /// Print the report as JSON.
+    #[arg(long)]
+    json: bool,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -70,17 +76,31 @@ enum LimitName {
 
 pub(crate) fn run(arguments: &FairArguments, given: &Given) -> Result<Outcome, Failure> {
     output::check_names(&arguments.out)?;
-    let writes_step = arguments.out.iter().any(|path| output::is_step(path));
-    for option in StepArguments::OPTIONS {
-        given.refuse(option, writes_step, "is not used: no STEP file is written")?;
-    }
+    StepArguments::check_used(given, &arguments.out)?;
     given.refuse(
         "limit",
         arguments.mesh.is_some(),
         "is not used: without --mesh the tolerance is the limit",
     )?;
     let surface = native::load_file(&arguments.surface)?;
-    let options = FairOptions {
+    let nodes = arguments.mesh.as_deref().map(|path| nodes(path, surface.as_surface())).transpose()?;
+    let data = nodes.as_ref().map(|(uv, values)| FairData { uv, values });
+    let faired = with_bar(1, |control| fair(&surface, data, &options(arguments), control))?;
+    let stem = arguments.surface.file_stem().unwrap_or_default().to_string_lossy();
+    let step = arguments.step.step(&faired.surface.as_surface().region().label, &stem);
+    for path in &arguments.out {
+        output::write_surface(&faired.surface, path, &step)?;
+    }
+    if arguments.json {
+        output::print(format_args!("{}\n", json_report(arguments, &faired.report)))?;
+    } else {
+        output::print(table(arguments, &faired.report))?;
+    }
+    Ok(Outcome::Done)
+}
+
+fn options(arguments: &FairArguments) -> FairOptions {
+    FairOptions {
         tolerance: Tolerance {
             value: arguments.tolerance,
             scale: if arguments.absolute { ToleranceScale::Absolute } else { ToleranceScale::Relative },
@@ -98,32 +118,27 @@ pub(crate) fn run(arguments: &FairArguments, given: &Given) -> Result<Outcome, F
             LimitName::Noise => FairLimit::Noise,
             LimitName::Tolerance => FairLimit::Tolerance,
         },
-    };
-    let nodes = match &arguments.mesh {
-        None => None,
-        Some(path) => {
-            let mesh = read(path, &MeshOptions::default())?.0;
-            let values: Vec<f64> = mesh.points().iter().flat_map(|p| p.to_array()).collect();
-            let projector = Projector::new(surface.as_surface())?;
-            let feet = projector.project(&values, &ProjectOptions::default(), Control::default().pool())?;
-            Some((feet.uv, values))
-        }
-    };
-    let data = nodes.as_ref().map(|(uv, values)| FairData { uv, values });
-    let faired = with_bar(1, |control| fair(&surface, data, &options, control))?;
-    let stem = arguments.surface.file_stem().unwrap_or_default().to_string_lossy();
-    let step = arguments.step.step(&faired.surface.as_surface().region().label, &stem);
-    for path in &arguments.out {
-        output::write_surface(&faired.surface, path, &step)?;
     }
-    let report = &faired.report;
+}
+
+/// The nodes of a mesh, and the (u,v) nearest to them.
+fn nodes(path: &Path, surface: &dyn Surface) -> Result<(Vec<DVec2>, Vec<f64>), Failure> {
+    let mesh = read(path, &MeshOptions::default())?.0;
+    let values: Vec<f64> = mesh.points().iter().flat_map(|p| p.to_array()).collect();
+    let projector = Projector::new(surface)?;
+    let feet = projector.project(&values, &ProjectOptions::default(), Control::default().pool())?;
+    Ok((feet.uv, values))
+}
+
+fn table(arguments: &FairArguments, report: &FairReport) -> Table {
     let both = |length: f64| format!("{length:.3e}   {:.2e} of the diagonal", length / report.diagonal);
+    let has_mesh = arguments.mesh.is_some();
     let mut table = Table::default();
     table.row("surface", format!("{}", arguments.surface.display()));
     table.row("energy", format!("{:.4e} to {:.4e}", report.energy_before, report.energy_after));
     table.row("tolerance", both(report.tolerance));
-    table.row(if nodes.is_some() { "max error" } else { "moved at most" }, both(report.max_deviation));
-    if nodes.is_some() {
+    table.row(if has_mesh { "max error" } else { "moved at most" }, both(report.max_deviation));
+    if has_mesh {
         table.row("rms error", both(report.rms_deviation));
         table.row("moved at most", both(report.max_movement));
     }
@@ -131,6 +146,20 @@ pub(crate) fn run(arguments: &FairArguments, given: &Given) -> Result<Outcome, F
     for path in output::names(&arguments.out) {
         table.row("written", path);
     }
-    output::print(table)?;
-    Ok(Outcome::Done)
+    table
+}
+
+fn json_report(arguments: &FairArguments, report: &FairReport) -> serde_json::Value {
+    json!({
+        "energy_before": report.energy_before,
+        "energy_after": report.energy_after,
+        "tolerance": report.tolerance,
+        "diagonal": report.diagonal,
+        "max_error": report.max_deviation,
+        "rms_error": report.rms_deviation,
+        "max_movement": report.max_movement,
+        "passes": report.passes,
+        "seconds": report.seconds,
+        "written": output::names(&arguments.out),
+    })
 }

@@ -98,10 +98,7 @@ fn check_used(arguments: &FitArguments, family: FamilyName, given: &Given) -> Re
     }
     given.refuse("weights", family != FamilyName::Model, "is not used by --family model")?;
     given.refuse("free-ends", !arguments.ferguson, "is not used with --ferguson")?;
-    let writes_step = arguments.out.iter().any(|path| output::is_step(path));
-    for option in StepArguments::OPTIONS {
-        given.refuse(option, writes_step, "is not used: no STEP file is written")?;
-    }
+    StepArguments::check_used(given, &arguments.out)?;
     given.refuse(
         "step-form",
         family == FamilyName::Pht,

@@ -18,10 +18,12 @@ mod morph;
 mod output;
 mod picture;
 mod render;
+mod rows;
 mod sample;
 mod skin;
 mod step;
 mod topics;
+mod trim;
 mod verdict;
 
 use clap::error::ErrorKind;
@@ -62,6 +64,8 @@ enum Command {
     Eval(eval::EvalArguments),
     /// Lower the energy of a saved surface within a tolerance.
     Fair(fair::FairArguments),
+    /// Trim a saved surface along closed curves near it and report how close the trims came.
+    Trim(trim::TrimArguments),
     /// Draw a sequence of pictures of a mesh's surface, moved by a displacement on its nodes.
     Morph(morph::MorphArguments),
     /// Draw a picture of a saved surface.
@@ -137,6 +141,7 @@ fn main() -> ExitCode {
         Command::Info(arguments) => info::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
         Command::Fair(arguments) => fair::run(&arguments, &given),
+        Command::Trim(arguments) => trim::run(&arguments, &given),
         Command::Morph(arguments) => morph::run(&arguments),
         Command::Render(arguments) => render::run(&arguments, &given),
         Command::Sample(arguments) => sample::run(&arguments, &given),

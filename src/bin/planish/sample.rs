@@ -60,12 +60,22 @@ enum Shape {
     WaveRows,
     /// Rows of points round a head, closed.
     HeadRows,
+    /// Closed rows of points on the wavy sheet, its border and a hole: for `planish trim`.
+    SheetLoops,
 }
 
 impl Shape {
     /// Whether its nodes are jittered.
     fn is_jittered(self) -> bool {
-        !matches!(self, Self::HalfFuselage | Self::Wing | Self::DustpanRows | Self::WaveRows | Self::HeadRows)
+        !matches!(
+            self,
+            Self::HalfFuselage
+                | Self::Wing
+                | Self::DustpanRows
+                | Self::WaveRows
+                | Self::HeadRows
+                | Self::SheetLoops
+        )
     }
 }
 
@@ -96,6 +106,7 @@ pub(crate) fn run(arguments: &SampleArguments, given: &Given) -> Result<Outcome,
         Shape::DustpanRows => return write_rows(&samples::rows::dustpan(), false, &arguments.out),
         Shape::WaveRows => return write_rows(&samples::rows::wave(), false, &arguments.out),
         Shape::HeadRows => return write_rows(&samples::rows::head(), true, &arguments.out),
+        Shape::SheetLoops => return write_rows(&samples::rows::sheet_loops(), true, &arguments.out),
     }?;
     output::write_mesh(&mesh, &arguments.out)?;
     done(&arguments.out)
@@ -106,7 +117,7 @@ fn done(path: &Path) -> Result<Outcome, Failure> {
     Ok(Outcome::Done)
 }
 
-/// Writes rows for `planish skin`; the first point of a closed row, which the samples repeat, stands there once.
+/// Writes rows for `planish skin` and `planish trim`; the first point of a closed row, which the samples repeat, stands there once.
 fn write_rows(rows: &RowSet, is_closed: bool, path: &Path) -> Result<Outcome, Failure> {
     let mut text = format!("rows {}\n", rows.counts.len());
     for index in 0..rows.counts.len() {

@@ -2,6 +2,7 @@
 
 use crate::input::threads;
 use crate::output::{self, Table};
+use crate::rows::RowFile;
 use crate::step::Step;
 use crate::{Failure, Given, Outcome};
 use clap::{Args, ValueEnum};
@@ -86,9 +87,7 @@ pub(crate) fn run(arguments: &SkinArguments, given: &Given) -> Result<Outcome, F
     output::check_names(&arguments.out)?;
     let writes_step = arguments.out.iter().any(|path| output::is_step(path));
     given.refuse("step-form", writes_step, "is not used: no STEP file is written")?;
-    let text = output::read_text(&arguments.rows)?;
-    let read = RowFile::parse(&text)
-        .map_err(|Failure(sentence)| Failure::new(format!("{}: {sentence}", arguments.rows.display())))?;
+    let read = RowFile::read(&arguments.rows)?;
     let rows = Rows { points: &read.points, counts: &read.counts, dim: 3 };
     let options = options(arguments, read.is_closed);
     let fit = skin(&rows, &options, &mut Control::new(arguments.threads))?;
@@ -144,60 +143,6 @@ fn write(fit: &SkinFit, arguments: &SkinArguments, path: &Path) -> Result<(), Fa
         ..Step::default()
     };
     output::write_surface(&fit.surface.clone().into(), path, &step)
-}
-
-/// What a file of rows holds.
-#[derive(Debug, Default, PartialEq)]
-struct RowFile {
-    points: Vec<f64>,
-    counts: Vec<usize>,
-    is_closed: bool,
-}
-
-impl RowFile {
-    fn parse(text: &str) -> Result<Self, Failure> {
-        let mut file = Self::default();
-        let mut announced = None;
-        // points that the present row still lacks
-        let mut missing = 0;
-        for (number, line) in text.lines().enumerate() {
-            let wrong = |problem: &str| Failure::new(format!("line {}: {problem}", number + 1));
-            let line = line.split('#').next().unwrap_or_default();
-            let words: Vec<&str> = line.split_whitespace().collect();
-            match words.as_slice() {
-                [] => {}
-                ["rows", count] if announced.is_none() => {
-                    announced =
-                        Some(count.parse::<usize>().map_err(|_| wrong("the number of rows is none"))?);
-                }
-                ["row", _, count, flags @ ..] if missing == 0 => {
-                    missing = count.parse().map_err(|_| wrong("the number of points is none"))?;
-                    let is_closed = flags.first().is_some_and(|&flag| flag == "closed" || flag == "1");
-                    if !file.counts.is_empty() && is_closed != file.is_closed {
-                        return Err(wrong("rows are either all closed or all open"));
-                    }
-                    file.is_closed = is_closed;
-                    file.counts.push(missing);
-                }
-                ["row", ..] => return Err(wrong(&format!("the row before lacks {missing} points"))),
-                [x, y, z] if missing > 0 => {
-                    for word in [x, y, z] {
-                        let number = word.parse().map_err(|_| wrong(&format!("'{word}' is no number")))?;
-                        file.points.push(number);
-                    }
-                    missing -= 1;
-                }
-                _ => return Err(wrong("neither a row nor one of its points")),
-            }
-        }
-        match announced {
-            _ if missing > 0 => Err(Failure::new(format!("the last row lacks {missing} points"))),
-            Some(count) if count != file.counts.len() => {
-                Err(Failure::new(format!("{count} rows are announced, {} are there", file.counts.len())))
-            }
-            _ => Ok(file),
-        }
-    }
 }
 
 fn table(arguments: &SkinArguments, rows: &Rows, fit: &SkinFit, common: Option<&SkinFit>) -> String {
@@ -295,33 +240,4 @@ fn json_report(
         "remarks": remarks(fit),
         "written": output::names(&arguments.out),
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_file_of_rows_is_read() {
-        let text =
-            "# a comment\nrows 2\nrow 0 2 closed\n0 0 0\n1 0 0 # and another\n\nrow 1 1 closed\n0.5 1e0 0\n";
-        let file = RowFile::parse(text).map_err(|Failure(sentence)| sentence).unwrap();
-        assert_eq!((file.counts, file.is_closed), (vec![2, 1], true));
-        assert_eq!(file.points, [0., 0., 0., 1., 0., 0., 0.5, 1., 0.]);
-    }
-
-    #[test]
-    fn wrong_files_are_refused_by_line() {
-        for (text, words) in [
-            ("rows 1\nrow 0 2\n0 0 0\nrow 1 1\n", "line 4: the row before lacks 1"),
-            ("rows 1\nrow 0 2\n0 0 0\n", "lacks 1 points"),
-            ("rows 2\nrow 0 1\n0 0 0\n", "2 rows are announced, 1"),
-            ("row 0 1\n0 0 zero\n", "line 2: 'zero'"),
-            ("row 0 1\n0 0\n", "line 2: neither"),
-            ("row 0 1 closed\n0 0 0\nrow 1 1 open\n0 0 0\n", "line 3: rows are either"),
-        ] {
-            let Failure(sentence) = RowFile::parse(text).unwrap_err();
-            assert!(sentence.contains(words), "{sentence}");
-        }
-    }
 }
