@@ -131,7 +131,8 @@ record! {
         pub diagonal: f64,
         /// Largest distance of a centroid of a facet or a middle of an edge from the model.
         pub max_interior_error: f64,
-        /// The part of that which flat facets on a curved shape explain.
+        /// The part of that which flat facets on a curved shape explain: max_interior_error - facet_sagitta is the largest
+        /// distance beyond what its own facet explains.
         pub facet_sagitta: f64,
         /// Largest distance from places all over the model to the mesh; NaN for a chart.
         pub max_back_distance: f64,

@@ -93,8 +93,10 @@ record! {
         /// Largest distance from a triangle's centroid or an edge's middle to the surface's tangent plane at the
         /// mean of the nodes' (u,v) (for a field: to its value there); 0 for data without triangles.
         pub max_interior_error: f64,
-        /// The part of max_interior_error that flat facets on a curved shape explain, never more than there is.
-        /// Facets at an edge across which normals turn by more than 30 degrees explain nothing: they are the shape.
+        /// The part of max_interior_error that flat facets on a curved shape explain: max_interior_error - facet_sagitta is
+        /// the largest distance beyond what its own facet explains, and PLANISH_REMARK_ROUGH_BETWEEN_NODES tells where that
+        /// is above the tolerance. Facets at an edge across which normals turn by more than 30 degrees explain nothing: they
+        /// are the shape.
         pub facet_sagitta: f64,
         /// Largest closest-point distance from a node to the surface; NaN unless measure_distance asked for it.
         pub max_distance: f64,

@@ -7,7 +7,7 @@ use crate::fit_options::{
 use crate::model;
 use crate::output::{self, Fit, Table};
 use crate::step::StepArguments;
-use crate::verdict::{remarks, verdict, written};
+use crate::verdict::{between_nodes, outcome, remarks, verdict, written};
 use crate::{Failure, Given, Outcome};
 use clap::ValueEnum;
 use planish::export::native::Saved;
@@ -44,9 +44,16 @@ pub(crate) fn run(arguments: &FitArguments, given: &Given) -> Result<Outcome, Fa
     check_fields(arguments, &mesh)?;
     let saved = saved_sides(arguments)?;
     if is_model {
-        return model::run(&mesh, &repairs, arguments);
+        let fit = model::fit(&mesh, arguments)?;
+        return model::tell(&mesh, &repairs, &fit, arguments);
     }
     let fit = with_bar(arguments.threads, |control| fit_by_family(&mesh, arguments, &saved, control))?;
+    // what is asked of one grid alone is no matter of a model
+    let is_free =
+        arguments.family == FamilyName::Auto && check_used(arguments, FamilyName::Model, given).is_ok();
+    if is_free && let Some(better) = model::better(&mesh, arguments, &fit.report)? {
+        return model::tell(&mesh, &repairs, &better, arguments);
+    }
     let stem = arguments.mesh.file_stem().unwrap_or_default().to_string_lossy();
     let label = Label::default();
     let step = arguments.step.step(&label, &stem);
@@ -64,9 +71,7 @@ pub(crate) fn run(arguments: &FitArguments, given: &Given) -> Result<Outcome, Fa
     } else {
         output::print(table(arguments, &mesh, &repairs, &fit.report))?;
     }
-    let remarks = fit.report.remarks;
-    let is_met = !(remarks.has(Remarks::TOLERANCE_NOT_MET) || remarks.has(Remarks::ROUGH_BETWEEN_NODES));
-    Ok(if is_met { Outcome::Done } else { Outcome::ToleranceNotMet })
+    Ok(outcome(fit.report.remarks))
 }
 
 /// Refuses what the family or the method would not look at.
@@ -75,6 +80,7 @@ fn check_used(arguments: &FitArguments, family: FamilyName, given: &Given) -> Re
         ("continuity", FamilyName::Pht),
         ("coarsening", FamilyName::Pht),
         ("max-grid", FamilyName::Tensor),
+        ("knots", FamilyName::Tensor),
         ("free-ends", FamilyName::Tensor),
         ("ferguson", FamilyName::Tensor),
         ("control", FamilyName::D1rc),
@@ -151,15 +157,7 @@ fn table(arguments: &FitArguments, mesh: &Mesh, repairs: &MeshRepairs, report: &
     table.row("tolerance", both(report.tolerance));
     table.row("max error", both(report.max_error));
     table.row("rms, mean error", format!("{:.3e}, {:.3e}", report.rms_error, report.mean_error));
-    table.row(
-        "between nodes",
-        match report.facet_sagitta {
-            explained if explained > 0.0 => {
-                format!("{:.3e}, of which facets explain {explained:.3e}", report.max_interior_error)
-            }
-            _ => format!("{:.3e}", report.max_interior_error),
-        },
-    );
+    table.row("between nodes", between_nodes(report.max_interior_error, report.facet_sagitta));
     if !arguments.fixed.is_empty() {
         table.row("fixed nodes", both(report.max_fixed_error));
     }

@@ -138,9 +138,9 @@ pub(crate) enum BorderName {
 
 #[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
 pub(crate) enum FamilyName {
-    /// A model for a closed mesh, a tensor surface for one with a boundary.
+    /// A model for a closed mesh; for one with a boundary a tensor surface if it meets the tolerance, else what does better.
     Auto,
-    /// Patches that meet smoothly, a solid: for closed meshes of any shape.
+    /// Patches that meet smoothly, exact faces, sharp edges: a solid of a closed mesh of any shape, a shell of another.
     Model,
     /// One grid of knots: what every CAD system edits.
     Tensor,

@@ -82,6 +82,7 @@ enum Command {
 }
 
 /// How a command ended well.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Outcome {
     Done,
     ToleranceNotMet,

@@ -5,30 +5,57 @@ use crate::fit_options::{FitArguments, LayoutName, tolerance};
 use crate::output::{self, Table};
 use crate::picture::{Picture, View};
 use crate::step::Step;
-use crate::verdict::{remarks, verdict, written};
+use crate::verdict::{between_nodes, outcome, remarks, verdict, written};
 use crate::{Failure, Outcome};
 use glam::DVec3;
 use planish::Control;
 use planish::fit::model::{Family, MeshModelOptions, ModelFit, ModelOptions, fit_mesh};
-use planish::fit::report::Remarks;
+use planish::fit::report::{FitReport, Remarks};
 use planish::layout::of_mesh::{LayoutKind, MeshLayoutOptions};
 use planish::mesh::{FeatureOptions, Mesh, MeshRepairs, read_face_property};
 use planish::surface::Label;
 use serde_json::json;
 use std::path::Path;
 
-pub(crate) fn run(mesh: &Mesh, repairs: &MeshRepairs, arguments: &FitArguments) -> Result<Outcome, Failure> {
+pub(crate) fn fit(mesh: &Mesh, arguments: &FitArguments) -> Result<ModelFit, Failure> {
     let labels = labels(mesh, arguments)?;
     let options = options(arguments, &labels);
-    let fit = with_bar(arguments.threads, |control| fit_mesh(mesh, &options, control))?;
+    Ok(with_bar(arguments.threads, |control| fit_mesh(mesh, &options, control))?)
+}
+
+/// A model, where one surface does not serve and a model does better: the tolerance is met first at the nodes, then between
+/// them.
+pub(crate) fn better(
+    mesh: &Mesh,
+    arguments: &FitArguments,
+    surface: &FitReport,
+) -> Result<Option<ModelFit>, Failure> {
+    if outcome(surface.remarks) == Outcome::Done {
+        return Ok(None);
+    }
+    let misses = |remarks: Remarks| {
+        (remarks.has(Remarks::TOLERANCE_NOT_MET), remarks.has(Remarks::ROUGH_BETWEEN_NODES))
+    };
+    // a mesh that no model can be made of has its surface
+    let fit = fit(mesh, arguments).ok();
+    Ok(fit.filter(|fit| misses(fit.report.remarks) < misses(surface.remarks)))
+}
+
+/// Writes what is asked for and says how it went.
+pub(crate) fn tell(
+    mesh: &Mesh,
+    repairs: &MeshRepairs,
+    fit: &ModelFit,
+    arguments: &FitArguments,
+) -> Result<Outcome, Failure> {
     let stem = arguments.mesh.file_stem().unwrap_or_default().to_string_lossy();
     let label = Label::default();
     let step = arguments.step.step(&label, &stem);
     for path in &arguments.out {
-        write(mesh, &fit, path, &step)?;
+        write(mesh, fit, path, &step)?;
     }
     if let Some(path) = &arguments.picture {
-        let moved = moved(mesh, &fit);
+        let moved = moved(mesh, fit);
         let mut picture = Picture::new(1200, 900, &View::facing(&moved), &moved);
         let range = (0.0, fit.report.max_error);
         picture.draw_mesh(&moved, Some(&fit.errors), range);
@@ -36,16 +63,15 @@ pub(crate) fn run(mesh: &Mesh, repairs: &MeshRepairs, arguments: &FitArguments) 
         output::write_png(&picture, path)?;
     }
     if let Some(path) = &arguments.report {
-        let write = |control: &mut Control| output::write_model_report(mesh, &fit, &stem, path, control);
+        let write = |control: &mut Control| output::write_model_report(mesh, fit, &stem, path, control);
         with_bar(arguments.threads, write)?;
     }
     if arguments.json {
-        output::print(format_args!("{}\n", json_report(arguments, mesh, repairs, &fit)))?;
+        output::print(format_args!("{}\n", json_report(arguments, mesh, repairs, fit)))?;
     } else {
-        output::print(table(arguments, mesh, repairs, &fit))?;
+        output::print(table(arguments, mesh, repairs, fit))?;
     }
-    let is_met = !fit.report.remarks.has(Remarks::TOLERANCE_NOT_MET);
-    Ok(if is_met { Outcome::Done } else { Outcome::ToleranceNotMet })
+    Ok(outcome(fit.report.remarks))
 }
 
 /// The label of each triangle; none without `--labels`.
@@ -160,7 +186,7 @@ fn table(arguments: &FitArguments, mesh: &Mesh, repairs: &MeshRepairs, fit: &Mod
             model.free_edge_count()
         ),
     );
-    let patches = report.patches.len();
+    let patches = if fit.is_chart() { 1 } else { report.patches.len() };
     table.row(
         "patches",
         format!(
@@ -171,10 +197,7 @@ fn table(arguments: &FitArguments, mesh: &Mesh, repairs: &MeshRepairs, fit: &Mod
     table.row("tolerance", both(report.tolerance));
     table.row("max error", both(report.max_error));
     table.row("rms, mean error", format!("{:.3e}, {:.3e}", report.rms_error, report.mean_error));
-    table.row(
-        "between nodes",
-        format!("{:.3e}, of which facets explain {:.3e}", report.max_interior_error, report.facet_sagitta),
-    );
+    table.row("between nodes", between_nodes(report.max_interior_error, report.facet_sagitta));
     if !fit.is_chart() {
         table.row("model to mesh", both(report.max_back_distance));
         table.row("normal jump, gap", format!("{:.1e}, {:.1e}", report.normal_jump, report.gap));

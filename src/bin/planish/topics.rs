@@ -44,8 +44,9 @@ each direction of a smooth shape. Where it cannot be met the best surface is wri
             Self::Families => {
                 "\
 FAMILIES
-auto    a model for a closed mesh, one tensor surface for one with a boundary
-model   patches that meet smoothly, a solid: closed meshes of any shape
+auto    a model for a closed mesh; for one with a boundary a tensor surface if it meets the tolerance, else a model if
+        that does better
+model   patches that meet smoothly, exact planes and cylinders, sharp edges: solids of closed meshes, shells of others
 tensor  one grid of knots: what every CAD system edits; smooth plates, terrain, fields
 pht     cells as small as the shape asks, place by place: detail in few places
 d1rc    a triangular control mesh with sharp edges: --sharp-angle 30

@@ -1,5 +1,6 @@
 //! What came of a fit, in words.
 
+use crate::Outcome;
 use crate::fit_options::FitArguments;
 use crate::output::{self};
 use planish::fit::report::{Remarks, StopReason};
@@ -22,6 +23,20 @@ pub(crate) fn verdict(remarks: Remarks, stop: StopReason) -> String {
         format!("{reason}, BUT NOT BETWEEN THE NODES")
     } else {
         reason.to_owned()
+    }
+}
+
+/// What the exit code tells: whether the tolerance is met at the nodes and between them.
+pub(crate) fn outcome(remarks: Remarks) -> Outcome {
+    let is_missed = remarks.has(Remarks::TOLERANCE_NOT_MET) || remarks.has(Remarks::ROUGH_BETWEEN_NODES);
+    if is_missed { Outcome::ToleranceNotMet } else { Outcome::Done }
+}
+
+/// The largest error between the nodes, and what facets explain of it, if they do.
+pub(crate) fn between_nodes(error: f64, explained: f64) -> String {
+    match explained > 0.0 {
+        true => format!("{error:.3e}, of which facets explain {explained:.3e}"),
+        false => format!("{error:.3e}"),
     }
 }
 

@@ -16,9 +16,9 @@ use rayon::prelude::*;
 pub(crate) struct InteriorErrors {
     /// The largest error.
     pub max: f64,
-    /// The largest part of an error that its own facet explains; 0 for a field, which has no facets in space.
+    /// The part of it that facets explain: the rest is the largest error beyond what its own facet explains.
     pub sagitta: f64,
-    /// The largest error beyond what its own facet explains.
+    /// The largest error beyond what its own facet explains, by the demands there.
     pub max_excess: f64,
     /// The same without the facets beside sharp edges, which a smooth surface cannot follow.
     pub max_smooth_excess: f64,
@@ -126,23 +126,22 @@ impl Between {
     pub(crate) fn measure(&self, surface: &dyn Surface, pool: &Pool) -> InteriorErrors {
         let errors = self.errors(surface, pool);
         let mut result = InteriorErrors::default();
+        let mut unexplained: f64 = 0.0;
         for (triangle, errors) in errors.chunks_exact(4).enumerate() {
             let factor = self.factor(triangle);
             if factor == 0.0 {
                 continue;
             }
             let max = errors.iter().copied().fold(0.0, f64::max);
-            let explained_here = self.explained.of(triangle);
             result.max = result.max.max(max);
-            let excess = factor * (max - explained_here);
-            result.max_excess = result.max_excess.max(excess);
+            let excess = max - self.explained.of(triangle);
+            unexplained = unexplained.max(excess);
+            result.max_excess = result.max_excess.max(factor * excess);
             if !self.explained.is_sharp[triangle] {
-                result.max_smooth_excess = result.max_smooth_excess.max(excess);
-            }
-            if self.is_shape {
-                result.sagitta = result.sagitta.max(max.min(explained_here));
+                result.max_smooth_excess = result.max_smooth_excess.max(factor * excess);
             }
         }
+        result.sagitta = result.max - unexplained;
         result
     }
 

@@ -105,9 +105,9 @@ pub struct FitReport {
     /// Largest distance from a triangle's centroid or an edge's middle to the surface's tangent plane at the
     /// mean of the nodes' parameters (for a field: to its value there); 0 for data without triangles.
     pub max_interior_error: f64,
-    /// The part of it that flat facets on a curved shape explain: the largest of what facets are missed by, up to the
-    /// height of the shape above each, estimated from the angles between node normals. Facets at an edge across which
-    /// normals turn by more than 30 degrees explain nothing: they are the shape.
+    /// The part of it that flat facets on a curved shape explain: the rest of it is the largest distance beyond the
+    /// height of the shape above its own facet, estimated from the angles between node normals. Facets at an edge across
+    /// which normals turn by more than 30 degrees explain nothing: they are the shape.
     pub facet_sagitta: f64,
     /// Largest closest-point distance from a node to the surface; NaN unless asked for.
     pub max_distance: f64,

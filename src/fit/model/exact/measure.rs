@@ -78,7 +78,7 @@ pub(super) fn measure(
         tolerance: scale.tolerance,
         diagonal: scale.diagonal,
         max_interior_error: between.max,
-        facet_sagitta: between.sagitta.min(between.max),
+        facet_sagitta: between.max - between.excess,
         max_back_distance,
         normal_jump: measured.max_normal_jump,
         gap: measured.max_gap,
@@ -107,14 +107,13 @@ fn faces_of_nodes(mesh: &Mesh, features: &Features, regions: &Regions) -> Vec<Op
 /// Errors between the nodes: at centroids of facets and middles of their sides.
 struct Between {
     max: f64,
-    sagitta: f64,
-    /// The most by which an error is more than the facets explain.
+    /// The most by which an error is more than its own facet explains.
     excess: f64,
 }
 
 fn between(mesh: &Mesh, regions: &Regions, model: &Model, watch: &Watch) -> Result<Between, Obstacle> {
     let sagittas = triangle_sagittas(mesh);
-    let mut all = Between { max: 0.0, sagitta: 0.0, excess: 0.0 };
+    let mut all = Between { max: 0.0, excess: 0.0 };
     for (triangle, nodes) in mesh.triangles().iter().enumerate() {
         if triangle % BETWEEN_WATCHES == 0 {
             watch.check()?;
@@ -123,10 +122,8 @@ fn between(mesh: &Mesh, regions: &Regions, model: &Model, watch: &Watch) -> Resu
         let carrier = model.carrier(FaceId::new(regions.of_triangle[triangle]));
         let places = [(a + b + c) / 3.0, a.midpoint(b), b.midpoint(c), c.midpoint(a)];
         let off = places.map(|place| signed_distance(carrier, place).abs()).into_iter().fold(0.0, f64::max);
-        let explained = sagittas.of(triangle);
         all.max = all.max.max(off);
-        all.sagitta = all.sagitta.max(explained);
-        all.excess = all.excess.max(off - explained);
+        all.excess = all.excess.max(off - sagittas.of(triangle));
     }
     Ok(all)
 }
