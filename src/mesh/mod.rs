@@ -25,6 +25,7 @@ pub use cut::{CutError, Piece};
 pub(crate) use decimate::Quadric;
 pub use decimate::{DecimateError, DecimateOptions, DecimateReport, Decimation};
 pub use error::MeshError;
+pub(crate) use features::facet_normals;
 pub use features::{Chain, FeatureError, FeatureOptions, Features, Region, Regions, Side};
 pub use polygon::Faces;
 pub use read::{Format, ReadError, read, read_as, read_bytes, read_face_property};

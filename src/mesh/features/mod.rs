@@ -251,7 +251,7 @@ impl Mesh {
 }
 
 /// The normal of each facet, without noise.
-fn facet_normals(mesh: &Mesh, is_noisy: bool) -> Vec<DVec3> {
+pub(crate) fn facet_normals(mesh: &Mesh, is_noisy: bool) -> Vec<DVec3> {
     let normals = mesh.triangles().iter().map(|t| normal(mesh.points(), t).normalize_or_zero()).collect_vec();
     if is_noisy { noise::filtered(mesh, normals) } else { normals }
 }

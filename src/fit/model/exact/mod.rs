@@ -25,12 +25,12 @@ pub use recognize::{Recognized, recognize};
 use super::ModelReport;
 use crate::control::{Cancelled, Watch};
 use crate::memory;
-use crate::mesh::{FeatureOptions, Features, Mesh, Region, Regions};
+use crate::mesh::{FeatureOptions, Features, Mesh, Region, Regions, facet_normals};
 use crate::model::{Builder, Carrier, FaceId, Model, ModelError, Role};
 use draft::{Draft, Scale};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use recognize::recognize_region;
-use split::{Part, split, split_at_blunt_edges};
+use split::{Part, split, split_at_blunt_edges, split_into_planes};
 use std::f64::consts::PI;
 use std::time::Instant;
 
@@ -165,7 +165,8 @@ fn segment(
     options: &FeatureOptions,
 ) -> Result<Segmented, Obstacle> {
     let limits = Limits::new(scale.tolerance, scale.noise);
-    let parts = parts(mesh, &features.regions(mesh), &limits)?;
+    let normals = facet_normals(mesh, scale.noise > 0.0);
+    let parts = parts(mesh, &normals, &features.regions(mesh), &limits)?;
     let mut parts = merge(mesh, parts, &limits);
     relations::align(&mut parts, scale.diagonal);
     let mut part_of = memory::filled(0, mesh.triangles().len());
@@ -191,14 +192,15 @@ fn segment(
 }
 
 /// Regions with their carriers; a smooth region of several carriers in parts.
-fn parts(mesh: &Mesh, regions: &Regions, limits: &Limits) -> Result<Vec<Part>, Obstacle> {
+fn parts(mesh: &Mesh, normals: &[DVec3], regions: &Regions, limits: &Limits) -> Result<Vec<Part>, Obstacle> {
     let mut parts = Vec::new();
     for (region, of) in regions.regions.iter().enumerate() {
         match recognize_region(mesh, &of.triangles, limits) {
             Some(found) => parts.push(Part { triangles: of.triangles.clone(), found }),
             None => {
-                let smooth = split(mesh, &of.triangles, limits);
-                let found = smooth.or_else(|| split_at_blunt_edges(mesh, &of.triangles, limits));
+                let found = split(mesh, normals, &of.triangles, limits)
+                    .or_else(|| split_at_blunt_edges(mesh, normals, &of.triangles, limits))
+                    .or_else(|| split_into_planes(mesh, normals, &of.triangles, limits));
                 parts.extend(found.ok_or(Obstacle::Region { region })?);
             }
         }

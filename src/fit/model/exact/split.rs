@@ -3,6 +3,9 @@
 //! ```text
 //!  ( ======== )    Cylinders grow from edges whose facets turn, as far as nodes lie on them. What is left must be
 //!                  planes. It counts only if all of the region is explained.
+//!
+//!   /\__/\         Planes that meet in blunt edges grow in the same way where noise hides the edges: each counts only if
+//!                  with looser limits it would hardly grow.
 //! ```
 
 use super::evidence::{Evidence, Limits, gradient, signed_distance};
@@ -10,13 +13,15 @@ use super::recognize::{Recognized, recognize_region};
 use crate::mesh::{HalfEdge, Mesh};
 use crate::model::Carrier;
 use glam::DVec3;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Facets of one plane turn by less: half a degree.
 const FLAT: f64 = 0.009;
+/// Filtered normals still turn by so much of the noise, by the size of a facet.
+const NOISE_TURN: f64 = 0.3;
 /// Facets look along their cylinder's normal up to this angle: half the turn of a coarse chord.
 const LARGEST_TURN: f64 = 0.35;
-/// Starts that come to nothing before the region is given up: those beside planes do, and no other should.
+/// Starts that come to nothing before no more are tried: those beside edges do, and no other should.
 const MOST_FAILURES: usize = 100;
 /// Times that a cylinder is fitted anew while it grows.
 const ROUNDS: usize = 12;
@@ -33,35 +38,19 @@ pub(crate) struct Part {
 }
 
 /// Planes and cylinders that explain all of a region; none if they do not.
-pub(crate) fn split(mesh: &Mesh, triangles: &[u32], limits: &Limits) -> Option<Vec<Part>> {
-    let mut region = Region::new(mesh, triangles);
-    let mut parts: Vec<Part> = Vec::new();
-    let edges = region.turning_edges();
-    let mut failures = 0;
-    for k in 0..edges.len() {
-        let [a, b] = edges[k * STRIDE % edges.len()];
-        if !(region.is_free(a) && region.is_free(b)) {
-            continue;
-        }
-        match region.cylinder_from([a, b], limits) {
-            Some(part) => {
-                part.triangles.iter().for_each(|&triangle| region.take(triangle));
-                parts.push(part);
-            }
-            None if failures == MOST_FAILURES => return None,
-            None => failures += 1,
-        }
+pub(crate) fn split(mesh: &Mesh, normals: &[DVec3], triangles: &[u32], limits: &Limits) -> Option<Vec<Part>> {
+    let mut region = Region::new(mesh, normals, triangles);
+    let mut parts = region.cylinders(limits);
+    if parts.is_empty() {
+        return None;
     }
-    let cylinders = parts.len();
     for piece in region.pieces(None) {
-        let evidence = Evidence::new(mesh, &piece)?;
-        let carrier = Carrier::Plane(evidence.plane()?);
-        if !evidence.accepts(&carrier, limits) {
-            return None;
+        let piece = piece.into_iter().collect();
+        if let Some(found) = region.plane_of(&piece, limits) {
+            parts.push(region.take(piece, found));
         }
-        parts.push(Part { triangles: piece, found: Recognized { carrier, evidence } });
     }
-    (cylinders > 0).then(|| settled(mesh, parts))
+    region.explain_the_rest(parts, limits)
 }
 
 /// Angles that part blunt edges, the largest first, and whether only planes with nodes inside count: chords of a cylinder
@@ -69,19 +58,40 @@ pub(crate) fn split(mesh: &Mesh, triangles: &[u32], limits: &Limits) -> Option<V
 const BLUNT: [(f64, bool); 5] = [(0.5, false), (0.35, false), (0.27, false), (0.05, true), (FLAT, true)];
 
 /// The parts of a region between edges that turn by less than sharp ones, if all of them are explained.
-pub(crate) fn split_at_blunt_edges(mesh: &Mesh, triangles: &[u32], limits: &Limits) -> Option<Vec<Part>> {
+pub(crate) fn split_at_blunt_edges(
+    mesh: &Mesh,
+    normals: &[DVec3],
+    triangles: &[u32],
+    limits: &Limits,
+) -> Option<Vec<Part>> {
     BLUNT.into_iter().find_map(|(angle, needs_inner)| {
-        let pieces = Region::new(mesh, triangles).pieces(Some(angle));
+        let pieces = Region::new(mesh, normals, triangles).pieces(Some(angle));
         if pieces.len() < 2 || (needs_inner && !pieces.iter().all(|piece| has_inner_node(mesh, piece))) {
             return None;
         }
         let of_piece = |piece: Vec<u32>| match recognize_region(mesh, &piece, limits) {
             Some(found) => Some(vec![Part { triangles: piece, found }]),
-            None => split(mesh, &piece, limits),
+            None => split(mesh, normals, &piece, limits),
         };
         let parts: Option<Vec<Vec<Part>>> = pieces.into_iter().map(of_piece).collect();
         Some(parts?.into_iter().flatten().collect())
     })
+}
+
+/// Limits of the growth test are so many times looser.
+const LOOSER: f64 = 3.0;
+/// By what part of its area a plane may grow with looser limits: a strip of something round grows at once.
+const MOST_GROWTH: f64 = 0.15;
+
+/// Planes that explain all of a region under noise, if they do.
+pub(crate) fn split_into_planes(
+    mesh: &Mesh,
+    normals: &[DVec3],
+    triangles: &[u32],
+    limits: &Limits,
+) -> Option<Vec<Part>> {
+    let parts = Region::new(mesh, normals, triangles).explain_the_rest(Vec::new(), limits)?;
+    (parts.len() > 1).then_some(parts)
 }
 
 /// Whether some node has no triangle outside of a piece, whose triangles are in increasing order.
@@ -96,55 +106,115 @@ fn has_inner_node(mesh: &Mesh, piece: &[u32]) -> bool {
 /// The triangles that no part has taken yet.
 struct Region<'a> {
     mesh: &'a Mesh,
+    /// Of all facets, without noise.
+    normals: &'a [DVec3],
     triangles: &'a [u32],
     free: BTreeSet<u32>,
 }
 
 impl<'a> Region<'a> {
-    fn new(mesh: &'a Mesh, triangles: &'a [u32]) -> Self {
-        Self { mesh, triangles, free: triangles.iter().copied().collect() }
+    fn new(mesh: &'a Mesh, normals: &'a [DVec3], triangles: &'a [u32]) -> Self {
+        Self { mesh, normals, triangles, free: triangles.iter().copied().collect() }
     }
 
     fn is_free(&self, triangle: u32) -> bool {
         self.free.contains(&triangle)
     }
 
-    fn take(&mut self, triangle: u32) {
-        self.free.remove(&triangle);
+    fn take(&mut self, triangles: BTreeSet<u32>, found: Recognized) -> Part {
+        triangles.iter().for_each(|triangle| {
+            self.free.remove(triangle);
+        });
+        Part { triangles: triangles.into_iter().collect(), found }
     }
 
     fn normal(&self, triangle: u32) -> DVec3 {
+        self.normals[triangle as usize]
+    }
+
+    fn area(&self, triangle: u32) -> f64 {
         let [a, b, c] =
             self.mesh.triangles()[triangle as usize].map(|node| self.mesh.points()[node as usize]);
-        (b - a).cross(c - a).normalize_or_zero()
+        0.5 * (b - a).cross(c - a).length()
     }
 
-    /// The free triangles beside one.
-    fn beside(&self, triangle: u32) -> impl Iterator<Item = u32> + '_ {
+    /// The triangles beside one.
+    fn sides(&self, triangle: u32) -> impl Iterator<Item = u32> + '_ {
         let across = move |corner| self.mesh.topology().twin(HalfEdge::new(triangle as usize, corner));
-        (0..3).filter_map(across).map(|edge| edge.triangle() as u32).filter(|&other| self.is_free(other))
+        (0..3).filter_map(across).map(|edge| edge.triangle() as u32)
     }
 
-    /// Neighbours that turn, as pairs.
-    fn turning_edges(&self) -> Vec<[u32; 2]> {
+    /// The free ones of them.
+    fn beside(&self, triangle: u32) -> impl Iterator<Item = u32> + '_ {
+        self.sides(triangle).filter(|&other| self.is_free(other))
+    }
+
+    /// Some triangles with so many rings of free ones around them.
+    fn rings(&self, start: &[u32], count: usize) -> BTreeSet<u32> {
+        let mut set: BTreeSet<u32> = start.iter().copied().collect();
+        for _ in 0..count {
+            let ring: Vec<u32> = set.iter().flat_map(|&triangle| self.beside(triangle)).collect();
+            set.extend(ring);
+        }
+        set
+    }
+
+    /// Neighbours that turn, by more than noise of this size does, as pairs.
+    fn turning_edges(&self, noise: f64) -> Vec<[u32; 2]> {
+        let edge = (self.triangles.iter().map(|&triangle| self.area(triangle)).sum::<f64>()
+            / self.triangles.len().max(1) as f64)
+            .sqrt();
+        let flat = FLAT + NOISE_TURN * noise / edge;
         let mut pairs = Vec::new();
         for &triangle in self.triangles {
             let turns = |&other: &u32| {
                 let (m, n) = (self.normal(triangle), self.normal(other));
-                other > triangle && m.cross(n).length().atan2(m.dot(n)) > FLAT
+                other > triangle && m.cross(n).length().atan2(m.dot(n)) > flat
             };
             pairs.extend(self.beside(triangle).filter(turns).map(|other| [triangle, other]));
         }
         pairs
     }
 
-    /// A cylinder on both triangles and those around them, grown as far as it goes.
-    fn cylinder_from(&self, start: [u32; 2], limits: &Limits) -> Option<Part> {
-        let mut set: BTreeSet<u32> = start.into_iter().collect();
-        for _ in 0..START_RINGS {
-            let ring: Vec<u32> = set.iter().flat_map(|&triangle| self.beside(triangle)).collect();
-            set.extend(ring);
+    /// The cylinders that facets turn on.
+    fn cylinders(&mut self, limits: &Limits) -> Vec<Part> {
+        let mut parts = Vec::new();
+        let edges = self.turning_edges(limits.noise);
+        let mut failures = 0;
+        for k in 0..edges.len() {
+            let [a, b] = edges[k * STRIDE % edges.len()];
+            if !(self.is_free(a) && self.is_free(b)) {
+                continue;
+            }
+            match self.cylinder_from([a, b], limits) {
+                Some((set, found)) => parts.push(self.take(set, found)),
+                None if failures == MOST_FAILURES => break,
+                None => failures += 1,
+            }
         }
+        parts
+    }
+
+    /// Planes for what is left, and its slivers to the parts beside them; none if that is not all.
+    fn explain_the_rest(mut self, mut parts: Vec<Part>, limits: &Limits) -> Option<Vec<Part>> {
+        let mut failures = 0;
+        for start in self.flattest_first() {
+            if !self.is_free(start) {
+                continue;
+            }
+            match self.plane_from(start, limits) {
+                Some((set, found)) => parts.push(self.take(set, found)),
+                None if failures == MOST_FAILURES => break,
+                None => failures += 1,
+            }
+        }
+        self.give_away(&mut parts, limits);
+        self.free.is_empty().then(|| settled(self.mesh, parts))
+    }
+
+    /// A cylinder on both triangles and those around them, grown as far as it goes.
+    fn cylinder_from(&self, start: [u32; 2], limits: &Limits) -> Option<(BTreeSet<u32>, Recognized)> {
+        let mut set = self.rings(&start, START_RINGS);
         let mut found = self.fitted(&set, limits)?;
         for _ in 0..ROUNDS {
             let grown = self.grown(start[0], &found.carrier, limits);
@@ -154,7 +224,72 @@ impl<'a> Region<'a> {
             found = self.fitted(&grown, limits)?;
             set = grown;
         }
-        Some(Part { triangles: set.into_iter().collect(), found })
+        // noise bends every plane a little
+        let is_plane = limits.noise > 0.0 && self.plane_of(&set, limits).is_some();
+        (!is_plane).then_some((set, found))
+    }
+
+    /// Free triangles, those first that turn least from the ones beside them.
+    fn flattest_first(&self) -> Vec<u32> {
+        let turn = |triangle: u32| {
+            let own = self.normal(triangle);
+            self.beside(triangle).map(|other| own.distance(self.normal(other))).fold(0.0, f64::max)
+        };
+        let mut turns: Vec<(f64, u32)> =
+            self.free.iter().map(|&triangle| (turn(triangle), triangle)).collect();
+        turns.sort_by(|a, b| a.0.total_cmp(&b.0));
+        turns.into_iter().map(|(_, triangle)| triangle).collect()
+    }
+
+    /// A plane on a triangle and those around it, grown as far as it goes; none if it hardly ends there.
+    fn plane_from(&self, start: u32, limits: &Limits) -> Option<(BTreeSet<u32>, Recognized)> {
+        let mut found =
+            (1..=START_RINGS).rev().find_map(|rings| self.plane_of(&self.rings(&[start], rings), limits))?;
+        let mut set = BTreeSet::new();
+        for _ in 0..ROUNDS {
+            let grown = self.grown(start, &found.carrier, limits);
+            if grown == set {
+                break;
+            }
+            found = self.plane_of(&grown, limits)?;
+            set = grown;
+        }
+        let area = |set: &BTreeSet<u32>| set.iter().map(|&triangle| self.area(triangle)).sum::<f64>();
+        let looser = self.grown(start, &found.carrier, &limits.scaled(LOOSER));
+        let is_whole = area(&looser) <= (1.0 + MOST_GROWTH) * area(&set);
+        is_whole.then_some((set, found))
+    }
+
+    fn plane_of(&self, set: &BTreeSet<u32>, limits: &Limits) -> Option<Recognized> {
+        let evidence = Evidence::new(self.mesh, &set.iter().copied().collect::<Vec<_>>())?;
+        let carrier = Carrier::Plane(evidence.plane()?);
+        evidence.accepts(&carrier, limits).then_some(Recognized { carrier, evidence })
+    }
+
+    /// What is left along the edges of parts goes to the part beside it on which it lies best.
+    fn give_away(&mut self, parts: &mut [Part], limits: &Limits) {
+        let mut part_of: BTreeMap<u32, usize> = BTreeMap::new();
+        for (number, part) in parts.iter().enumerate() {
+            part_of.extend(part.triangles.iter().map(|&triangle| (triangle, number)));
+        }
+        loop {
+            let nearest = |&triangle: &u32| {
+                let beside = self.sides(triangle).filter_map(|other| part_of.get(&other).copied());
+                let off = |part: usize| off(self.mesh, triangle, &parts[part].found.carrier);
+                let best = beside.min_by(|&a, &b| off(a).total_cmp(&off(b)))?;
+                (off(best) <= limits.max).then_some((triangle, best))
+            };
+            let given: Vec<(u32, usize)> = self.free.iter().filter_map(nearest).collect();
+            if given.is_empty() {
+                break;
+            }
+            for (triangle, part) in given {
+                self.free.remove(&triangle);
+                parts[part].triangles.push(triangle);
+                part_of.insert(triangle, part);
+            }
+        }
+        parts.iter_mut().for_each(|part| part.triangles.sort_unstable());
     }
 
     fn fitted(&self, set: &BTreeSet<u32>, limits: &Limits) -> Option<Recognized> {
@@ -218,16 +353,11 @@ impl<'a> Region<'a> {
 /// Parts whose triangles lie nearer to them than to the parts beside: a cylinder grows on to its tangent plane as far as
 /// the limits let it.
 fn settled(mesh: &Mesh, mut parts: Vec<Part>) -> Vec<Part> {
-    let mut part_of = std::collections::BTreeMap::new();
+    let mut part_of = BTreeMap::new();
     for (number, part) in parts.iter().enumerate() {
         part_of.extend(part.triangles.iter().map(|&triangle| (triangle, number)));
     }
-    let off = |triangle: u32, part: usize| {
-        let nodes = mesh.triangles()[triangle as usize];
-        let distance =
-            |node: u32| signed_distance(&parts[part].found.carrier, mesh.points()[node as usize]).abs();
-        nodes.into_iter().map(distance).fold(0.0, f64::max)
-    };
+    let off = |triangle: u32, part: usize| off(mesh, triangle, &parts[part].found.carrier);
     let mut stack: Vec<u32> = part_of.keys().copied().collect();
     let mut moves = 4 * stack.len();
     while let Some(triangle) = stack.pop() {
@@ -262,4 +392,10 @@ fn settled(mesh: &Mesh, mut parts: Vec<Part>) -> Vec<Part> {
     }
     parts.retain(|part| !part.triangles.is_empty());
     parts
+}
+
+/// How far the nodes of a triangle are from a carrier.
+fn off(mesh: &Mesh, triangle: u32, carrier: &Carrier) -> f64 {
+    let distance = |node: u32| signed_distance(carrier, mesh.points()[node as usize]).abs();
+    mesh.triangles()[triangle as usize].into_iter().map(distance).fold(0.0, f64::max)
 }
