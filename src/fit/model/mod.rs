@@ -101,7 +101,7 @@ pub fn fit_with_creases(
     check_places(mesh, layout, places)?;
     let start_level = match (options.start_level, places) {
         (0, NodePlaces::Sphere(_)) => CUBE_LEVEL,
-        (0, NodePlaces::Patches(_)) => LAYOUT_LEVEL,
+        (0, NodePlaces::Patches(_) | NodePlaces::Map(_)) => LAYOUT_LEVEL,
         (level, _) => level,
     };
     let (tolerance, is_raised) = options.tolerance.absolute(&mesh.bounds());
@@ -156,11 +156,13 @@ fn check_places(mesh: &Mesh, layout: &Layout, places: NodePlaces) -> Result<(), 
         return Err(super::common::FitError::Count { what, count: places.len(), expected }.into());
     }
     let is_inside = |uv: DVec2| uv.cmpge(DVec2::ZERO).all() && uv.cmple(DVec2::ONE).all();
+    let is_wrong = |place: &Option<Place>| {
+        place.is_some_and(|Place { quad, uv }| quad as usize >= layout.quads().len() || !is_inside(uv))
+    };
     let wrong = match places {
         NodePlaces::Sphere(directions) => directions.iter().position(|at| !at.is_finite()),
-        NodePlaces::Patches(places) => places.iter().position(|place| {
-            place.is_some_and(|Place { quad, uv }| quad as usize >= layout.quads().len() || !is_inside(uv))
-        }),
+        NodePlaces::Patches(places) => places.iter().position(is_wrong),
+        NodePlaces::Map(map) => map.all_places().iter().position(is_wrong),
     };
     wrong.map_or(Ok(()), |node| Err(ModelFitError::Place { node }))
 }

@@ -7,7 +7,7 @@
 
 use super::locks::{Lock, feature_at, halfway, lock, same_places};
 use crate::control::Pool;
-use crate::layout::{Layout, Place, cube_place};
+use crate::layout::{Layout, NodeMap, Place, cube_place};
 use crate::lists::Lists;
 use crate::memory::{self, CollectVec, ParallelCollectVec};
 use crate::mesh::Mesh;
@@ -29,6 +29,8 @@ pub enum NodePlaces<'a> {
     Sphere(&'a [DVec3]),
     /// On the patches; None for a node without triangles.
     Patches(&'a [Option<Place>]),
+    /// The same as a map, which may know of places between the nodes.
+    Map(&'a NodeMap),
 }
 
 impl NodePlaces<'_> {
@@ -40,27 +42,26 @@ impl NodePlaces<'_> {
                     nodes.iter().zip(shares).map(|(&node, &share)| share * directions[node as usize]).sum();
                 (direction != DVec3::ZERO).then(|| cube_place(direction))
             }
-            Self::Patches(places) => {
-                let of_nodes: Option<Vec<Vec<Place>>> =
-                    nodes.iter().map(|&node| Some(same_places(layout, places[node as usize]?))).collect();
-                let of_nodes = of_nodes?;
-                let over = |Place { quad, uv: near }: Place| {
-                    let mut uv = DVec2::ZERO;
-                    for (same, share) in of_nodes.iter().zip(shares) {
-                        let unfolded = same.iter().filter_map(|&place| layout.unfold(quad, place, near));
-                        let distance = |uv: &DVec2| uv.distance_squared(near);
-                        uv += share * unfolded.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-                    }
-                    Some(layout.cross(quad, uv))
-                };
-                of_nodes.iter().flatten().find_map(|&place| over(place))
+            Self::Patches(places) => mean_place(places, layout, nodes, shares),
+            Self::Map(map) => {
+                let (nodes, shares) = map.finest(nodes, shares);
+                mean_place(map.all_places(), layout, &nodes, &shares)
             }
+        }
+    }
+
+    /// By node; none on a sphere.
+    fn places(&self) -> Option<&[Option<Place>]> {
+        match self {
+            Self::Sphere(_) => None,
+            Self::Patches(places) => Some(places),
+            Self::Map(map) => Some(map.places()),
         }
     }
 
     /// The place and lock halfway along an edge of a crease; none for an edge inside, or over a whole side.
     fn on_crease(&self, layout: &Layout, [a, b]: [u32; 2]) -> Option<(Place, Lock)> {
-        let Self::Patches(places) = self else { return None };
+        let places = self.places()?;
         let [a, b] = [a, b].map(|node| places[node as usize].and_then(|place| feature_at(layout, place)));
         let middle = halfway(layout, a?, b?)?;
         Some((middle.place(), middle.lock()))
@@ -73,6 +74,7 @@ impl NodePlaces<'_> {
                 Some(directions[node as usize]).filter(|&at| at != DVec3::ZERO).map(cube_place)
             }
             Self::Patches(places) => places[node as usize],
+            Self::Map(map) => map.place(node),
         }
     }
 
@@ -81,8 +83,26 @@ impl NodePlaces<'_> {
         match self {
             Self::Sphere(directions) => directions.len(),
             Self::Patches(places) => places.len(),
+            Self::Map(map) => map.places().len(),
         }
     }
+}
+
+/// The mean of the places of some nodes, in a picture of the patches that they lie on.
+fn mean_place(places: &[Option<Place>], layout: &Layout, nodes: &[u32], shares: &[f64]) -> Option<Place> {
+    let of_nodes: Option<Vec<Vec<Place>>> =
+        nodes.iter().map(|&node| Some(same_places(layout, places[node as usize]?))).collect();
+    let of_nodes = of_nodes?;
+    let over = |Place { quad, uv: near }: Place| {
+        let mut uv = DVec2::ZERO;
+        for (same, share) in of_nodes.iter().zip(shares) {
+            let unfolded = same.iter().filter_map(|&place| layout.unfold(quad, place, near));
+            let distance = |uv: &DVec2| uv.distance_squared(near);
+            uv += share * unfolded.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+        }
+        Some(layout.cross(quad, uv))
+    };
+    of_nodes.iter().flatten().find_map(|&place| over(place))
 }
 
 /// Samples of a mesh; the nodes come first, in their order.

@@ -419,7 +419,7 @@ fn over_complex(
     control: &mut Control,
 ) -> Result<Component, ModelFitError> {
     let made = control.within(0.0, MAP_SHARE, |control| complex(&body.mesh, &options.layout, control))?;
-    let places = NodePlaces::Patches(made.map.places());
+    let places = NodePlaces::Map(&made.map);
     let fit = control.within(MAP_SHARE, 1.0, |control| {
         fit_over_layout(&body.mesh, &made.layout, places, &options.fit, control)
     })?;

@@ -1,6 +1,7 @@
 //! The base complex of a mesh of any genus, closed or with a border, as a layout: `theory/closed.md` 3 and, for borders,
 //! `theory/creases.md` 11.2.
 //!
+//! 0. Edges of a mesh with few nodes for so many patches are halved (`Mesh::halved`).
 //! 1. Edge collapses leave a few triangles, and track where each node lies on them (`base`, `flatten`, `border`).
 //! 2. A matching makes quads of pairs of triangles (`pairing`). On an open surface triangles may be left over: edges there
 //!    are split until none is (`search`).
@@ -23,8 +24,8 @@ mod tests;
 use super::mesh_layout::{LayoutKind, MeshLayout, MeshLayoutError, MeshLayoutOptions, MeshLayoutReport};
 use super::{Layout, NodeMap, Place, Side};
 use crate::Control;
-use crate::mesh::Mesh;
 use crate::mesh::rings::Rings;
+use crate::mesh::{Mesh, Middles};
 pub(super) use base::Fine;
 use base::{Base, Collapsing, TrianglePlace};
 use border::{Along, Border};
@@ -32,6 +33,7 @@ use glam::DVec2;
 use halves::Halves;
 use pairing::Pairing;
 use search::Splitting;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// Quads on their way to a layout, with the places of the nodes.
@@ -51,9 +53,13 @@ pub(super) fn make(
     options: &MeshLayoutOptions,
     control: &mut Control,
 ) -> Result<MeshLayout, MeshLayoutError> {
-    let border = Border::new(mesh)?;
+    let (fine, middles) = match halvings(mesh, options.patches) {
+        0 => (Cow::Borrowed(mesh), Middles::default()),
+        times => mesh.halved(times).map(|(fine, middles)| (Cow::Owned(fine), middles))?,
+    };
+    let border = Border::new(&fine)?;
     // quads = vertices - Euler characteristic - border edges / 2
-    let vertices = options.patches as i64 + mesh.euler_characteristic() + border.least_nodes() as i64 / 2;
+    let vertices = options.patches as i64 + fine.euler_characteristic() + border.least_nodes() as i64 / 2;
     let target = vertices.max(LEAST_VERTICES) as usize + border.lengths.len();
     control.set_stage(0.0, 0.3);
     let base = base::decimate(&border, target, TRACKED * options.patches, Collapsing::Any, control)?;
@@ -67,7 +73,7 @@ pub(super) fn make(
     control.set_stage(0.3, 1.0);
     let mut places = patches.places;
     let (first, quality) = relax::relax(&border, &layout, &mut places, base.fine, options.sweeps, control)?;
-    places.truncate(mesh.points().len());
+    places.truncate(fine.points().len());
     let report = MeshLayoutReport {
         kind: LayoutKind::Complex,
         energy: quality.energy,
@@ -78,8 +84,17 @@ pub(super) fn make(
         splits,
         seconds: 0.0,
     };
-    Ok(MeshLayout { layout, map: NodeMap::new(places), report })
+    Ok(MeshLayout { layout, map: NodeMap::with_middles(places, mesh.points().len(), middles), report })
 }
+
+/// How often the edges of a coarse mesh are halved, so that stars of nodes fit into few patches.
+fn halvings(mesh: &Mesh, patches: usize) -> u32 {
+    let count = mesh.points().len();
+    (0..MOST_HALVINGS).find(|&times| count << (2 * times) >= TRACKED * patches).unwrap_or(MOST_HALVINGS)
+}
+
+/// Halvings make at most so many times more nodes, by the power of 4: what they help a mesh of a few nodes.
+const MOST_HALVINGS: u32 = 4;
 
 /// Nodes of the middle level for each patch: enough for stars that fit into few patches, few enough for hundreds of
 /// sweeps.
