@@ -7,6 +7,7 @@ use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::{Lu, SymbolicLu as FaerSymbolicLu};
 use faer::sparse::{SparseColMat, Triplet};
 use planish::control::Pool;
+use planish::control::Watch;
 use planish::linalg::SymbolicLu;
 use planish::samples::Random;
 use sprs::{CsMat, TriMat};
@@ -48,16 +49,16 @@ fn map_matrix(side: usize, seed: u64) -> CsMat<f64> {
 }
 
 fn ours(matrices: &[CsMat<f64>], threads: usize) {
-    let symbolic = SymbolicLu::new(matrices[0].view()).expect("a symmetric pattern");
-    let mut numeric = symbolic.factor(matrices[0].view()).expect("dominant rows");
+    let symbolic = SymbolicLu::new(matrices[0].view(), &Watch::default()).expect("a symmetric pattern");
+    let mut numeric = symbolic.factor(matrices[0].view(), &Watch::default()).expect("dominant rows");
     let mut least = f64::INFINITY;
     let mut residual = 0.0_f64;
     for matrix in matrices {
         let start = Instant::now();
-        symbolic.refactor(matrix.view(), &mut numeric).expect("dominant rows");
+        symbolic.refactor(matrix.view(), &mut numeric, &Watch::default()).expect("dominant rows");
         least = least.min(start.elapsed().as_secs_f64());
         let mut x = vec![[1.0]; matrix.rows()];
-        symbolic.solve_in_place(&numeric, &mut x);
+        symbolic.solve_in_place(&numeric, &mut x, &Watch::default());
         residual = residual.max(largest_residual(matrix, |row| x[row][0]));
     }
     report(matrices, threads, "ours", least, residual);

@@ -25,6 +25,7 @@ mod solve;
 use super::dense::{factor_columns, subtract_product};
 use super::elimination::EliminationTree;
 use super::ordering::fill_reducing_order;
+use crate::control::{Cancelled, Watch};
 use crate::failure::{Classify, ErrorKind};
 use crate::memory::{self, CollectVec};
 use pattern::{Slot, mirror_entries, off_diagonal_graph, parent_places, place_entries};
@@ -68,6 +69,9 @@ pub enum LuError {
         /// The row whose pivot is zero or not finite.
         row: usize,
     },
+    /// The caller asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }
 
 impl Classify for LuError {
@@ -78,6 +82,7 @@ impl Classify for LuError {
             }
             Self::TooLarge { .. } => ErrorKind::TooLarge,
             Self::Singular { .. } => ErrorKind::Singular,
+            Self::Cancelled(_) => ErrorKind::Cancelled,
         }
     }
 
@@ -114,13 +119,17 @@ const LEAST_SPLIT_WORK: f64 = 1e6;
 
 impl SymbolicLu {
     /// Orders and analyses the pattern of a square matrix stored by rows.
-    pub fn new(matrix: CsMatView<f64>) -> Result<Self, LuError> {
+    pub fn new(matrix: CsMatView<f64>, watch: &Watch) -> Result<Self, LuError> {
         if matrix.rows() != matrix.cols() || !matrix.is_csr() {
             return Err(LuError::NotSquare { rows: matrix.rows(), columns: matrix.cols() });
         }
         let mirror = mirror_entries(&matrix)?;
         let graph = off_diagonal_graph(&matrix);
-        let tree = EliminationTree::new(&graph, &fill_reducing_order(&graph));
+        watch.check()?;
+        let order = fill_reducing_order(&graph, watch)?;
+        watch.check()?;
+        let tree = EliminationTree::new(&graph, &order);
+        watch.check()?;
         let mut panel_starts = vec![0];
         for supernode in &tree.supernodes {
             let size = supernode.front_size();
@@ -152,14 +161,19 @@ impl SymbolicLu {
     /// Factors a matrix of the analysed pattern.
     ///
     /// Runs on the rayon pool it is called in: call it inside [`crate::Control::run`].
-    pub fn factor(&self, matrix: CsMatView<f64>) -> Result<NumericLu, LuError> {
+    pub fn factor(&self, matrix: CsMatView<f64>, watch: &Watch) -> Result<NumericLu, LuError> {
         let mut numeric = NumericLu { panels: memory::filled(0.0, self.factor_entry_count()) };
-        self.refactor(matrix, &mut numeric)?;
+        self.refactor(matrix, &mut numeric, watch)?;
         Ok(numeric)
     }
 
     /// Factors into memory that an earlier matrix of the pattern has used.
-    pub fn refactor(&self, matrix: CsMatView<f64>, numeric: &mut NumericLu) -> Result<(), LuError> {
+    pub fn refactor(
+        &self,
+        matrix: CsMatView<f64>,
+        numeric: &mut NumericLu,
+        watch: &Watch,
+    ) -> Result<(), LuError> {
         if matrix.nnz() != self.entry_count || matrix.rows() != self.size() {
             return Err(LuError::OtherPattern { expected: self.entry_count, found: matrix.nnz() });
         }
@@ -167,7 +181,7 @@ impl SymbolicLu {
         let roots: Vec<usize> = (0..self.tree.supernodes.len())
             .filter(|&s| self.tree.supernodes[s].parent.is_none())
             .collect_vec();
-        self.factor_siblings(&roots, &mut numeric.panels, values).map(|_| ())
+        self.factor_siblings(&roots, &mut numeric.panels, values, watch).map(|_| ())
     }
 
     /// Factors the subtrees of consecutive siblings, in parallel; returns their updates.
@@ -176,10 +190,11 @@ impl SymbolicLu {
         siblings: &[usize],
         panels: &mut [f64],
         values: &[f64],
+        watch: &Watch,
     ) -> Result<Vec<Vec<f64>>, LuError> {
         match siblings {
             [] => Ok(Vec::new()),
-            [one] => Ok(vec![self.factor_subtree(*one, panels, values)?]),
+            [one] => Ok(vec![self.factor_subtree(*one, panels, values, watch)?]),
             _ => {
                 let (left, right) = siblings.split_at(siblings.len() / 2);
                 let first = self.tree.supernodes[siblings[0]].first_descendant;
@@ -188,12 +203,12 @@ impl SymbolicLu {
                     panels.split_at_mut(self.panel_starts[middle] - self.panel_starts[first]);
                 let work = |side: &[usize]| side.iter().map(|&s| self.tree.supernodes[s].work).sum::<f64>();
                 let (a, b) = if work(left).min(work(right)) < LEAST_SPLIT_WORK {
-                    let a = self.factor_siblings(left, left_panels, values);
-                    (a, self.factor_siblings(right, right_panels, values))
+                    let a = self.factor_siblings(left, left_panels, values, watch);
+                    (a, self.factor_siblings(right, right_panels, values, watch))
                 } else {
                     rayon::join(
-                        || self.factor_siblings(left, left_panels, values),
-                        || self.factor_siblings(right, right_panels, values),
+                        || self.factor_siblings(left, left_panels, values, watch),
+                        || self.factor_siblings(right, right_panels, values, watch),
                     )
                 };
                 let mut updates = a?;
@@ -207,7 +222,13 @@ impl SymbolicLu {
     ///
     /// Walks down to the lowest supernode that still has all the heavy work below it, splits the
     /// work there, and climbs back one front at a time.
-    fn factor_subtree(&self, root: usize, panels: &mut [f64], values: &[f64]) -> Result<Vec<f64>, LuError> {
+    fn factor_subtree(
+        &self,
+        root: usize,
+        panels: &mut [f64],
+        values: &[f64],
+        watch: &Watch,
+    ) -> Result<Vec<f64>, LuError> {
         let base = self.panel_starts[self.tree.supernodes[root].first_descendant];
         let mut node = root;
         let heavy = loop {
@@ -223,10 +244,11 @@ impl SymbolicLu {
         let next = heavy.last().map_or(self.tree.supernodes[node].first_descendant, |&last| last + 1);
         let (done, _) = panels.split_at_mut(self.panel_starts[next] - base);
         let mut stack: Vec<f64> = memory::with_capacity(self.stack_size(&heavy, next..root + 1));
-        for update in self.factor_siblings(&heavy, done, values)? {
+        for update in self.factor_siblings(&heavy, done, values, watch)? {
             stack.extend(update);
         }
         for s in next..=root {
+            watch.check()?;
             let panel = &mut panels[self.panel_starts[s] - base..self.panel_starts[s + 1] - base];
             self.factor_front(s, panel, values, &mut stack)?;
         }

@@ -7,6 +7,7 @@
 //! and give the elimination tree branches of equal weight.
 
 use super::cholesky::buffer;
+use crate::control::{Cancelled, Watch};
 use crate::memory::{self, CollectVec};
 use faer::dyn_stack::MemStack;
 use faer::sparse::SymbolicSparseColMatRef;
@@ -52,18 +53,20 @@ const WIDEST_SEPARATOR: f64 = 0.02;
 
 /// `order[k]` is the node to eliminate k-th. Parallel on the rayon pool it is called in; the order
 /// does not depend on the number of threads.
-pub(super) fn fill_reducing_order(graph: &Graph) -> Vec<u32> {
+pub(super) fn fill_reducing_order(graph: &Graph, watch: &Watch) -> Result<Vec<u32>, Cancelled> {
+    watch.check()?;
     if graph.len() < LEAST_BISECTED {
-        return minimum_degree(graph);
+        return Ok(minimum_degree(graph));
     }
-    let Some([left, right, separator]) = bisect(graph) else { return minimum_degree(graph) };
+    let Some([left, right, separator]) = bisect(graph) else { return Ok(minimum_degree(graph)) };
     let mut place = memory::filled(NONE, graph.len());
     let (left_graph, right_graph) = (graph.induced(&left, &mut place), graph.induced(&right, &mut place));
     let (left_order, right_order) =
-        rayon::join(|| fill_reducing_order(&left_graph), || fill_reducing_order(&right_graph));
+        rayon::join(|| fill_reducing_order(&left_graph, watch), || fill_reducing_order(&right_graph, watch));
+    let (left_order, right_order) = (left_order?, right_order?);
     let left = left_order.iter().map(|&k| left[k as usize]);
     let right = right_order.iter().map(|&k| right[k as usize]);
-    left.chain(right).chain(separator).collect_vec()
+    Ok(left.chain(right).chain(separator).collect_vec())
 }
 
 /// Two parts without a common edge and the nodes between them; none if there is no narrow waist.

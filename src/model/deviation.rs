@@ -57,7 +57,7 @@ impl Model {
             let automatic = EDGE_LENGTH * mesh.diagonal();
             let longest = if options.max_edge_length > 0.0 { options.max_edge_length } else { automatic };
             let places = self.samples(options.chord_tolerance, longest, pool)?;
-            let tree = TriangleTree::new(mesh);
+            let tree = TriangleTree::watched(mesh, pool.watch());
             let distance = |&place: &DVec3| tree.nearest(place).map_or(f64::NAN, |near| near.distance);
             let errors = summarize(pool.run(|| places.par_iter().map(distance).collect_vec()));
             report.max_back_distance = errors.max;

@@ -31,14 +31,17 @@ const LEAST_AREA: f64 = 1e-12;
 /// A length-keeping map of the mesh, started from `start`; None if it folds or overlaps itself. It is turned so
 /// that its smallest bounding rectangle is upright, and lies in the unit square.
 pub(super) fn unroll(mesh: &Mesh, start: &[DVec2], pool: &Pool) -> Option<Vec<DVec2>> {
+    // a cancelled call throws its map away
     let sheet = Sheet::new(mesh);
+    pool.check().ok()?;
     let matrix = sheet.laplacian(mesh);
+    pool.check().ok()?;
     let symbolic = SymbolicCholesky::new(&matrix.view(), None);
+    pool.check().ok()?;
     let factor = symbolic.factor(&matrix.view()).ok()?;
     let n = mesh.points().len();
     let mut uv = sheet.scaled(start);
     for _ in 0..TURNS {
-        // a cancelled call throws its map away
         pool.check().ok()?;
         let mut columns = pool.run(|| sheet.right_sides(mesh, &uv));
         factor.solve(&mut columns, 2);

@@ -39,11 +39,11 @@ impl<'p> MapSystem<'p> {
         let (mut matrix, slots) = pattern(patch);
         fill(&mut matrix, &slots, &weights);
         let named = |error| name_node(patch, error);
-        control.pool().check()?;
-        let symbolic = control.run(|| SymbolicLu::new(matrix.view())).map_err(named)?;
-        control.pool().check()?;
-        let numeric = control.run(|| symbolic.factor(matrix.view())).map_err(named)?;
-        control.pool().check()?;
+        let watch = control.pool().watch();
+        watch.check()?;
+        let symbolic = control.run(|| SymbolicLu::new(matrix.view(), watch)).map_err(named)?;
+        let numeric = control.run(|| symbolic.factor(matrix.view(), watch)).map_err(named)?;
+        watch.check()?;
         Ok(Self { patch, matrix, slots, symbolic, numeric, weights, factor_count: 1 })
     }
 
@@ -60,15 +60,16 @@ impl<'p> MapSystem<'p> {
     ) -> Result<(), ParameterizeError> {
         let Self { matrix, symbolic, numeric, .. } = self;
         fill(matrix, &self.slots, &weights);
+        let watch = control.pool().watch();
         control
-            .run(|| symbolic.refactor(matrix.view(), numeric))
+            .run(|| symbolic.refactor(matrix.view(), numeric, watch))
             .map_err(|error| name_node(self.patch, error))?;
         self.weights = weights;
         self.factor_count += 1;
         Ok(())
     }
 
-    /// The map with the present weights; `uv` has the fixed nodes and receives the others.
+    /// The map with the present weights; `uv` has the fixed nodes and receives the others. A cancelled call throws it away.
     pub(super) fn solve(&self, uv: &mut [DVec2], control: &Control) {
         let mut rhs = memory::filled([0.0; 2], self.patch.nodes.len());
         for (sum, &node) in rhs.iter_mut().zip(&self.patch.nodes) {
@@ -80,7 +81,8 @@ impl<'p> MapSystem<'p> {
                 }
             }
         }
-        let solution = control.run(|| self.symbolic.solve(&self.numeric, self.matrix.view(), &rhs));
+        let watch = control.pool().watch();
+        let solution = control.run(|| self.symbolic.solve(&self.numeric, self.matrix.view(), &rhs, watch));
         for (&node, &value) in self.patch.nodes.iter().zip(&solution) {
             uv[node as usize] = DVec2::from_array(value);
         }
@@ -124,6 +126,7 @@ fn fill(matrix: &mut CsMat<f64>, slots: &[u32], weights: &[f64]) {
 fn name_node(patch: &Patch, error: LuError) -> ParameterizeError {
     match error {
         LuError::Singular { row } => ParameterizeError::Singular { node: patch.nodes[row] as usize },
+        LuError::Cancelled(cancelled) => cancelled.into(),
         other => ParameterizeError::Lu(other),
     }
 }

@@ -191,7 +191,8 @@ fn measure_back(
     let uv: Vec<DVec2> = parameters.iter().copied().chain(middles).collect_vec();
     let mut rows = memory::filled(0.0, 3 * uv.len());
     surface.eval_rows(&uv, 0, &mut rows);
-    let tree = TriangleTree::new(mesh);
+    pool.check().map_err(ProjectError::from)?;
+    let tree = TriangleTree::watched(mesh, pool.watch());
     let distance = |row: &[f64]| match pool.check() {
         Ok(()) => tree.nearest(DVec3::from_slice(row)).map_or(f64::NAN, |near| near.distance),
         Err(_) => f64::NAN,

@@ -3,6 +3,7 @@
 //! A binary hierarchy of boxes over the triangles; the closest point of one triangle by its Voronoi regions
 //! (C. Ericson, "Real-Time Collision Detection" (2005), section 5.1.5).
 
+use crate::control::Watch;
 use crate::memory::{self, CollectVec};
 use crate::mesh::Mesh;
 use glam::DVec3;
@@ -45,12 +46,17 @@ pub struct NearestTriangle {
 impl<M: Borrow<Mesh>> TriangleTree<M> {
     /// Sorts the triangles.
     pub fn new(mesh: M) -> Self {
+        Self::watched(mesh, &Watch::default())
+    }
+
+    /// The same; what is not sorted when the call is cancelled stays in large leaves.
+    pub(crate) fn watched(mesh: M, watch: &Watch) -> Self {
         let order = (0..mesh.borrow().triangles().len() as u32).collect_vec();
         let mut tree = Self { mesh, order, nodes: Vec::new() };
         let middles: Vec<DVec3> =
             (0..tree.order.len()).map(|t| tree.corners(t as u32).iter().sum()).collect_vec();
         if !tree.order.is_empty() {
-            tree.add(0, tree.order.len(), &middles);
+            tree.add(0, tree.order.len(), &middles, watch);
         }
         tree
     }
@@ -65,7 +71,7 @@ impl<M: Borrow<Mesh>> TriangleTree<M> {
         self.mesh.borrow()
     }
 
-    fn add(&mut self, first: usize, count: usize, middles: &[DVec3]) {
+    fn add(&mut self, first: usize, count: usize, middles: &[DVec3], watch: &Watch) {
         let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let (mut least, mut most) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for &t in &self.order[first..first + count] {
@@ -77,7 +83,7 @@ impl<M: Borrow<Mesh>> TriangleTree<M> {
         }
         let node = self.nodes.len();
         memory::push(&mut self.nodes, Node { min, max, first: first as u32, count: count as u32, second: 0 });
-        if count <= LEAF_SIZE {
+        if count <= LEAF_SIZE || watch.check().is_err() {
             return;
         }
         let axis = (most - least).max_position();
@@ -86,9 +92,9 @@ impl<M: Borrow<Mesh>> TriangleTree<M> {
             let key = |t: u32| middles[t as usize][axis];
             key(a).total_cmp(&key(b)).then(a.cmp(&b))
         });
-        self.add(first, half, middles);
+        self.add(first, half, middles, watch);
         self.nodes[node].second = self.nodes.len() as u32;
-        self.add(first + half, count - half, middles);
+        self.add(first + half, count - half, middles, watch);
     }
 
     /// Calls `visit` with the triangles that may meet one with these corners: those whose leaf's box meets its box.

@@ -42,7 +42,7 @@ impl MeshData<'_> {
         standards: &Standards,
         pool: &Pool,
     ) -> InteriorErrors {
-        Between::nodes(self, surface.dim(), standards).measure(surface, pool)
+        Between::nodes(self, surface.dim(), standards, pool.watch()).measure(surface, pool)
     }
 }
 
@@ -59,12 +59,12 @@ pub(crate) struct Between {
 }
 
 impl Between {
-    /// Between the nodes of a mesh.
-    pub(crate) fn nodes(data: &MeshData, dim: usize, standards: &Standards) -> Self {
+    /// Between the nodes of a mesh. A cancelled call throws it away.
+    pub(crate) fn nodes(data: &MeshData, dim: usize, standards: &Standards, watch: &Watch) -> Self {
         let triangles = data.mesh.triangles();
-        let (uv, values) = interior_samples(triangles, data.uv, data.values, dim);
+        let (uv, values) = interior_samples(triangles, data.uv, data.values, dim, watch);
         let explained = if data.is_shape {
-            triangle_sagittas(data.mesh)
+            triangle_sagittas(data.mesh, watch)
         } else {
             Sagittas::smooth(triangle_spreads(triangles, data.values, dim))
         };
@@ -89,7 +89,7 @@ impl Between {
             triangles = triangles_between(&places, data, watch);
             triangles.as_flattened_mut().iter_mut().for_each(|datum| *datum = kept[*datum as usize]);
         }
-        let (places, rows) = interior_samples(&triangles, uv, values, dim);
+        let (places, rows) = interior_samples(&triangles, uv, values, dim, watch);
         let explained = Sagittas::smooth(triangle_spreads(&triangles, values, dim));
         let factors = factors(&triangles, standards);
         Self { uv: places, values: rows, explained, factors, is_shape: false }
@@ -196,16 +196,20 @@ pub(crate) fn heights_over(surface: &dyn Surface, uv: &[DVec2], values: &[f64], 
     heights
 }
 
-/// Centroid and three edge middles of each triangle.
+/// Centroid and three edge middles of each triangle; of fewer once the call is cancelled.
 fn interior_samples(
     triangles: &[[u32; 3]],
     uv: &[DVec2],
     values: &[f64],
     dim: usize,
+    watch: &Watch,
 ) -> (Vec<DVec2>, Vec<f64>) {
     let count = 4 * triangles.len();
     let (mut places, mut rows) = (memory::with_capacity(count), memory::with_capacity(count * dim));
-    for &[a, b, c] in triangles {
+    for (triangle, &[a, b, c]) in triangles.iter().enumerate() {
+        if watch.check_at(triangle).is_err() {
+            break;
+        }
         for nodes in [[a, b, c].as_slice(), &[a, b], &[b, c], &[c, a]] {
             let share = 1.0 / nodes.len() as f64;
             memory::push(&mut places, nodes.iter().map(|&n| uv[n as usize]).sum::<DVec2>() * share);
@@ -254,12 +258,16 @@ const SHARP_COSINE: f64 = 0.866_025_403_784_438_6;
 ///  ======n======
 ///    c  /|\  c           and a third, c
 /// ```
-pub(crate) fn triangle_sagittas(mesh: &Mesh) -> Sagittas {
+///
+/// A cancelled call throws the heights away.
+pub(crate) fn triangle_sagittas(mesh: &Mesh, watch: &Watch) -> Sagittas {
     let (mesh, scale) = mesh.at_safe_scale();
     let mesh = mesh.as_ref();
     let (points, triangles) = (mesh.points(), mesh.triangles());
     let areas: Vec<DVec3> = triangles.iter().map(|t| area_vector(points, t)).collect_vec();
-    let half_edges = (0..triangles.len()).flat_map(|t| (0..3).map(move |k| HalfEdge::new(t, k)));
+    let half_edges = (0..triangles.len())
+        .take_while(|&t| watch.check_at(t).is_ok())
+        .flat_map(|t| (0..3).map(move |k| HalfEdge::new(t, k)));
     let twin = |h: HalfEdge| mesh.topology().twin(h);
     let is_sharp = |h: HalfEdge| {
         twin(h).is_some_and(|twin| {
@@ -377,7 +385,7 @@ mod tests {
     #[test]
     fn facets_beside_a_sharp_edge_explain_nothing() {
         for (degrees, is_sharp) in [(25.0, false), (35.0, true), (90.0, true), (170.0, true)] {
-            let sagittas = triangle_sagittas(&folded(degrees, 9));
+            let sagittas = triangle_sagittas(&folded(degrees, 9), &Watch::default());
             // four columns of cells on both sides of the fold
             assert_eq!(sagittas.is_sharp.contains(&true), is_sharp, "{degrees}");
             let highest = sagittas.heights.iter().copied().fold(0.0, f64::max);

@@ -44,7 +44,7 @@ pub(in crate::fit) fn fit_on_mesh<S: Surface>(
     fitted.surface.region_mut().trims = trims(Some(mesh), &map.uv, &domain);
     fitted.report.parameterize_seconds = parameterize_seconds;
     fitted.report.remarks.0 |= map.remarks.0;
-    fitted.report.measure_map(mesh, &map.uv);
+    fitted.report.measure_map(mesh, &map.uv, control.pool().watch());
     Ok(fitted)
 }
 

@@ -4,6 +4,7 @@ use super::Plane;
 use super::errors::DataErrors;
 use super::interior::InteriorErrors;
 pub use super::remarks::{RemarkWords, Remarks};
+use crate::control::Watch;
 use crate::geometry::Bounds;
 use crate::mesh::Mesh;
 use crate::parameterize::{folds, stretch};
@@ -189,11 +190,13 @@ impl FitReport {
         self.remarks.add_if(interior.max_excess > self.tolerance, Remarks::ROUGH_BETWEEN_NODES);
     }
 
-    /// Adds what the parameters of a mesh are like.
-    pub fn measure_map(&mut self, mesh: &Mesh, uv: &[DVec2]) {
+    /// Adds what the parameters of a mesh are like. A cancelled call throws the report away.
+    pub fn measure_map(&mut self, mesh: &Mesh, uv: &[DVec2], watch: &Watch) {
         let (reversed, flat) = folds(mesh.triangles(), uv);
         self.flipped_count = reversed + flat;
         self.remarks.add_if(self.flipped_count > 0, Remarks::FOLDED_PARAMETERS);
-        self.stretch = stretch(mesh.points(), mesh.triangles(), uv).l2;
+        if watch.check().is_ok() {
+            self.stretch = stretch(mesh.points(), mesh.triangles(), uv).l2;
+        }
     }
 }

@@ -92,7 +92,7 @@ pub(crate) fn finish<S: Surface>(
     standards.report(&errors.each, &mut report);
     let data = MeshData { mesh, uv: &parameters, values: &values, is_shape: true };
     report.add_interior(&data.interior_errors(&surface, &standards, control.pool()));
-    report.measure_map(mesh, &parameters);
+    report.measure_map(mesh, &parameters, control.pool().watch());
     Fit { surface, report, parameters, errors: errors.each }
 }
 

@@ -284,14 +284,15 @@ impl<'a> Problem<'a> {
             ..FitReport::new(&errors, &self.goal, stop, passes)
         };
         report.add_interior(&data.interior_errors(&surface, &Standards::default(), control.pool()));
+        let watch = control.pool().watch();
         // nodes on chains that the control mesh straightens lie upon one another: only the map itself can fold
         match &self.source {
             Source::Made { fine, remarks, .. } => {
                 report.remarks.0 |= remarks.0;
-                report.measure_map(fine, fine.parameters().unwrap_or_default());
+                report.measure_map(fine, fine.parameters().unwrap_or_default(), watch);
             }
             Source::Given { coarse, .. } => {
-                report.measure_map(coarse, coarse.parameters().unwrap_or_default());
+                report.measure_map(coarse, coarse.parameters().unwrap_or_default(), watch);
             }
         }
         D1rcFit { surface, control_mesh: coarse, sharp_edges, report, parameters: uv, errors: errors.each }

@@ -85,7 +85,9 @@ impl Parts {
         let places = self.places.iter().filter(|place| place.nodes.into_iter().all(is_known));
         let places = places.copied().collect_vec();
         let data = Data::new(uv, known.as_deref(), self.weights.as_deref(), places, self.smoothing);
+        watch.check()?;
         let factor = self.factor(&data, pool, watch)?;
+        watch.check()?;
         let right_side = RightSide::new(&self.basis, data, pool);
         Ok(Solver { known, right_side, factor, scratch: Mutex::default() })
     }

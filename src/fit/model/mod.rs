@@ -105,7 +105,7 @@ pub fn fit_with_creases(
         (level, _) => level,
     };
     let (tolerance, is_raised) = options.tolerance.absolute(&mesh.bounds());
-    let facets = triangle_sagittas(mesh);
+    let facets = triangle_sagittas(mesh, control.pool().watch());
     let sagittas: Vec<f64> = (0..mesh.triangles().len()).map(|triangle| facets.of(triangle)).collect();
     let is_corner = locks::corners(layout, &constraints.corners);
     let samples = Samples::new(mesh, places, layout, &sagittas, &is_corner);

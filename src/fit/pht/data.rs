@@ -3,7 +3,7 @@
 //! With more coefficients than nodes the nodes alone say nothing (`parameterization.md` 6). The middle of a
 //! triangle of a shape is taken where a smooth surface would have it, above the facet.
 
-use crate::control::Pool;
+use crate::control::{Pool, Watch};
 use crate::fit::common::errors::{DataErrors, data_errors};
 use crate::fit::common::interior::{InteriorErrors, MeshData, Sagittas, heights_over, triangle_sagittas};
 use crate::fit::common::neighbours::z_order;
@@ -96,20 +96,21 @@ impl<'a> Data<'a> {
         given
     }
 
+    /// Those on the nodes of a mesh, and in the middles of its triangles. A cancelled call throws them away.
     pub(super) fn of_mesh(
         mesh: &'a Mesh,
         uv: Vec<DVec2>,
-        values: &'a [f64],
-        dim: usize,
+        (values, dim): (&'a [f64], usize),
         is_shape: bool,
         weights: Option<&[f64]>,
+        watch: &Watch,
     ) -> Self {
         let base = Self::new(uv, Cow::Borrowed(values), dim, weights);
         let mut data = Self { mesh: Some(mesh), is_shape, ..base };
         let middles = if is_shape { bulged_middles(mesh, &data) } else { flat_middles(mesh, &data) };
         memory::extend(&mut data.sample_values, middles);
         if is_shape {
-            let Sagittas { heights, is_sharp } = triangle_sagittas(mesh);
+            let Sagittas { heights, is_sharp } = triangle_sagittas(mesh, watch);
             // a smooth surface cannot follow a sharp edge: what it misses beside one asks for no more cells
             let allowed = |(height, is_sharp)| if is_sharp { f64::INFINITY } else { height };
             data.sagittas = heights.into_iter().zip(is_sharp).map(allowed).collect_vec();

@@ -190,10 +190,11 @@ fn fit_on_mesh(
     } else {
         control.set_stage(0.3, 1.0);
     }
-    let data = Data::of_mesh(mesh, uv, values, dim, is_shape, options.weights);
+    let data = Data::of_mesh(mesh, uv, (values, dim), is_shape, options.weights, control.pool().watch());
     let mut fit = Refinement::new(data, options)?.run(control)?;
+    control.pool().check()?;
     fit.report.remarks.0 |= map.remarks.0;
-    fit.report.measure_map(mesh, &fit.parameters);
+    fit.report.measure_map(mesh, &fit.parameters, control.pool().watch());
     fit.report.parameterize_seconds = parameterize_seconds;
     Ok(fit)
 }
@@ -213,7 +214,7 @@ fn corrected(
         measure_distance: false,
         ..*options
     };
-    let data = Data::of_mesh(mesh, uv, values, 3, true, options.weights);
+    let data = Data::of_mesh(mesh, uv, (values, 3), true, options.weights, control.pool().watch());
     Ok(Refinement::new(data, &options)?.run(control)?.parameters)
 }
 

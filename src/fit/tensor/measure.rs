@@ -17,7 +17,7 @@ impl Problem<'_> {
     /// What is known between the data.
     pub(super) fn between(&self, watch: &Watch) -> Between {
         match self.mesh_data() {
-            Some(data) => Between::nodes(&data, self.dim, &self.standards),
+            Some(data) => Between::nodes(&data, self.dim, &self.standards, watch),
             None => {
                 Between::scattered(&self.uv, self.values, self.dim, &self.data_box, &self.standards, watch)
             }

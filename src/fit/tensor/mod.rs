@@ -182,9 +182,10 @@ fn fit_on_mesh(
     problem.is_shape = is_shape;
     control.set_stage(0.3, 1.0);
     let mut fit = problem.fit_any(control)?;
+    control.pool().check()?;
     fit.report.parameterize_seconds = parameterize_seconds;
     fit.report.remarks.0 |= map.remarks.0;
-    fit.report.measure_map(mesh, &fit.parameters);
+    fit.report.measure_map(mesh, &fit.parameters, control.pool().watch());
     Ok(fit)
 }
 

@@ -1,6 +1,7 @@
 //! Solving with a factored matrix: forward and back substitution over the supernodes.
 
 use super::{NumericLu, SymbolicLu};
+use crate::control::Watch;
 use crate::linalg::dense::vectorized;
 use crate::memory::{self, CollectVec};
 use rayon::prelude::*;
@@ -10,8 +11,8 @@ use std::ops::Range;
 impl SymbolicLu {
     /// Solves in place for `K` right-hand sides, stored row by row.
     ///
-    /// Heavy subtrees are swept in parallel, on the rayon pool the call is made in.
-    pub fn solve_in_place<const K: usize>(&self, numeric: &NumericLu, x: &mut [[f64; K]]) {
+    /// Heavy subtrees are swept in parallel, on the rayon pool the call is made in. A cancelled call throws `x` away.
+    pub fn solve_in_place<const K: usize>(&self, numeric: &NumericLu, x: &mut [[f64; K]], watch: &Watch) {
         debug_assert_eq!(x.len(), self.size());
         let mut permuted: Vec<[f64; K]> = self.tree.order.iter().map(|&node| x[node as usize]).collect_vec();
         let count = self.tree.supernodes.len();
@@ -20,23 +21,21 @@ impl SymbolicLu {
         let (branches, rest) = root.map_or((Vec::new(), 0), |root| self.branches(root));
 
         let beyond = self.sweep_branches(&branches, &mut permuted, |branch, span| {
-            self.substitute_forward(self.tree.supernodes[branch].first_descendant..branch + 1, numeric, span);
+            let subtree = self.tree.supernodes[branch].first_descendant..branch + 1;
+            self.substitute_forward(subtree, numeric, span, watch);
         });
         for (&branch, changes) in branches.iter().zip(&beyond) {
             let rows = &self.tree.rows[self.tree.supernodes[branch].rows.clone()];
             rows.iter().zip(changes).for_each(|(&row, change)| add(&mut permuted[row as usize], change));
         }
         let mut whole = Span { start: 0, inside: &mut permuted, rows: &[], beyond: Vec::new() };
-        self.substitute_forward(rest..count, numeric, &mut whole);
-        self.substitute_backward(rest..count, numeric, &mut whole);
+        self.substitute_forward(rest..count, numeric, &mut whole, watch);
+        self.substitute_backward(rest..count, numeric, &mut whole, watch);
         let known = memory::copied(&permuted);
         self.sweep_branches(&branches, &mut permuted, |branch, span| {
             span.beyond.iter_mut().zip(span.rows).for_each(|(value, &row)| *value = known[row as usize]);
-            self.substitute_backward(
-                self.tree.supernodes[branch].first_descendant..branch + 1,
-                numeric,
-                span,
-            );
+            let subtree = self.tree.supernodes[branch].first_descendant..branch + 1;
+            self.substitute_backward(subtree, numeric, span, watch);
         });
         for (&node, &value) in self.tree.order.iter().zip(&permuted) {
             x[node as usize] = value;
@@ -72,10 +71,11 @@ impl SymbolicLu {
         supernodes: Range<usize>,
         numeric: &NumericLu,
         x: &mut Span<K>,
+        watch: &Watch,
     ) {
         vectorized(|| {
             let mut below = Vec::new();
-            for s in supernodes {
+            for s in supernodes.take_while(|&s| watch.check_at(s).is_ok()) {
                 let supernode = &self.tree.supernodes[s];
                 let (size, width) = (supernode.front_size(), supernode.columns.len());
                 let lower = &numeric.panels[self.panel_starts[s]..][..size * width];
@@ -100,10 +100,11 @@ impl SymbolicLu {
         supernodes: Range<usize>,
         numeric: &NumericLu,
         x: &mut Span<K>,
+        watch: &Watch,
     ) {
         vectorized(|| {
             let mut below = Vec::new();
-            for s in supernodes.rev() {
+            for s in supernodes.rev().take_while(|&s| watch.check_at(s).is_ok()) {
                 let supernode = &self.tree.supernodes[s];
                 let (size, width) = (supernode.front_size(), supernode.columns.len());
                 let panel = &numeric.panels[self.panel_starts[s]..self.panel_starts[s + 1]];
@@ -128,22 +129,23 @@ impl SymbolicLu {
     }
 
     /// Solves `matrix x = rhs` with one step of iterative refinement, which keeps small
-    /// differences of nearly equal unknowns (strongly compressed triangles) right.
+    /// differences of nearly equal unknowns (strongly compressed triangles) right. A cancelled call throws them away.
     pub fn solve<const K: usize>(
         &self,
         numeric: &NumericLu,
         matrix: CsMatView<f64>,
         rhs: &[[f64; K]],
+        watch: &Watch,
     ) -> Vec<[f64; K]> {
         let mut x = memory::copied(rhs);
-        self.solve_in_place(numeric, &mut x);
+        self.solve_in_place(numeric, &mut x, watch);
         let mut residual = memory::copied(rhs);
         for (row, entries) in matrix.outer_iterator().enumerate() {
             for (column, &value) in entries.iter() {
                 (0..K).for_each(|i| residual[row][i] -= value * x[column][i]);
             }
         }
-        self.solve_in_place(numeric, &mut residual);
+        self.solve_in_place(numeric, &mut residual, watch);
         x.iter_mut().zip(&residual).for_each(|(x, change)| add(x, change));
         x
     }

@@ -38,9 +38,9 @@ fn planted(matrix: &CsMat<f64>) -> (Vec<[f64; 2]>, Vec<[f64; 2]>) {
 
 fn solved(matrix: &CsMat<f64>, rhs: &[[f64; 2]], threads: usize) -> Vec<[f64; 2]> {
     Control::new(threads).run(|| {
-        let symbolic = SymbolicLu::new(matrix.view()).unwrap();
-        let numeric = symbolic.factor(matrix.view()).unwrap();
-        symbolic.solve(&numeric, matrix.view(), rhs)
+        let symbolic = SymbolicLu::new(matrix.view(), &Watch::default()).unwrap();
+        let numeric = symbolic.factor(matrix.view(), &Watch::default()).unwrap();
+        symbolic.solve(&numeric, matrix.view(), rhs, &Watch::default())
     })
 }
 
@@ -73,12 +73,12 @@ fn bits_do_not_depend_on_threads() {
 #[test]
 fn further_matrices_of_a_pattern_need_no_analysis() {
     let matrix = grid_matrix(30, 20);
-    let symbolic = SymbolicLu::new(matrix.view()).unwrap();
-    let mut numeric = symbolic.factor(matrix.view()).unwrap();
+    let symbolic = SymbolicLu::new(matrix.view(), &Watch::default()).unwrap();
+    let mut numeric = symbolic.factor(matrix.view(), &Watch::default()).unwrap();
     let doubled = matrix.map(|value| 2.0 * value);
-    symbolic.refactor(doubled.view(), &mut numeric).unwrap();
+    symbolic.refactor(doubled.view(), &mut numeric, &Watch::default()).unwrap();
     let (x, rhs) = planted(&matrix);
-    let found = symbolic.solve(&numeric, doubled.view(), &rhs);
+    let found = symbolic.solve(&numeric, doubled.view(), &rhs, &Watch::default());
     let error = x.iter().zip(&found).map(|(a, b)| (a[1] - 2.0 * b[1]).abs()).fold(0.0, f64::max);
     assert!(error <= 1e-9, "{error:e}");
 }
@@ -106,17 +106,27 @@ fn what_cannot_be_factored_is_named() {
     (0..3).for_each(|i| triplets.add_triplet(i, i, 1.0));
     triplets.add_triplet(0, 2, 1.0);
     let lopsided: CsMat<f64> = triplets.to_csr();
-    let error = SymbolicLu::new(lopsided.view()).unwrap_err();
+    let error = SymbolicLu::new(lopsided.view(), &Watch::default()).unwrap_err();
     assert_eq!(error, LuError::PatternNotSymmetric { row: 0 });
 
     triplets.add_triplet(2, 0, 1.0);
     let singular: CsMat<f64> = triplets.to_csr();
-    let symbolic = SymbolicLu::new(singular.view()).unwrap();
-    let error = symbolic.factor(singular.view()).unwrap_err();
+    let symbolic = SymbolicLu::new(singular.view(), &Watch::default()).unwrap();
+    let error = symbolic.factor(singular.view(), &Watch::default()).unwrap_err();
     assert!(matches!(error, LuError::Singular { row: 0 | 2 }), "{error}");
     assert_eq!(error.kind(), ErrorKind::Singular);
 
     let other = grid_matrix(2, 2);
-    let error = symbolic.factor(other.view()).unwrap_err();
+    let error = symbolic.factor(other.view(), &Watch::default()).unwrap_err();
     assert_eq!(error, LuError::OtherPattern { expected: 5, found: other.nnz() });
+}
+
+#[test]
+fn a_cancelled_call_is_not_factored() {
+    let matrix = grid_matrix(30, 20);
+    let symbolic = SymbolicLu::new(matrix.view(), &Watch::default()).unwrap();
+    let watch = Watch::default();
+    watch.cancel();
+    assert_eq!(SymbolicLu::new(matrix.view(), &watch).unwrap_err(), LuError::Cancelled(Cancelled));
+    assert_eq!(symbolic.factor(matrix.view(), &watch).unwrap_err(), LuError::Cancelled(Cancelled));
 }

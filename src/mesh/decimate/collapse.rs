@@ -16,6 +16,7 @@
 
 use super::features::{Features, Role, normal};
 use super::quadric::Quadric;
+use crate::control::{Cancelled, Watch};
 use crate::geometry::{Orientation, orientation};
 use crate::memory::{self, CollectVec};
 use glam::{DVec2, DVec3};
@@ -71,11 +72,13 @@ impl<'a> Collapsing<'a> {
         triangles: &[[u32; 3]],
         map: Option<(&'a [DVec2], Orientation)>,
         features: Features,
-    ) -> Self {
+        watch: &Watch,
+    ) -> Result<Self, Cancelled> {
         let mut around = memory::filled(Vec::new(), points.len());
         let mut quadrics = memory::filled(Quadric::ZERO, points.len());
         let mut areas = memory::filled(0.0, points.len());
         for (t, triangle) in triangles.iter().enumerate() {
+            watch.check_at(t)?;
             let double_area = normal(&points, triangle);
             let (unit, area) = (double_area.normalize_or_zero(), 0.5 * double_area.length());
             let plane = Quadric::plane(points[triangle[0] as usize], unit, area);
@@ -97,7 +100,7 @@ impl<'a> Collapsing<'a> {
         }
         let triangles = triangles.iter().copied().map(Some).collect_vec();
         let live = around.iter().map(|triangles| triangles.len() as u32).collect_vec();
-        Self { points, map, triangles, around, live, quadrics, areas, features }
+        Ok(Self { points, map, triangles, around, live, quadrics, areas, features })
     }
 
     /// The triangles that are left, with their numbers.

@@ -19,7 +19,7 @@ pub(super) use features::{half_edges, normal};
 pub(crate) use quadric::Quadric;
 
 use super::{Mesh, Piece};
-use crate::control::{Cancelled, Control, Stage};
+use crate::control::{Cancelled, Control, Stage, Watch};
 use crate::failure::{Classify, ErrorKind};
 use crate::geometry::{Orientation, orientation};
 use crate::memory::{self, CollectVec};
@@ -190,10 +190,13 @@ impl Mesh {
         let uv = options.parameters_of(self);
         let side = side(self.triangles(), uv)?;
         let (safe, _) = self.at_safe_scale();
+        control.pool().check()?;
         let features = Features::of(&safe, options)?;
-        let mut collapsing = Collapsing::new(centred(&safe), self.triangles(), uv.zip(side), features);
+        let (points, watch) = (centred(&safe), control.pool().watch());
+        let mut collapsing = Collapsing::new(points, self.triangles(), uv.zip(side), features, watch)?;
         let removable = self.used_count.saturating_sub(options.target_count);
         let collapse_count = collapse_all(&mut collapsing, removable, self.points.len() as u32, control)?;
+        control.pool().check()?;
         let piece = self.compacted(collapsing.triangles()).expect("collapses keep a mesh a mesh");
         let sharp_edges = sharp_edges(&collapsing, &piece);
         let report = DecimateReport {
@@ -270,10 +273,15 @@ struct Queue {
 }
 
 impl Queue {
-    fn of(collapsing: &Collapsing, node_count: u32) -> Self {
+    fn of(collapsing: &Collapsing, node_count: u32, watch: &Watch) -> Result<Self, Cancelled> {
         let mut queue = Self { heap: BinaryHeap::new(), versions: memory::filled(0, node_count as usize) };
-        (0..node_count).filter(|&node| collapsing.is_present(node)).for_each(|n| queue.renew(n, collapsing));
-        queue
+        for node in 0..node_count {
+            watch.check_at(node as usize)?;
+            if collapsing.is_present(node) {
+                queue.renew(node, collapsing);
+            }
+        }
+        Ok(queue)
     }
 
     /// Queues the cheapest collapse that a node is capable of now, instead of what it had.
@@ -317,7 +325,7 @@ fn collapse_all(
     while done < count {
         control.report(done as f64 / count as f64, f64::NAN)?;
         // what was impossible may have become possible by changes further away than those that are followed
-        let mut queue = Queue::of(collapsing, node_count);
+        let mut queue = Queue::of(collapsing, node_count, control.pool().watch())?;
         let before = done;
         while done < count
             && let Some(Candidate { from, to, .. }) = queue.pop()

@@ -74,7 +74,7 @@ impl PhtSurface {
         let mut surface = if tolerance > 0.0 {
             source.within(tolerance, max_level.min(MAX_LEVEL), max_cells, watch)?
         } else {
-            source.exact(max_cells)?
+            source.exact(max_cells, watch)?
         };
         *surface.region_mut() = tensor.region().clone();
         Ok(surface)
@@ -115,7 +115,7 @@ impl<'a> Source<'a> {
         Ok(Self { tensor, homogeneous: homogeneous.map_err(|_| PhtError::NotFinite { index: 0 })? })
     }
 
-    fn exact(&self, max_cells: usize) -> Result<PhtSurface, PhtError> {
+    fn exact(&self, max_cells: usize, watch: &Watch) -> Result<PhtSurface, PhtError> {
         let knots = [Axis::U, Axis::V].map(|axis| self.tensor.knots(axis));
         if knots.iter().any(|knots| knots.degree() > 3) {
             return Err(PhtError::Tolerance { value: 0.0, range: "positive for degrees above 3" });
@@ -124,15 +124,22 @@ impl<'a> Source<'a> {
         if count > max_cells {
             return Err(PhtError::TooLarge { what: "cells", count, limit: max_cells });
         }
-        let surface = self.over(TMesh::new(&knots[0].breaks(), &knots[1].breaks())?, &BTreeMap::new())?;
+        let mesh = TMesh::new(&knots[0].breaks(), &knots[1].breaks())?;
+        let surface = self.over(mesh, &BTreeMap::new(), watch)?;
         surface.check_weights()?;
         Ok(surface)
     }
 
     /// The spline with the source's jets at the vertices of a mesh; those in `known` need not be computed. Its
     /// weights are still to be looked at.
-    fn over(&self, mesh: TMesh, known: &BTreeMap<Vertex, Vec<f64>>) -> Result<PhtSurface, PhtError> {
+    fn over(
+        &self,
+        mesh: TMesh,
+        known: &BTreeMap<Vertex, Vec<f64>>,
+        watch: &Watch,
+    ) -> Result<PhtSurface, PhtError> {
         let topology = Topology::new(&mesh);
+        watch.check()?;
         let vertices: Vec<Vertex> =
             topology.basis.iter().map(|&vertex| topology.vertices[vertex as usize]).collect_vec();
         let new = vertices.iter().filter(|vertex| !known.contains_key(vertex));
@@ -140,6 +147,7 @@ impl<'a> Source<'a> {
         let width = self.homogeneous.dim();
         let mut rows = memory::filled(0.0, uv.len() * 6 * width);
         self.homogeneous.eval_rows(&uv, 2, &mut rows);
+        watch.check()?;
         // of S, Su, Sv, Suu, Suv, Svv those of a jet
         let jet = |rows: &[f64]| [0, 1, 2, 4].map(|row| &rows[row * width..][..width]).concat();
         let mut computed = rows.chunks_exact(6 * width).map(jet);
@@ -164,7 +172,7 @@ impl<'a> Source<'a> {
         // leaves that agreed, with their ordinates
         let mut settled: BTreeMap<Cell, Vec<f64>> = BTreeMap::new();
         loop {
-            let surface = self.over(mesh, &known)?;
+            let surface = self.over(mesh, &known, watch)?;
             let leaves = surface.topology().leaves.iter().map(|&node| surface.mesh.cell(node)).enumerate();
             // a coarse patch may follow the surface so badly that its weights are not positive
             let mut is_rough = |&(leaf, cell): &(usize, Cell)| {
@@ -202,6 +210,7 @@ impl<'a> Source<'a> {
                 Ok(())
             };
             for cell in rough {
+                watch.check()?;
                 // it may have been split to make another's neighbours fine enough
                 if let Some(leaf) = mesh.find(cell).filter(|&node| mesh.is_leaf(node)) {
                     mesh.split_graded(leaf, GRADE, &mut allow)?;

@@ -5,7 +5,7 @@
 
 use super::energy::EnergyTerm;
 use super::grid::{Direction, Part, UniformBasis};
-use crate::control::Pool;
+use crate::control::{Pool, Watch};
 use crate::linalg::dissection::grid_order;
 use crate::linalg::{Cholesky, Conditions, NotPositiveDefinite, SymbolicCholesky, impose_all};
 use crate::lists::Lists;
@@ -131,7 +131,7 @@ impl<D: Direction + Clone> NormalEquations<D> {
             for block in (0..cells_u).step_by(BLOCK) {
                 let strips: Vec<Strip> = (block..cells_u.min(block + BLOCK))
                     .into_par_iter()
-                    .map(|cell_u| assemble_strip(&basis, samples, &by_cell, cell_u))
+                    .map(|cell_u| assemble_strip(&basis, samples, &by_cell, cell_u, pool.watch()))
                     .collect_vec();
                 for (cell_u, strip) in (block..).zip(strips) {
                     strip.add_to(basis.u.first(cell_u) * rows, &mut matrix, &mut right);
@@ -246,6 +246,7 @@ fn assemble_strip(
     samples: &Samples,
     by_cell: &Lists,
     cell_u: usize,
+    watch: &Watch,
 ) -> Strip {
     let (width_u, width_v, rows) = (basis.u.width(), basis.v.width(), basis.v.len());
     let (cells_v, dim) = (basis.cells()[1], samples.dim);
@@ -254,7 +255,8 @@ fn assemble_strip(
         right: memory::filled(0.0, width_u * rows * dim),
     };
     let mut sums = CellSums { matrix: [0.0; 160], right: memory::filled(0.0, 16 * dim) };
-    for cell_v in 0..cells_v {
+    // a cancelled call throws its sums away
+    for cell_v in (0..cells_v).take_while(|_| watch.check().is_ok()) {
         let data = by_cell.of(cell_u * cells_v + cell_v);
         if data.is_empty() {
             continue;

@@ -112,7 +112,7 @@ struct Between {
 }
 
 fn between(mesh: &Mesh, regions: &Regions, model: &Model, watch: &Watch) -> Result<Between, Obstacle> {
-    let sagittas = triangle_sagittas(mesh);
+    let sagittas = triangle_sagittas(mesh, watch);
     let mut all = Between { max: 0.0, excess: 0.0 };
     for (triangle, nodes) in mesh.triangles().iter().enumerate() {
         if triangle % BETWEEN_WATCHES == 0 {
