@@ -685,7 +685,9 @@ module planish_records
     !> Largest distance from a triangle's centroid or an edge's middle to the surface's tangent plane at the mean of
     !> the nodes' (u,v) (for a field: to its value there); 0 for data without triangles
     real(c_double) :: max_interior_error = 0
-    !> The part of max_interior_error that flat facets on a curved shape explain, never more than there is
+    !> The part of max_interior_error that flat facets on a curved shape explain: max_interior_error - facet_sagitta
+    !> is the largest distance beyond what its own facet explains, and PLANISH_REMARK_ROUGH_BETWEEN_NODES tells where
+    !> that is above the tolerance
     real(c_double) :: facet_sagitta = 0
     !> Largest closest-point distance from a node to the surface; NaN unless measure_distance asked for it
     real(c_double) :: max_distance = 0
@@ -1405,7 +1407,9 @@ module planish_records
     real(c_double) :: diagonal = 0 !! Diagonal of the mesh's box: an error divided by it is relative
     !> Largest distance of a centroid of a facet or a middle of an edge from the model
     real(c_double) :: max_interior_error = 0
-    real(c_double) :: facet_sagitta = 0 !! The part of that which flat facets on a curved shape explain
+    !> The part of that which flat facets on a curved shape explain: max_interior_error - facet_sagitta is the largest
+    !> distance beyond what its own facet explains
+    real(c_double) :: facet_sagitta = 0
     !> Largest distance from places all over the model to the mesh; NaN for a chart
     real(c_double) :: max_back_distance = 0
     real(c_double) :: normal_jump = 0 !! Largest difference of unit normals across edges of patches

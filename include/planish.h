@@ -2317,8 +2317,10 @@ typedef struct planish_fit_report {
      */
     double max_interior_error;
     /**
-     * The part of max_interior_error that flat facets on a curved shape explain, never more than there is.
-     * Facets at an edge across which normals turn by more than 30 degrees explain nothing: they are the shape.
+     * The part of max_interior_error that flat facets on a curved shape explain: max_interior_error - facet_sagitta is
+     * the largest distance beyond what its own facet explains, and PLANISH_REMARK_ROUGH_BETWEEN_NODES tells where that
+     * is above the tolerance. Facets at an edge across which normals turn by more than 30 degrees explain nothing: they
+     * are the shape.
      */
     double facet_sagitta;
     /**
@@ -3842,7 +3844,8 @@ typedef struct planish_model_report {
      */
     double max_interior_error;
     /**
-     * The part of that which flat facets on a curved shape explain.
+     * The part of that which flat facets on a curved shape explain: max_interior_error - facet_sagitta is the largest
+     * distance beyond what its own facet explains.
      */
     double facet_sagitta;
     /**
