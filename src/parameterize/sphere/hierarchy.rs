@@ -2,7 +2,7 @@
 //!
 //! A node goes on to the neighbour for which
 //! ```text
-//! (|uv| + r / 2)^2 (1 + 0.1 max(0, n - 6)^2) (1 + 0.05 (d - 6)^2)
+//! (|uv| + r / 4)^2 (1 + 0.1 max(0, n - 6)^2) (1 + 0.05 (d - 6)^2)
 //! ```
 //! is least: d is its valence, n that of the neighbour afterwards, and r the way of nodes that have gone to it before:
 //! without r one node after the other of a regular grid goes on to the next, and draws edges as long as the row behind it.
@@ -22,9 +22,9 @@ use std::collections::BinaryHeap;
 
 /// Largest valence that a collapse may make, as long as there are others.
 const MOST_VALENCE: usize = 40;
-/// What the way of nodes that went before counts beside that of the next one: half of it keeps levels even and is kinder to
-/// long limbs than all of it.
-const REACH_SHARE: f64 = 0.5;
+/// What the way of nodes that went before counts beside that of the next one: a quarter of it keeps levels even and is
+/// kinder to long limbs than all of it.
+const REACH_SHARE: f64 = 0.25;
 /// A tetrahedron's nodes.
 const LAST: usize = 4;
 /// Collapses between two questions to the listener: a few milliseconds.
@@ -80,7 +80,7 @@ struct Collapser<'a> {
     points: &'a [DVec3],
     rings: &'a mut Rings,
     marks: RingMarks,
-    /// By node: the longest way of those that have gone to it, each step by half as much as the one after it.
+    /// By node: the longest way of those that have gone to it, each step by a quarter of what the one after it counts.
     reach: Vec<f64>,
     is_gone: Vec<bool>,
     /// By node: how often its surroundings have changed; older entries of the queue are void.
