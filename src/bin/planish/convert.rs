@@ -97,7 +97,7 @@ fn read(arguments: &ConvertArguments, given: &Given, table: &mut Table) -> Resul
 
 /// Refuses what no file that is asked for would show.
 fn check_used(arguments: &ConvertArguments, given: &Given) -> Result<(), Failure> {
-    StepArguments::check_used(given, &arguments.out)?;
+    StepArguments::check_used(given, output::writes_step(&arguments.out))?;
     let is_exact = |path: &PathBuf| output::is_step(path) || output::is_saved(path);
     for option in ["chord", "max-edge"] {
         given.refuse(option, !arguments.out.iter().all(is_exact), "is not used: no triangles are written")?;

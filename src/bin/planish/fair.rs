@@ -76,7 +76,7 @@ enum LimitName {
 
 pub(crate) fn run(arguments: &FairArguments, given: &Given) -> Result<Outcome, Failure> {
     output::check_names(&arguments.out)?;
-    StepArguments::check_used(given, &arguments.out)?;
+    StepArguments::check_used(given, output::writes_step(&arguments.out))?;
     given.refuse(
         "limit",
         arguments.mesh.is_some(),

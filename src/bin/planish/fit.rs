@@ -104,7 +104,7 @@ fn check_used(arguments: &FitArguments, family: FamilyName, given: &Given) -> Re
     }
     given.refuse("weights", family != FamilyName::Model, "is not used by --family model")?;
     given.refuse("free-ends", !arguments.ferguson, "is not used with --ferguson")?;
-    StepArguments::check_used(given, &arguments.out)?;
+    StepArguments::check_used(given, output::writes_step(&arguments.out))?;
     given.refuse(
         "step-form",
         family == FamilyName::Pht,

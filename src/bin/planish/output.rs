@@ -122,6 +122,11 @@ pub(crate) fn is_step(path: &Path) -> bool {
     ["step", "stp"].contains(&extension(path).as_str())
 }
 
+/// Whether one of some names asks for a STEP file.
+pub(crate) fn writes_step(paths: &[PathBuf]) -> bool {
+    paths.iter().any(|path| is_step(path))
+}
+
 /// Whether a name asks for a file of this program's own.
 pub(crate) fn is_saved(path: &Path) -> bool {
     extension(path) == "planish"

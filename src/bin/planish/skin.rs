@@ -85,7 +85,7 @@ enum FormName {
 
 pub(crate) fn run(arguments: &SkinArguments, given: &Given) -> Result<Outcome, Failure> {
     output::check_names(&arguments.out)?;
-    let writes_step = arguments.out.iter().any(|path| output::is_step(path));
+    let writes_step = output::writes_step(&arguments.out);
     given.refuse("step-form", writes_step, "is not used: no STEP file is written")?;
     let read = RowFile::read(&arguments.rows)?;
     let rows = Rows { points: &read.points, counts: &read.counts, dim: 3 };

@@ -1,13 +1,12 @@
 //! What STEP files hold and say: what all commands that write one have in common.
 
-use crate::{Failure, Given, output};
+use crate::{Failure, Given};
 use clap::{Args, ValueEnum};
 use planish::export::step::{StepOptions, Unit};
 use planish::fit::conversion::ConversionOptions;
 use planish::model::{Form, FormOptions};
 use planish::query::tessellate::TessellateOptions;
 use planish::surface::Label;
-use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(crate) struct StepArguments {
@@ -53,8 +52,7 @@ impl StepArguments {
     const OPTIONS: [&str; 4] = ["unit", "product", "step-form", "level-spread"];
 
     /// Refuses them where no STEP file is written.
-    pub(crate) fn check_used(given: &Given, out: &[PathBuf]) -> Result<(), Failure> {
-        let writes_step = out.iter().any(|path| output::is_step(path));
+    pub(crate) fn check_used(given: &Given, writes_step: bool) -> Result<(), Failure> {
         let why = "is not used: no STEP file is written";
         Self::OPTIONS.iter().try_for_each(|option| given.refuse(option, writes_step, why))
     }

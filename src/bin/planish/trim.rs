@@ -49,7 +49,7 @@ pub(crate) struct TrimArguments {
 
 pub(crate) fn run(arguments: &TrimArguments, given: &Given) -> Result<Outcome, Failure> {
     output::check_names(&arguments.out)?;
-    StepArguments::check_used(given, &arguments.out)?;
+    StepArguments::check_used(given, output::writes_step(&arguments.out))?;
     let mut surface = native::load_file(&arguments.surface)?;
     let mut curves = Vec::new();
     for path in &arguments.loops {
