@@ -90,8 +90,12 @@ pub(super) fn make(
 /// How often the edges of a coarse mesh are halved, so that stars of nodes fit into few patches.
 fn halvings(mesh: &Mesh, patches: usize) -> u32 {
     let count = mesh.points().len();
-    (0..MOST_HALVINGS).find(|&times| count << (2 * times) >= TRACKED * patches).unwrap_or(MOST_HALVINGS)
+    let enough = TRACKED.saturating_mul(patches).min(FINE);
+    (0..MOST_HALVINGS).find(|&times| count << (2 * times) >= enough).unwrap_or(MOST_HALVINGS)
 }
+
+/// A mesh of so many nodes is fine enough, however many patches are asked for.
+const FINE: usize = 100_000;
 
 /// Halvings make at most so many times more nodes, by the power of 4: what they help a mesh of a few nodes.
 const MOST_HALVINGS: u32 = 4;

@@ -80,7 +80,7 @@ struct Collapser<'a> {
     points: &'a [DVec3],
     rings: &'a mut Rings,
     marks: RingMarks,
-    /// By node: the longest way of those that have gone to it, each step by a quarter of what the one after it counts.
+    /// By node: the longest `way` of those that have gone to it.
     reach: Vec<f64>,
     is_gone: Vec<bool>,
     /// By node: how often its surroundings have changed; older entries of the queue are void.
