@@ -11,15 +11,15 @@
 //! boundary cross, and the stretch is less.
 
 use super::crossings::boundary_crosses;
-use super::patch::{landmark, outer_loop};
+use super::patch::{Neighbours, landmark, outer_loop};
 use crate::control::Pool;
 use crate::geometry::{Orientation, orientation};
 use crate::linalg::SymbolicCholesky;
 use crate::memory::{self, CollectVec, ParallelCollectVec};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, loop_edges};
 use glam::{DMat2, DVec2, DVec3};
 use rayon::prelude::*;
-use sprs::{CsMat, TriMat};
+use sprs::CsMat;
 
 /// Turns at most; nearly developable sheets need about ten.
 const TURNS: usize = 40;
@@ -125,19 +125,32 @@ impl Sheet {
     /// the origin.
     fn laplacian(&self, mesh: &Mesh) -> CsMat<f64> {
         let n = mesh.points().len();
-        let mut entries = TriMat::new((n, n));
+        let open_edges: Vec<[u32; 2]> = mesh.loops().iter().flat_map(|l| loop_edges(l)).collect_vec();
+        let neighbours = Neighbours::new(n, mesh.triangles(), &open_edges);
+        // each column has its diagonal, then the neighbours below it, which are the last of their list
+        let (mut starts, mut rows) = (memory::with_capacity(n + 1), memory::with_capacity(n + neighbours.nodes().len() / 2));
+        for node in 0..n {
+            memory::push(&mut starts, rows.len());
+            memory::push(&mut rows, node);
+            let below = neighbours.of(node).iter().map(|&other| other as usize).filter(|&other| other > node);
+            memory::extend(&mut rows, below);
+        }
+        memory::push(&mut starts, rows.len());
+        let mut values = memory::filled(0.0, rows.len());
         for (triangle, cotangents) in mesh.triangles().iter().zip(&self.cotangents) {
             for k in 0..3 {
-                let (i, j) = (triangle[(k + 1) % 3] as usize, triangle[(k + 2) % 3] as usize);
+                let [i, j] = [triangle[(k + 1) % 3], triangle[(k + 2) % 3]];
+                let (column, row) = (i.min(j), i.max(j));
+                let behind = neighbours.slots(column as usize).end - neighbours.slot(column, row);
                 let weight = cotangents[k] / 2.0;
-                entries.add_triplet(i, i, weight);
-                entries.add_triplet(j, j, weight);
-                entries.add_triplet(i.max(j), i.min(j), -weight);
+                values[starts[i as usize]] += weight;
+                values[starts[j as usize]] += weight;
+                values[starts[column as usize + 1] - behind] -= weight;
             }
         }
-        entries.add_triplet(self.pinned, self.pinned, 1.0);
-        mesh.unused_nodes().iter().for_each(|&node| entries.add_triplet(node as usize, node as usize, 1.0));
-        entries.to_csc()
+        values[starts[self.pinned]] += 1.0;
+        mesh.unused_nodes().iter().for_each(|&node| values[starts[node as usize]] += 1.0);
+        CsMat::new_csc((n, n), starts, rows, values)
     }
 
     /// The edges of the flat triangles, each turned to fit the map best, summed at the nodes.

@@ -19,7 +19,7 @@ pub(super) struct Neighbours(Lists);
 
 impl Neighbours {
     /// From half-edges and the reverses of those without a partner.
-    fn new(node_count: usize, triangles: &[[u32; 3]], open_edges: &[[u32; 2]]) -> Self {
+    pub(super) fn new(node_count: usize, triangles: &[[u32; 3]], open_edges: &[[u32; 2]]) -> Self {
         let inner = triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
         let half_edges = inner.chain(open_edges.iter().map(|&[a, b]| (b, a)));
         let mut lists = Lists::new(node_count, half_edges);

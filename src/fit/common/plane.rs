@@ -65,8 +65,9 @@ fn coarse_error(mesh: &Mesh, uv: &[DVec2], knots: usize, pool: &Pool) -> Option<
     let basis = TensorBasis { u, v };
     let samples = Samples { uv: &uv, values: &values, dim: 3, weights: None };
     let equations = NormalEquations::assemble(basis, &samples, pool);
-    let unknowns =
-        equations.solve(&equations.analyse(), SMOOTHING / 12.0, &Energy::Plate.terms(&u, &v), &[]).ok()?;
+    let energy = Energy::Plate.terms(&u, &v);
+    let factor = equations.factor(&equations.analyse(), SMOOTHING / 12.0, &energy).ok()?;
+    let unknowns = equations.solve(&factor, &[]);
     let sum: f64 =
         uv.iter().zip(values.chunks_exact(3)).map(|(&uv, value)| basis.error_sq(uv, value, &unknowns)).sum();
     Some((sum / uv.len() as f64).sqrt())

@@ -184,8 +184,10 @@ impl<'a> LeastSquares<'a> {
         if let Some(tension) = tension {
             equations = Cow::Owned(equations.plus(&tension.equations, smoothing / 12.0 * tension.weight));
         }
-        let solved = equations.solve(&self.symbolic, smoothing / 12.0, &self.energy, &self.conditions);
-        let unknowns = solved.map_err(|_| FitError::Singular)?;
+        self.watch.check()?;
+        let factor = equations.factor(&self.symbolic, smoothing / 12.0, &self.energy);
+        self.watch.check()?;
+        let unknowns = equations.solve(&factor.map_err(|_| FitError::Singular)?, &self.conditions);
         self.watch.check()?;
         let grid = self.grid();
         let mut control_points = control_points(&self.basis, &unknowns, problem.dim);

@@ -177,23 +177,17 @@ impl<D: Direction + Clone> NormalEquations<D> {
         Self { matrix, right, basis: self.basis.clone(), dim: self.dim }
     }
 
-    /// Solves with `weight` times the energy added, under conditions; the unknowns come in columns, one for each component.
-    /// `symbolic` is made by [`NormalEquations::analyse`] for the same basis.
-    pub(crate) fn solve(
-        &self,
-        symbolic: &SymbolicCholesky,
-        weight: f64,
-        energy: &[EnergyTerm],
-        conditions: &[Conditions],
-    ) -> Result<Vec<f64>, NotPositiveDefinite> {
-        let factor = self.factor(symbolic, weight, energy)?;
-        let mut unknowns = self.right.clone();
+    /// Solves under conditions; the unknowns come in columns, one for each component.
+    /// `factor` is made by [`NormalEquations::factor`] of the same equations.
+    pub(crate) fn solve(&self, factor: &Cholesky, conditions: &[Conditions]) -> Vec<f64> {
+        let mut unknowns = memory::copied(&self.right);
         factor.solve(&mut unknowns, self.dim);
-        impose_all(conditions, &factor, &mut unknowns, self.basis.len());
-        Ok(unknowns)
+        impose_all(conditions, factor, &mut unknowns, self.basis.len());
+        unknowns
     }
 
-    /// The factor that [`NormalEquations::solve`] solves with.
+    /// The factor with `weight` times the energy added. `symbolic` is made by [`NormalEquations::analyse`] for the same
+    /// basis.
     pub(crate) fn factor(
         &self,
         symbolic: &SymbolicCholesky,

@@ -252,6 +252,7 @@ impl<'a> NetFitter<'a> {
             true => problem.conditions(&basis, (rows.values, dim)),
             false => Vec::new(),
         };
+        watch.check()?;
         let symbolic = equations.analyse();
         let energy = plate(&lines);
         Ok(NetEquations { lines, equations, tension, energy, conditions, symbolic })
@@ -306,8 +307,11 @@ impl<'a> NetFitter<'a> {
             None => Cow::Borrowed(&net.equations),
             Some(tension) => Cow::Owned(net.equations.plus(tension, tension_weight)),
         };
-        let solved = equations.solve(&net.symbolic, weight, &net.energy, &net.conditions);
-        let unknowns = solved.map_err(|_| FitError::Singular)?;
+        watch.check()?;
+        let factor = equations.factor(&net.symbolic, weight, &net.energy);
+        watch.check()?;
+        let unknowns = equations.solve(&factor.map_err(|_| FitError::Singular)?, &net.conditions);
+        watch.check()?;
         let n = coefficient_count(&net.lines);
         let points: Vec<f64> = (0..n)
             .flat_map(|i| (0..dim).map(move |k| (i, k)))
