@@ -1,5 +1,7 @@
 //! Many numbers in a few.
 
+use crate::memory::CollectVec;
+
 /// Errors at some data.
 #[derive(Debug, Clone, Default)]
 pub struct DataErrors {
@@ -40,7 +42,7 @@ pub fn summarize(each: Vec<f64>) -> DataErrors {
 
 /// How large numbers are without their signs, the least first; what is no number is left out.
 pub fn sorted_sizes(numbers: &[f64]) -> Vec<f64> {
-    let mut sizes: Vec<f64> = numbers.iter().map(|x| x.abs()).filter(|x| !x.is_nan()).collect();
+    let mut sizes: Vec<f64> = numbers.iter().map(|x| x.abs()).filter(|x| !x.is_nan()).collect_vec();
     sizes.sort_unstable_by(f64::total_cmp);
     sizes
 }

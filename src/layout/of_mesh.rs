@@ -7,6 +7,7 @@ pub use super::mesh_layout::{LayoutKind, MeshLayout, MeshLayoutError, MeshLayout
 use super::{Layout, NodeMap, complex, cube_place};
 use crate::Control;
 use crate::control::Stage;
+use crate::memory::CollectVec;
 use crate::mesh::Mesh;
 use crate::parameterize::sphere::{SphereOptions, map_to_sphere};
 use std::time::Instant;
@@ -57,7 +58,7 @@ fn check(mesh: &Mesh, options: &MeshLayoutOptions) -> Result<(), MeshLayoutError
 fn cube(mesh: &Mesh, control: &mut Control) -> Result<MeshLayout, MeshLayoutError> {
     let sphere = map_to_sphere(mesh, &SphereOptions::default(), control)?;
     let place = |node: u32| mesh.is_used(node).then(|| cube_place(sphere.points[node as usize]));
-    let places = (0..mesh.points().len() as u32).map(place).collect();
+    let places = (0..mesh.points().len() as u32).map(place).collect_vec();
     let report = MeshLayoutReport {
         kind: LayoutKind::Cube,
         energy: sphere.report.energy,

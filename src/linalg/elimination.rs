@@ -184,7 +184,7 @@ fn fundamental_supernodes(
             let (id, start) = (blocks.len() as u32, rows.len());
             let mut enter = |row: u32, rows: &mut Vec<u32>| {
                 if row as usize > k && std::mem::replace(&mut mark[row as usize], id) != id {
-                    rows.push(row);
+                    memory::push(rows, row);
                 }
             };
             later(k).for_each(|row| enter(row, &mut rows));

@@ -199,10 +199,10 @@ impl Mesh {
         is_cut: impl Fn(HalfEdge) -> bool,
     ) -> Result<Piece, CutError> {
         const NONE: u32 = u32::MAX;
-        let mut place = vec![NONE; self.triangles.len()];
+        let mut place = memory::filled(NONE, self.triangles.len());
         (0..).zip(triangles).for_each(|(k, &triangle)| place[triangle as usize] = k);
         // corners of triangles in sets that are one node
-        let mut sets: Vec<u32> = (0..3 * triangles.len() as u32).collect();
+        let mut sets: Vec<u32> = (0..3 * triangles.len() as u32).collect_vec();
         let corner = |place: u32, corner: usize| 3 * place + corner as u32;
         for (k, &triangle) in (0..).zip(triangles) {
             for edge in (0..3).map(|side| HalfEdge::new(triangle as usize, side)) {
@@ -218,15 +218,15 @@ impl Mesh {
             }
         }
         let old = |corner: u32| self.triangles[triangles[corner as usize / 3] as usize][corner as usize % 3];
-        let roots: Vec<u32> = (0..sets.len() as u32).map(|corner| root(&mut sets, corner)).collect();
+        let roots: Vec<u32> = (0..sets.len() as u32).map(|corner| root(&mut sets, corner)).collect_vec();
         let mut nodes: Vec<[u32; 2]> =
-            (0..).zip(&roots).filter(|(k, r)| k == *r).map(|(k, _)| [old(k), k]).collect();
+            (0..).zip(&roots).filter(|(k, r)| k == *r).map(|(k, _)| [old(k), k]).collect_vec();
         nodes.sort_unstable();
-        let mut number = vec![NONE; sets.len()];
+        let mut number = memory::filled(NONE, sets.len());
         (0..).zip(&nodes).for_each(|(node, &[_, root])| number[root as usize] = node);
         let new = |k: usize| [0, 1, 2].map(|c| number[roots[3 * k + c] as usize]);
-        let new_triangles = (0..triangles.len()).map(new).collect();
-        self.piece(new_triangles, nodes.into_iter().map(|[old, _]| old).collect(), triangles.to_vec())
+        let new_triangles = (0..triangles.len()).map(new).collect_vec();
+        self.piece(new_triangles, nodes.into_iter().map(|[old, _]| old).collect_vec(), triangles.to_vec())
     }
 
     /// The shortest path along edges, by length; of equally short ones always the same.

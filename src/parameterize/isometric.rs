@@ -128,7 +128,8 @@ impl Sheet {
         let open_edges: Vec<[u32; 2]> = mesh.loops().iter().flat_map(|l| loop_edges(l)).collect_vec();
         let neighbours = Neighbours::new(n, mesh.triangles(), &open_edges);
         // each column has its diagonal, then the neighbours below it, which are the last of their list
-        let (mut starts, mut rows) = (memory::with_capacity(n + 1), memory::with_capacity(n + neighbours.nodes().len() / 2));
+        let (mut starts, mut rows) =
+            (memory::with_capacity(n + 1), memory::with_capacity(n + neighbours.nodes().len() / 2));
         for node in 0..n {
             memory::push(&mut starts, rows.len());
             memory::push(&mut rows, node);

@@ -356,7 +356,7 @@ fn next_map(
     let patch = system.patch();
     control.pool().check()?;
     let divisors: Vec<f64> = s.iter().map(|s| s.powf(eta)).collect_vec();
-    let mut weights = map.weights.clone();
+    let mut weights = memory::copied(&map.weights);
     for (weight, &neighbour) in weights.iter_mut().zip(patch.neighbours.nodes()) {
         *weight /= divisors[neighbour as usize];
     }

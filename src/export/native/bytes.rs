@@ -16,7 +16,7 @@ pub struct Writer {
 impl Writer {
     /// With the fields of every file; `size` is that of the whole.
     pub(super) fn new(version: u32, kind: u32, size: usize) -> Self {
-        let mut bytes = Vec::with_capacity(size);
+        let mut bytes = memory::with_capacity(size);
         bytes.extend(MAGIC);
         bytes.extend(version.to_le_bytes());
         bytes.extend(kind.to_le_bytes());

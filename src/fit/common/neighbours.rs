@@ -2,6 +2,7 @@
 
 use crate::control::Watch;
 use crate::geometry::Domain;
+use crate::memory::CollectVec;
 use glam::DVec2;
 use spade::{DelaunayTriangulation, HasPosition, Point2, Triangulation, mitigate_underflow};
 
@@ -31,12 +32,14 @@ pub(crate) fn triangles_between(uv: &[DVec2], data: &Domain, watch: &Watch) -> V
         Site { place: mitigate_underflow(Point2::new(place.x, place.y)), datum }
     };
     let triangles = match uv.len() {
-        ..=BULK => DelaunayTriangulation::<Site>::bulk_load((0..uv.len() as u32).map(site).collect()).ok(),
+        ..=BULK => {
+            DelaunayTriangulation::<Site>::bulk_load((0..uv.len() as u32).map(site).collect_vec()).ok()
+        }
         _ => one_by_one(&z_order(uv), site, watch),
     };
     // finite places are all that can be refused
     let Some(triangles) = triangles else { return Vec::new() };
-    triangles.inner_faces().map(|face| face.vertices().map(|vertex| vertex.data().datum)).collect()
+    triangles.inner_faces().map(|face| face.vertices().map(|vertex| vertex.data().datum)).collect_vec()
 }
 
 /// In an order in which each place is near the one before it.
@@ -70,9 +73,9 @@ pub(crate) fn z_order(uv: &[DVec2]) -> Vec<u32> {
         let at = (uv - domain.min) / domain.size();
         spread(at.x) << 1 | spread(at.y)
     };
-    let mut order: Vec<(u64, u32)> = uv.iter().zip(0..).map(|(&uv, k)| (code(uv), k)).collect();
+    let mut order: Vec<(u64, u32)> = uv.iter().zip(0..).map(|(&uv, k)| (code(uv), k)).collect_vec();
     order.sort_unstable();
-    order.into_iter().map(|(_, k)| k).collect()
+    order.into_iter().map(|(_, k)| k).collect_vec()
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ use super::FitError;
 use crate::curve::Curve;
 use crate::geometry::Domain;
 use crate::knots::KnotVector;
+use crate::memory::CollectVec;
 use crate::refinement::Refinement;
 use crate::surface::pht::PhtSurface;
 use crate::surface::tensor::{Axis, TensorSurface};
@@ -188,7 +189,7 @@ impl<'a> SideData<'a> {
         };
         let near =
             uv.iter().enumerate().map(|(k, uv)| (uv[1 - axis], from_side(uv), &values[k * dim..][..dim], k));
-        let near = near.filter(|(_, share, ..)| *share <= NEAR_SIDE).collect();
+        let near = near.filter(|(_, share, ..)| *share <= NEAR_SIDE).collect_vec();
         Self {
             side,
             joints,
@@ -232,7 +233,7 @@ impl<'a> SideData<'a> {
             t if t == to => high,
             t => low + (t - from) / (to - from) * (high - low),
         };
-        let knots = KnotVector::new(knots.knots().iter().map(place).collect(), 3);
+        let knots = KnotVector::new(knots.knots().iter().map(place).collect_vec(), 3);
         let knots = knots.map_err(|_| unfit("has knots that rounding cannot tell apart"))?;
         Curve::new(dim, knots, points).map_err(|_| unfit("has another dimension than the data"))
     }
@@ -262,7 +263,7 @@ impl<'a> SideData<'a> {
             .speed(&found)
             .ok_or_else(|| unfit("does not run on into the data: they lie on the other side"))?;
         found.across = found.across.map(|slopes| {
-            let scaled = slopes.control_points().iter().map(|x| speed * x).collect();
+            let scaled = slopes.control_points().iter().map(|x| speed * x).collect_vec();
             slopes.with_control_points(scaled)
         });
         Ok(found)
@@ -352,7 +353,7 @@ fn side_of_pht(surface: &PhtSurface, side: usize) -> Option<(Curve, Curve)> {
         .jets()
         .filter(|(vertex, _)| is_on(vertex))
         .map(|(vertex, jet)| (mesh.parameters(vertex)[along], jet))
-        .collect();
+        .collect_vec();
     jets.sort_by(|a, b| a.0.total_cmp(&b.0));
     // of the rows f, f_u, f_v and f_uv of a jet those for the curve, and for the derivative across
     let (curve, across) = if side < 2 { ([0, 2], [1, 3]) } else { ([0, 1], [2, 3]) };
@@ -369,7 +370,7 @@ fn hermite_curve(
 ) -> Option<Curve> {
     let (first, last) = (jets.first()?.0, jets.last()?.0);
     let inner = jets[1..jets.len() - 1].iter().flat_map(|(t, _)| [*t; 2]);
-    let knots = [first; 4].into_iter().chain(inner).chain([last; 4]).collect();
+    let knots = [first; 4].into_iter().chain(inner).chain([last; 4]).collect_vec();
     let mut points = Vec::with_capacity(2 * jets.len() * dim);
     for (k, (t, jet)) in jets.iter().enumerate() {
         let (value, slope) = (&jet[value * dim..][..dim], &jet[slope * dim..][..dim]);
@@ -396,14 +397,14 @@ fn side_of_tensor(surface: &TensorSurface, side: usize) -> Option<(Curve, Curve)
     let dim = points.len() / (count * length);
     let row = |i: usize| -> Vec<f64> {
         let number = |j: usize| if side < 2 { i * length + j } else { j * count + i };
-        (0..length).flat_map(|j| points[number(j) * dim..][..dim].iter().copied()).collect()
+        (0..length).flat_map(|j| points[number(j) * dim..][..dim].iter().copied()).collect_vec()
     };
     let breaks = across.breaks();
     let (outer, inner, cell) = match side % 2 {
         0 => (row(0), row(1), breaks[1] - breaks[0]),
         _ => (row(count - 1), row(count - 2), breaks[breaks.len() - 1] - breaks[breaks.len() - 2]),
     };
-    let slopes = outer.iter().zip(&inner).map(|(a, b)| 3.0 * (a - b) / cell).collect();
+    let slopes = outer.iter().zip(&inner).map(|(a, b)| 3.0 * (a - b) / cell).collect_vec();
     Some((Curve::new(dim, along.clone(), outer).ok()?, Curve::new(dim, along.clone(), slopes).ok()?))
 }
 
@@ -419,8 +420,8 @@ fn reversed(curve: &Curve) -> Curve {
             from + (to - t)
         }
     });
-    let points = curve.control_points().chunks_exact(curve.dim()).rev().flatten().copied().collect();
-    let knots = KnotVector::new(knots.collect(), curve.knots().degree());
+    let points = curve.control_points().chunks_exact(curve.dim()).rev().flatten().copied().collect_vec();
+    let knots = KnotVector::new(knots.collect_vec(), curve.knots().degree());
     // mirrored knots increase as the others do, unless rounding makes them equal
     knots.ok().and_then(|knots| Curve::new(curve.dim(), knots, points).ok()).unwrap_or_else(|| curve.clone())
 }
@@ -452,7 +453,7 @@ fn check_corners(all: &[GivenSide], dim: usize, exact: f64) -> Result<(), FitErr
 pub(crate) fn side_lines(sides: &[GivenSide]) -> [Vec<f64>; 2] {
     [0, 1].map(|axis| {
         let sides = sides.iter().filter(|side| side.across_axis() != axis);
-        let mut lines: Vec<f64> = sides.flat_map(|side| side.curve.knots().breaks()).collect();
+        let mut lines: Vec<f64> = sides.flat_map(|side| side.curve.knots().breaks()).collect_vec();
         lines.sort_by(f64::total_cmp);
         lines.dedup();
         lines
@@ -466,7 +467,7 @@ pub(crate) fn with_side_lines(start: Vec<f64>, needed: &[f64]) -> Vec<f64> {
     }
     let near = TOO_NEAR * (start[start.len() - 1] - start[0]) / (start.len() - 1) as f64;
     let is_free = |line: &f64| needed.iter().all(|needed| (needed - line).abs() > near);
-    let mut lines: Vec<f64> = start.into_iter().filter(is_free).chain(needed.iter().copied()).collect();
+    let mut lines: Vec<f64> = start.into_iter().filter(is_free).chain(needed.iter().copied()).collect_vec();
     lines.sort_by(f64::total_cmp);
     lines
 }

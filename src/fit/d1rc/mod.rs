@@ -26,6 +26,7 @@ use super::common::checks::check_values;
 use super::common::report::FitReport;
 use super::common::{Demands, Used};
 use crate::control::Control;
+use crate::memory::CollectVec;
 use crate::mesh::Mesh;
 use crate::surface::d1rc::D1rcSurface;
 use glam::DVec2;
@@ -57,7 +58,7 @@ pub fn fit_mesh(
 ) -> Result<D1rcFit, D1rcFitError> {
     let start = Instant::now();
     options.check()?;
-    let values: Vec<f64> = mesh.points().iter().flat_map(|p| p.to_array()).collect();
+    let values: Vec<f64> = mesh.points().iter().flat_map(|p| p.to_array()).collect_vec();
     if let Some(used) = Used::of(mesh, &values, 3, options.weights, &Demands::default())? {
         let mut sharp_edges = options.sharp_edges.to_vec();
         if options.control_mesh.is_none() {

@@ -37,7 +37,7 @@ impl Placement {
         sharp: (&[[u32; 2]], &[[u32; 2]]),
         pool: &Pool,
     ) -> Self {
-        let uv = fine.parameters().unwrap_or_default().to_vec();
+        let uv = memory::copied(fine.parameters().unwrap_or_default());
         let mut placement = Self::on_lines(uv, fine, coarse, sharp);
         let flat = flat(coarse);
         let tree = flat.as_ref().map(TriangleTree::new);

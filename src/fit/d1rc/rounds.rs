@@ -234,7 +234,7 @@ impl<'a> Problem<'a> {
             let errors = data_errors(&surface, &uv, self.values, pool);
             stress(&mut weights, &errors);
             if best.as_ref().is_none_or(|(_, _, best)| errors.max < best.max) {
-                best = Some((surface.clone(), uv.clone(), errors));
+                best = Some((surface.clone(), memory::copied(&uv), errors));
             }
         }
         let (surface, uv, errors) = best.ok_or(FitError::Singular)?;

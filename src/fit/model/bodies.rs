@@ -3,6 +3,7 @@
 use super::error::ModelFitError;
 use super::report::mesh_volume;
 use crate::geometry::Bounds;
+use crate::memory::{self, CollectVec};
 use crate::mesh::{Mesh, Piece};
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -37,7 +38,7 @@ pub(super) fn bodies(mesh: &Mesh) -> Result<Vec<Body>, ModelFitError> {
     }
     let parts = mesh.split_components().expect("a component of a mesh is one");
     let mut triangles = triangles_of_components(mesh);
-    let boxes: Vec<Bounds> = parts.iter().map(|part| part.mesh.bounds()).collect();
+    let boxes: Vec<Bounds> = parts.iter().map(|part| part.mesh.bounds()).collect_vec();
     let around = |inner: usize| -> Vec<usize> {
         let place = parts[inner].mesh.points()[0];
         let holds = |&outer: &usize| {
@@ -45,14 +46,14 @@ pub(super) fn bodies(mesh: &Mesh) -> Result<Vec<Body>, ModelFitError> {
                 && is_inside(&boxes[inner], &boxes[outer])
                 && winding(&parts[outer].mesh, place).abs() > 0.5
         };
-        (0..parts.len()).filter(holds).collect()
+        (0..parts.len()).filter(holds).collect_vec()
     };
-    let around: Vec<Vec<usize>> = (0..parts.len()).map(around).collect();
-    let mut order: Vec<usize> = (0..parts.len()).collect();
+    let around: Vec<Vec<usize>> = (0..parts.len()).map(around).collect_vec();
+    let mut order: Vec<usize> = (0..parts.len()).collect_vec();
     order.sort_by_key(|&part| around[part].len());
-    let mut number = vec![0; parts.len()];
+    let mut number = memory::filled(0, parts.len());
     order.iter().enumerate().for_each(|(place, &part)| number[part] = place);
-    let mut parts: Vec<Option<Piece>> = parts.into_iter().map(Some).collect();
+    let mut parts: Vec<Option<Piece>> = parts.into_iter().map(Some).collect_vec();
     let body = |&part: &usize| {
         let Piece { mesh, nodes } = parts[part].take().expect("each part is one body");
         let volume = mesh_volume(&mesh);
@@ -88,19 +89,19 @@ pub(super) fn shells(mesh: &Mesh) -> Vec<Body> {
         void_in: None,
         is_turned: false,
     };
-    parts.into_iter().zip(triangles).map(shell).collect()
+    parts.into_iter().zip(triangles).map(shell).collect_vec()
 }
 
 fn triangles_of_components(mesh: &Mesh) -> Vec<Vec<u32>> {
     let (component, count) = mesh.topology().components();
-    let mut triangles = vec![Vec::new(); count];
+    let mut triangles = memory::filled(Vec::new(), count);
     (0..).zip(component).for_each(|(triangle, part)| triangles[part as usize].push(triangle));
     triangles
 }
 
 /// The same with all triangles turned over.
 fn turned(mesh: &Mesh) -> Mesh {
-    let triangles = mesh.triangles().iter().map(|&[a, b, c]| [a, c, b]).collect();
+    let triangles = mesh.triangles().iter().map(|&[a, b, c]| [a, c, b]).collect_vec();
     Mesh::new(mesh.points().to_vec(), triangles).expect("a mesh turned inside out is one")
 }
 

@@ -15,6 +15,7 @@ use crate::fit::common::FitError;
 use crate::fit::common::hermite_cell::{CellSums, Membrane, weights};
 use crate::layout::Place;
 use crate::linalg::{Cholesky, SymbolicCholesky};
+use crate::memory::{self, CollectVec};
 use crate::surface::g1::{Enclosure, Space};
 use crate::surface::pht::expansions;
 use crate::tmesh::NodeId;
@@ -102,7 +103,7 @@ impl System {
             (0..space.meshes().len()).into_par_iter().flat_map_iter(|quad| cell_maps(space, quad)).collect()
         });
         let (starts, rows) = pattern(space.free_count(), &maps);
-        let ones = vec![1.0; rows.len()];
+        let ones = memory::filled(1.0, rows.len());
         let symbolic = SymbolicCholesky::new(&lower(&starts, &rows, ones).view(), None);
         let (free_count, enclosures) = (space.free_count(), space.enclosures().to_vec());
         Self { free_count, enclosures, cells: places, maps, starts, rows, symbolic }
@@ -126,7 +127,7 @@ impl System {
         let solver = self.solver(values)?;
         watch.check()?;
         let (n, columns) = (self.free_count, solver.solve(right));
-        Ok((0..n).flat_map(|k| (0..DIM).map(move |c| c * n + k)).map(|at| columns[at]).collect())
+        Ok((0..n).flat_map(|k| (0..DIM).map(move |c| c * n + k)).map(|at| columns[at]).collect_vec())
     }
 
     /// The left side for samples of these places and weights, factored; their points are not looked at.
@@ -138,7 +139,7 @@ impl System {
         pool: &Pool,
         watch: &Watch,
     ) -> Result<Solver, FitError> {
-        let energy = vec![smoothing; self.cells.len()];
+        let energy = memory::filled(smoothing, self.cells.len());
         self.solver(self.sums(targets, by_cell, &energy, pool, watch)?.values)
     }
 
@@ -152,14 +153,14 @@ impl System {
         pool: &Pool,
     ) -> Vec<f64> {
         let of_cell = |cell: usize| {
-            let mut sums = vec![0.0; CELL * dim];
+            let mut sums = memory::filled(0.0, CELL * dim);
             for &sample in by_cell.of(cell) {
                 let row = &rows[sample as usize * dim..][..dim];
                 for (sum, n) in sums.chunks_exact_mut(dim).zip(self.weights(cell, places[sample as usize])) {
                     sum.iter_mut().zip(row).for_each(|(sum, x)| *sum += n * x);
                 }
             }
-            let mut shares = vec![0.0; self.maps[cell].unknowns.len() * dim];
+            let mut shares = memory::filled(0.0, self.maps[cell].unknowns.len() * dim);
             for (share, factors) in shares.chunks_exact_mut(dim).zip(&self.maps[cell].factors) {
                 for (sum, &factor) in
                     sums.chunks_exact(dim).zip(factors).filter(|(_, factor)| **factor != 0.0)
@@ -170,7 +171,7 @@ impl System {
             shares
         };
         let shares: Vec<Vec<f64>> = self.for_cells(pool, of_cell);
-        let mut columns = vec![0.0; dim * self.free_count];
+        let mut columns = memory::filled(0.0, dim * self.free_count);
         for (map, shares) in self.maps.iter().zip(&shares) {
             for (&unknown, share) in map.unknowns.iter().zip(shares.chunks_exact(dim)) {
                 (0..dim).for_each(|c| columns[c * self.free_count + unknown as usize] += share[c]);
@@ -189,7 +190,7 @@ impl System {
         pool: &Pool,
     ) -> Vec<f64> {
         let of_cell = |cell: usize| {
-            let mut corners = vec![0.0; CELL * dim];
+            let mut corners = memory::filled(0.0, CELL * dim);
             let map = &self.maps[cell];
             for (&unknown, factors) in map.unknowns.iter().zip(&map.factors) {
                 for (corner, &factor) in
@@ -199,7 +200,7 @@ impl System {
                     corner.iter_mut().enumerate().for_each(|(c, sum)| *sum += factor * column(c));
                 }
             }
-            let mut rows = vec![0.0; by_cell.of(cell).len() * dim];
+            let mut rows = memory::filled(0.0, by_cell.of(cell).len() * dim);
             for (row, &sample) in rows.chunks_exact_mut(dim).zip(by_cell.of(cell)) {
                 for (corner, n) in corners.chunks_exact(dim).zip(self.weights(cell, places[sample as usize]))
                 {
@@ -209,7 +210,7 @@ impl System {
             rows
         };
         let of_cells: Vec<Vec<f64>> = self.for_cells(pool, of_cell);
-        let mut rows = vec![0.0; dim * places.len()];
+        let mut rows = memory::filled(0.0, dim * places.len());
         for (cell, of_cell) in of_cells.iter().enumerate() {
             for (&sample, row) in by_cell.of(cell).iter().zip(of_cell.chunks_exact(dim)) {
                 rows[sample as usize * dim..][..dim].copy_from_slice(row);
@@ -236,9 +237,9 @@ impl System {
         pool: &Pool,
         watch: &Watch,
     ) -> Result<Sums, FitError> {
-        let mut values = vec![0.0; self.rows.len()];
-        let mut right = vec![0.0; self.free_count * DIM];
-        let cells: Vec<usize> = (0..self.cells.len()).collect();
+        let mut values = memory::filled(0.0, self.rows.len());
+        let mut right = memory::filled(0.0, self.free_count * DIM);
+        let cells: Vec<usize> = (0..self.cells.len()).collect_vec();
         for batch in cells.chunks(PIECE * PIECES) {
             watch.check()?;
             let share = |&cell: &usize| self.share(cell, targets, by_cell.of(cell), smoothing[cell]);
@@ -257,7 +258,7 @@ impl System {
     /// Factors the matrix with these values.
     fn solver(&self, mut values: Vec<f64>) -> Result<Solver, FitError> {
         let n = self.free_count;
-        let scale: Vec<f64> = self.starts[..n].iter().map(|&start| 1.0 / values[start].sqrt()).collect();
+        let scale: Vec<f64> = self.starts[..n].iter().map(|&start| 1.0 / values[start].sqrt()).collect_vec();
         if scale.iter().any(|x| !x.is_finite()) {
             return Err(FitError::Singular);
         }
@@ -293,7 +294,7 @@ impl System {
         );
         let (matrix, map) = (sums.with_energy(smoothing, Membrane::default()), &self.maps[cell]);
         let count = map.unknowns.len();
-        let mut products = vec![[0.0; CELL]; count];
+        let mut products = memory::filled([0.0; CELL], count);
         for (product, factors) in products.iter_mut().zip(&map.factors) {
             for (row, &factor) in matrix.iter().zip(factors) {
                 if factor != 0.0 {
@@ -314,7 +315,7 @@ impl System {
             }
             sum
         });
-        Share { right: right.collect(), lower }
+        Share { right: right.collect_vec(), lower }
     }
 
     fn add(&self, cell: usize, share: &Share, values: &mut [f64], right: &mut [f64]) {
@@ -376,7 +377,7 @@ impl Enclosing {
         if m == 0 {
             return None;
         }
-        let mut equations = vec![0.0; m * n];
+        let mut equations = memory::filled(0.0, m * n);
         for (row, enclosure) in equations.chunks_exact_mut(n).zip(enclosures) {
             for &(number, factor) in enclosure.sum.terms() {
                 row[number as usize] = factor * scale[number as usize];
@@ -418,7 +419,7 @@ fn cells_of(space: &Space) -> Vec<CellPlace> {
             CellPlace { min: domain.min, size: domain.size().x }
         })
     });
-    cells.collect()
+    cells.collect_vec()
 }
 
 /// The maps of the cells of one patch.
@@ -455,17 +456,17 @@ fn cell_maps(space: &Space, quad: usize) -> Vec<CellMap> {
         }
         cell
     };
-    topology.corners.iter().zip(&topology.leaves).map(map).collect()
+    topology.corners.iter().zip(&topology.leaves).map(map).collect_vec()
 }
 
 /// The pattern of the lower triangle: starts of columns, and rows ascending.
 fn pattern(n: usize, maps: &[CellMap]) -> (Vec<usize>, Vec<u32>) {
-    let mut cells_of_unknown: Vec<Vec<u32>> = vec![Vec::new(); n];
+    let mut cells_of_unknown: Vec<Vec<u32>> = memory::filled(Vec::new(), n);
     for (cell, map) in (0..).zip(maps) {
         map.unknowns.iter().for_each(|&unknown| cells_of_unknown[unknown as usize].push(cell));
     }
     let (mut starts, mut rows) = (vec![0], Vec::new());
-    let mut seen_by = vec![u32::MAX; n];
+    let mut seen_by = memory::filled(u32::MAX, n);
     for (column, cells) in (0..).zip(&cells_of_unknown) {
         let first = rows.len();
         // the diagonal first, also of an unknown without cells
@@ -487,7 +488,7 @@ fn pattern(n: usize, maps: &[CellMap]) -> (Vec<usize>, Vec<u32>) {
 
 fn lower(starts: &[usize], rows: &[u32], values: Vec<f64>) -> CsMat<f64> {
     let n = starts.len() - 1;
-    let rows = rows.iter().map(|&row| row as usize).collect();
+    let rows = rows.iter().map(|&row| row as usize).collect_vec();
     CsMat::new_csc((n, n), starts.to_vec(), rows, values)
 }
 

@@ -47,6 +47,7 @@ use super::common::interior::triangle_sagittas;
 use super::common::rounds::run;
 use crate::control::Control;
 use crate::layout::{Layout, Place};
+use crate::memory::CollectVec;
 use crate::mesh::Mesh;
 use crate::surface::g1::uniform;
 use crate::surface::pht::PhtSurface;
@@ -106,7 +107,7 @@ pub fn fit_with_creases(
     };
     let (tolerance, is_raised) = options.tolerance.absolute(&mesh.bounds());
     let facets = triangle_sagittas(mesh, control.pool().watch());
-    let sagittas: Vec<f64> = (0..mesh.triangles().len()).map(|triangle| facets.of(triangle)).collect();
+    let sagittas: Vec<f64> = (0..mesh.triangles().len()).map(|triangle| facets.of(triangle)).collect_vec();
     let is_corner = locks::corners(layout, &constraints.corners);
     let samples = Samples::new(mesh, places, layout, &sagittas, &is_corner);
     super::common::checks::check_count(samples.nodes.len())?;

@@ -24,6 +24,7 @@ use crate::fit::common::report::StopReason;
 use crate::fit::common::rounds::{Next, Rounds, Standing};
 use crate::geometry::Domain;
 use crate::layout::{Layout, Place};
+use crate::memory::CollectVec;
 use crate::surface::Surface;
 use crate::surface::g1::{Space, conform};
 use crate::surface::pht::PhtSurface;
@@ -237,7 +238,7 @@ impl Refinement<'_> {
         watch.check()?;
         let by_cell = ByCell::sort(&space, &self.samples.places, pool);
         let targets = self.targets(&space, &system, &by_cell, pool);
-        let all_places: Vec<Place> = self.samples.places.iter().chain(&targets.1).copied().collect();
+        let all_places: Vec<Place> = self.samples.places.iter().chain(&targets.1).copied().collect_vec();
         let by_cell = if targets.1.is_empty() { by_cell } else { ByCell::sort(&space, &all_places, pool) };
         watch.check()?;
         let quads = quads_of_cells(&space);
@@ -245,7 +246,7 @@ impl Refinement<'_> {
             .iter()
             .zip(system.cells())
             .map(|(&quad, cell)| self.options.smoothing * self.stiffness(quad, &domain_of(cell)))
-            .collect();
+            .collect_vec();
         let mut unknowns = system.solve(&targets.0, &by_cell, &energy, pool, watch)?;
         Projector::new(&space, self.constraints).apply(&space, &mut unknowns);
         // an overflow in the solution is the one thing that can be wrong
@@ -265,7 +266,8 @@ impl Refinement<'_> {
         let of_samples = (&self.samples, places.as_slice());
         let folded =
             folded_cells(&surfaces, cells, of_samples, &by_cell, self.has_creases, &normal_near, pool);
-        let folded = folded.into_iter().map(|cell| (quads[cell], domain_of(&system.cells()[cell]))).collect();
+        let folded =
+            folded.into_iter().map(|cell| (quads[cell], domain_of(&system.cells()[cell]))).collect_vec();
         let errors = (0..distances.len()).map(|sample| self.samples.error(sample, distances[sample]));
         let error = errors.fold(0.0, f64::max);
         let node_error = distances[..self.samples.nodes.len()].iter().copied().fold(0.0, f64::max);
@@ -284,9 +286,9 @@ impl Refinement<'_> {
         let Samples { places, points, .. } = &self.samples;
         let weight = |sample: usize| self.samples.weight(sample, self.known_on_facets());
         let mut targets = Targets {
-            uv: places.iter().map(|place| place.uv).collect(),
+            uv: places.iter().map(|place| place.uv).collect_vec(),
             points: points.clone(),
-            weights: (0..places.len()).map(weight).collect(),
+            weights: (0..places.len()).map(weight).collect_vec(),
         };
         if self.before.is_empty() || !self.options.guard {
             return (targets, Vec::new());
@@ -320,9 +322,10 @@ impl Refinement<'_> {
         let least_samples = self.least_samples;
         let has_creases = self.has_creases;
         for mesh in &mut self.meshes {
-            let leaves: Vec<NodeId> = mesh.leaves().collect();
+            let leaves: Vec<NodeId> = mesh.leaves().collect_vec();
             let of_mesh: Vec<Rough> =
-                std::iter::from_fn(|| numbers.next_if(|rough| rough.cell < first + leaves.len())).collect();
+                std::iter::from_fn(|| numbers.next_if(|rough| rough.cell < first + leaves.len()))
+                    .collect_vec();
             let others = count - mesh.leaf_count();
             let mut allow = |mesh: &TMesh, leaf: NodeId| {
                 let fits = mesh.cell(leaf).level < options.max_level
@@ -380,5 +383,5 @@ fn rough_cells(round: &Round, samples: &Samples, tolerance: f64) -> Vec<Rough> {
     cells
         .filter(|(_, of_cell)| of_cell.iter().any(is_rough))
         .map(|(cell, of_cell)| Rough { cell, samples: of_cell.len() })
-        .collect()
+        .collect_vec()
 }

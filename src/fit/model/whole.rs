@@ -24,7 +24,7 @@ use crate::fit::common::report::{FitReport, Remarks, Tolerance, ToleranceScale};
 use crate::fit::pht::{self, PhtOptions};
 use crate::layout::Layout;
 use crate::layout::of_mesh::{LayoutKind, MeshLayout, MeshLayoutError, MeshLayoutOptions, layout_of_mesh};
-use crate::memory;
+use crate::memory::{self, CollectVec};
 use crate::mesh::{FeatureOptions, Features, Mesh};
 use crate::model::{
     FaceId, Form, FormOptions, Origin, PatchModel, Patchwork, Role, ShellId, of_patches, of_surface,
@@ -188,7 +188,7 @@ fn shells(
             labels: &piece.labels,
             void_in: body.void_in,
         })
-        .collect();
+        .collect_vec();
     let stitched: PatchModel = of_patches(&patchworks, options.level_spread)?;
     for (number, (body, of_body)) in bodies.iter().zip(&spots).enumerate() {
         for (&node, spot) in body.nodes.iter().zip(of_body) {
@@ -209,7 +209,7 @@ fn shells(
         .all(|piece| (0..piece.layout.edges().len() as u32).all(|edge| piece.layout.is_smooth(edge)));
     let origin = Origin {
         nodes: origins(&places, &errors),
-        pieces: pieces.iter().filter(|_| is_smooth).map(Piece::origin).collect(),
+        pieces: pieces.iter().filter(|_| is_smooth).map(Piece::origin).collect_vec(),
         patch_of_face: if is_smooth { stitched.patch_of_face() } else { Vec::new() },
     };
     let model = stitched.model.with_origin(origin)?;
@@ -255,10 +255,10 @@ fn exact_parts(
         None if body.mesh.loops().is_empty() => Role::Solid,
         None => Role::Open,
     };
-    let roles: Vec<Role> = bodies.iter().map(role).collect();
+    let roles: Vec<Role> = bodies.iter().map(role).collect_vec();
     let (model, starts) = exact::together(&fits.iter().collect::<Vec<_>>(), &roles)?;
-    let mut places = vec![None; mesh.points().len()];
-    let mut errors = vec![f64::NAN; mesh.points().len()];
+    let mut places = memory::filled(None, mesh.points().len());
+    let mut errors = memory::filled(f64::NAN, mesh.points().len());
     let mut components = Vec::new();
     for ((body, fit), start) in bodies.iter().zip(&fits).zip(starts) {
         for ((&node, place), &error) in body.nodes.iter().zip(&fit.places).zip(&fit.errors) {
@@ -288,11 +288,11 @@ fn exact_parts(
 /// The labels and sharp edges of a body, by its own triangles and nodes.
 fn of_body(features: &FeatureOptions, body: &Body) -> (Vec<u32>, Vec<[u32; 2]>) {
     let label = |&triangle: &u32| features.labels.get(triangle as usize).copied();
-    let labels = body.triangles.iter().filter_map(label).collect();
+    let labels = body.triangles.iter().filter_map(label).collect_vec();
     // nodes of a part keep their order
     let own = |node: u32| body.nodes.binary_search(&node).ok().map(|node| node as u32);
     let both = |&[a, b]: &[u32; 2]| Some([own(a)?, own(b)?]);
-    (labels, features.sharp_edges.iter().filter_map(both).collect())
+    (labels, features.sharp_edges.iter().filter_map(both).collect_vec())
 }
 
 /// One component: over its features, or smooth, or the better of both.
@@ -486,7 +486,7 @@ fn chart(mesh: &Mesh, options: &MeshModelOptions, control: &mut Control) -> Resu
     let places: Vec<Option<(FaceId, DVec2)>> = (0..mesh.points().len() as u32)
         .zip(&fit.parameters)
         .map(|(node, &uv)| Some((face_at(uv).filter(|_| mesh.is_used(node))?, uv)))
-        .collect();
+        .collect_vec();
     let report = of_chart(&fit.report);
     let component = ComponentReport {
         genus: mesh.genus(),

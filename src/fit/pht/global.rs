@@ -14,6 +14,7 @@ use crate::fit::common::FitError;
 use crate::fit::common::hermite_cell::{CellMatrix, CellSums, weights};
 use crate::linalg::{Condition, Conditions, SymbolicCholesky, impose_all};
 use crate::lists::Lists;
+use crate::memory::{self, CollectVec};
 use crate::surface::pht::{Matrix, expansions};
 use crate::tmesh::{Cell, TMesh, Topology, Vertex};
 use glam::DVec2;
@@ -43,12 +44,12 @@ struct Share {
 impl<'a> System<'a> {
     pub(super) fn new(mesh: &'a TMesh, topology: &'a Topology) -> Self {
         let expansions = expansions(topology, mesh);
-        let mut sizes = vec![DVec2::ZERO; topology.basis.len()];
+        let mut sizes = memory::filled(DVec2::ZERO, topology.basis.len());
         let mut pairs: Vec<(u32, u32)> = Vec::new();
         for (&node, corners) in topology.leaves.iter().zip(&topology.corners) {
             let size = mesh.cell_domain(mesh.cell(node)).size();
             let expanded = corners.iter().flat_map(|&vertex| &expansions[vertex as usize]);
-            let mut ranks: Vec<u32> = expanded.map(|&(rank, _)| rank).collect();
+            let mut ranks: Vec<u32> = expanded.map(|&(rank, _)| rank).collect_vec();
             ranks.sort_unstable();
             ranks.dedup();
             for (k, &column) in ranks.iter().enumerate() {
@@ -76,7 +77,7 @@ impl<'a> System<'a> {
     ) -> Result<Vec<f64>, FitError> {
         let (dim, n) = (data.dim, 4 * self.topology.basis.len());
         let mut blocks = vec![[[0.0; 4]; 4]; self.rows.items().len()];
-        let mut right = vec![0.0; n * dim];
+        let mut right = memory::filled(0.0, n * dim);
         by_leaf.add_shares(
             (self.mesh, self.topology),
             data,
@@ -103,7 +104,7 @@ impl<'a> System<'a> {
         pinned.impose(&mut right, n);
         let values = (&data.sample_values[..], dim);
         let mut conditions = match data.is_mirrored {
-            true => self.mirror_conditions(dim, data.frame.inward(&vec![0.0; dim])[0]),
+            true => self.mirror_conditions(dim, data.frame.inward(&memory::filled(0.0, dim))[0]),
             false => data.standards.conditions(&data.uv, values, |uv| self.terms(uv)),
         };
         for condition in conditions.iter_mut().flat_map(|all| &mut all.conditions) {
@@ -141,14 +142,14 @@ impl<'a> System<'a> {
         let hold = |row: usize, value: f64, columns: usize| {
             on_mirror.iter().map(move |rank| Condition {
                 terms: vec![(4 * rank + row, 1.0)],
-                values: vec![value; columns],
+                values: memory::filled(value, columns),
             })
         };
         vec![
-            Conditions { columns: 0..1, conditions: hold(0, across, 1).chain(hold(2, 0.0, 1)).collect() },
+            Conditions { columns: 0..1, conditions: hold(0, across, 1).chain(hold(2, 0.0, 1)).collect_vec() },
             Conditions {
                 columns: 1..dim,
-                conditions: hold(1, 0.0, dim - 1).chain(hold(3, 0.0, dim - 1)).collect(),
+                conditions: hold(1, 0.0, dim - 1).chain(hold(3, 0.0, dim - 1)).collect_vec(),
             },
         ]
     }
@@ -165,7 +166,7 @@ impl<'a> System<'a> {
                 _ => vertex.j == last.j,
             }
         };
-        (0..self.topology.basis.len()).filter(is_on).collect()
+        (0..self.topology.basis.len()).filter(is_on).collect_vec()
     }
 
     fn vertex(&self, rank: usize) -> Vertex {
@@ -224,11 +225,11 @@ impl<'a> System<'a> {
                     (corner, *rank, std::array::from_fn(|r| std::array::from_fn(|c| scaled(r, c))))
                 })
             })
-            .collect();
+            .collect_vec();
         let mut share = Share { blocks: Vec::with_capacity(10), right: Vec::with_capacity(4) };
         for (corner_b, column, b) in &transforms {
             let rows = right_rows[4 * corner_b * dim..][..4 * dim].chunks_exact(dim);
-            let mut right = vec![0.0; 4 * dim];
+            let mut right = memory::filled(0.0, 4 * dim);
             for (row, weights) in rows.zip(b) {
                 for (sum, weight) in right.chunks_exact_mut(dim).zip(weights) {
                     sum.iter_mut().zip(row).for_each(|(sum, x)| *sum += weight * x);

@@ -41,6 +41,7 @@ use super::common::{
     timed,
 };
 use crate::control::Control;
+use crate::memory::CollectVec;
 use crate::mesh::Mesh;
 use crate::parameterize::{Border, ParameterizeOptions};
 use crate::surface::Domain;
@@ -55,7 +56,7 @@ pub type PhtFit = Fit<PhtSurface>;
 
 /// Fits the shape of a mesh. Without parameters the mesh is parameterized first.
 pub fn fit_mesh(mesh: &Mesh, options: &PhtOptions, control: &mut Control) -> Result<PhtFit, FitError> {
-    let values: Vec<f64> = mesh.points().iter().flat_map(|p| p.to_array()).collect();
+    let values: Vec<f64> = mesh.points().iter().flat_map(|p| p.to_array()).collect_vec();
     timed(|| fit_on_mesh(mesh, &values, 3, true, options, control))
 }
 

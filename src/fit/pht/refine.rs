@@ -16,7 +16,7 @@ use crate::fit::common::rounds::{self, Next, Outcome, Rounds, Standing};
 use crate::fit::common::sides::{side_deviation, side_lines, with_side_lines};
 use crate::fit::common::trims;
 use crate::fit::common::uniform::energy::FreeFunctions;
-use crate::memory;
+use crate::memory::{self, CollectVec};
 use crate::surface::pht::{PhtError, PhtSurface, TruncatedBasis};
 use crate::surface::{Region, Surface, Trims};
 use crate::tmesh::{Cell, MAX_LEVEL, NodeId, TMesh, Topology};
@@ -184,7 +184,7 @@ impl<'a> Refinement<'a> {
         let breaks = |from: f64, to: f64, count: usize| -> Vec<f64> {
             (0..=count)
                 .map(|k| if k == count { to } else { from + (to - from) * k as f64 / count as f64 })
-                .collect()
+                .collect_vec()
         };
         let [lines_u, lines_v] = side_lines(&data.sides);
         let breaks_u = with_side_lines(breaks(min.x, max.x, count_u), &lines_u);
@@ -335,7 +335,7 @@ impl<'a> Refinement<'a> {
                 if is_scattered { error * left_out_factor(unknowns, samples.len()) } else { error };
             LeafErrors { cell, samples: samples.len(), error, expected, quarters }
         };
-        topology.leaves.iter().enumerate().map(of_leaf).collect()
+        topology.leaves.iter().enumerate().map(of_leaf).collect_vec()
     }
 
     /// Splits cells where the tolerance is missed, or says why none can be split.
@@ -381,8 +381,14 @@ impl<'a> Refinement<'a> {
             let level = |mesh: &TMesh| mesh.cell(mesh.locate(uv)).level;
             !self.data.standards.is_left_out(datum) && level(&mesh) > level(&self.mesh)
         };
-        self.noise.before =
-            self.data.uv.iter().enumerate().map(is_split).zip(round.errors.each.iter().copied()).collect();
+        self.noise.before = self
+            .data
+            .uv
+            .iter()
+            .enumerate()
+            .map(is_split)
+            .zip(round.errors.each.iter().copied())
+            .collect_vec();
         self.noise.unknowns = (round.surface.coefficient_count(), unknowns);
         self.mesh = mesh;
         Ok(())
@@ -430,7 +436,7 @@ impl<'a> Refinement<'a> {
     /// Cells without samples inside the trims: there the surface is smooth guesswork.
     fn empty_cell_count(&self, surface: &PhtSurface, trims: &Trims) -> usize {
         let (mesh, topology) = (surface.mesh(), surface.topology());
-        let mut is_empty = vec![true; topology.leaves.len()];
+        let mut is_empty = memory::filled(true, topology.leaves.len());
         self.data.sample_uv().iter().for_each(|&uv| is_empty[topology.leaf_of(mesh.locate(uv))] = false);
         let middle = |&node: &NodeId| mesh.parameters(mesh.cell(node).middle());
         let leaves = topology.leaves.iter().zip(is_empty);

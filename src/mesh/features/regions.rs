@@ -11,6 +11,7 @@
 use super::super::decimate::half_edges;
 use super::super::{HalfEdge, Mesh};
 use super::{Chain, Features};
+use crate::memory::{self, CollectVec};
 
 /// A chain as a bound of the region on one side of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -57,7 +58,7 @@ impl Regions {
     pub fn neighbours(&self, region: u32) -> Vec<u32> {
         let sides = self.regions[region as usize].loops.iter().flatten();
         let mut neighbours: Vec<u32> =
-            sides.filter_map(|side| self.across(side)).filter(|&other| other != region).collect();
+            sides.filter_map(|side| self.across(side)).filter(|&other| other != region).collect_vec();
         neighbours.sort_unstable();
         neighbours.dedup();
         neighbours
@@ -94,11 +95,12 @@ impl Features {
     pub fn regions(&self, mesh: &Mesh) -> Regions {
         let on = on_chains(mesh, &self.chains);
         let (of_triangle, count) = flooded(mesh, &on);
-        let mut regions = vec![Region { triangles: Vec::new(), loops: Vec::new(), genus: 0 }; count];
+        let mut regions =
+            memory::filled(Region { triangles: Vec::new(), loops: Vec::new(), genus: 0 }, count);
         for (triangle, &region) in (0..).zip(&of_triangle) {
             regions[region as usize].triangles.push(triangle);
         }
-        let mut beside = vec![[None; 2]; self.chains.len()];
+        let mut beside = memory::filled([None; 2], self.chains.len());
         for (edge, on) in half_edges(mesh).zip(&on) {
             if let Some(on) = on {
                 beside[on.chain as usize][usize::from(!on.is_forward)] = Some(of_triangle[edge.triangle()]);
@@ -114,7 +116,7 @@ impl Features {
 
 /// By half-edge: the chain it lies on.
 fn on_chains(mesh: &Mesh, chains: &[Chain]) -> Vec<Option<On>> {
-    let mut on = vec![None; 3 * mesh.triangles().len()];
+    let mut on = memory::filled(None, 3 * mesh.triangles().len());
     for (number, chain) in (0..).zip(chains) {
         let edges = edges(chain);
         let last = edges.len().saturating_sub(1);
@@ -133,13 +135,13 @@ fn on_chains(mesh: &Mesh, chains: &[Chain]) -> Vec<Option<On>> {
 fn edges(chain: &Chain) -> Vec<[u32; 2]> {
     let nodes = &chain.nodes;
     let closing = chain.is_closed.then(|| [nodes[nodes.len() - 1], nodes[0]]);
-    nodes.windows(2).map(|pair| [pair[0], pair[1]]).chain(closing).collect()
+    nodes.windows(2).map(|pair| [pair[0], pair[1]]).chain(closing).collect_vec()
 }
 
 /// The region of each triangle, and how many there are.
 fn flooded(mesh: &Mesh, on: &[Option<On>]) -> (Vec<u32>, usize) {
     const NONE: u32 = u32::MAX;
-    let mut of_triangle = vec![NONE; mesh.triangles().len()];
+    let mut of_triangle = memory::filled(NONE, mesh.triangles().len());
     let (mut count, mut stack) = (0, Vec::new());
     for seed in 0..of_triangle.len() {
         if of_triangle[seed] != NONE {
@@ -173,7 +175,7 @@ struct Bound {
 fn bounds(mesh: &Mesh, on: &[Option<On>], chains: &[Chain], of_triangle: &[u32]) -> Vec<Bound> {
     let triangles = mesh.triangles();
     let place = |node: u32| mesh.points()[node as usize];
-    let mut is_seen = vec![false; on.len()];
+    let mut is_seen = memory::filled(false, on.len());
     let mut bounds = Vec::new();
     for start in half_edges(mesh) {
         let (mut sides, mut length) = (Vec::new(), 0.0);
@@ -216,7 +218,7 @@ fn next_feature(mesh: &Mesh, on: &[Option<On>], edge: HalfEdge) -> HalfEdge {
 /// Handles by Euler's formula on each region, cut open: triangles at a node between two features are a node of its own,
 /// so there are as many nodes on the bounds as edges.
 fn count_handles(mesh: &Mesh, on: &[Option<On>], of_triangle: &[u32], regions: &mut [Region]) {
-    let mut inner_nodes = vec![0_i64; regions.len()];
+    let mut inner_nodes = memory::filled(0_i64, regions.len());
     for node in 0..mesh.points().len() as u32 {
         for start in mesh.topology().fans(node) {
             let is_plain =
@@ -226,7 +228,7 @@ fn count_handles(mesh: &Mesh, on: &[Option<On>], of_triangle: &[u32], regions: &
             }
         }
     }
-    let mut side_counts = vec![0_i64; regions.len()];
+    let mut side_counts = memory::filled(0_i64, regions.len());
     for edge in half_edges(mesh).filter(|edge| on[edge.index()].is_some()) {
         side_counts[of_triangle[edge.triangle()] as usize] += 1;
     }

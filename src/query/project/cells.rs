@@ -52,7 +52,7 @@ fn add_halves(patch: BezierPatch, halvings: u32, cells: &mut Vec<(BezierPatch, P
     let [along_u, along_v] = bends(&patch);
     if halvings == 0 || along_u.max(along_v) <= LARGEST_BEND {
         let place = Place::Rectangle(patch.domain);
-        return cells.push((patch, place));
+        return memory::push(cells, (patch, place));
     }
     let middle = patch.domain.min + patch.domain.size() / 2.0;
     let halves = if along_u >= along_v { patch.split_u(middle.x) } else { patch.split_v(middle.y) };

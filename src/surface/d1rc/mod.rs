@@ -92,13 +92,13 @@ impl D1rcSurface {
         watch: &Watch,
     ) -> Result<Self, D1rcError> {
         let recipe = Recipe {
-            uv: mesh.parameters().ok_or(D1rcError::NoParameters)?.to_vec(),
+            uv: memory::copied(mesh.parameters().ok_or(D1rcError::NoParameters)?),
             triangles: memory::copied(mesh.triangles()),
             options: *options,
             sharp_edges: memory::copied(sharp_edges),
             corners: memory::copied(corners),
         };
-        let points = mesh.points().iter().flat_map(|point| point.to_array()).collect();
+        let points = mesh.points().iter().flat_map(|point| point.to_array()).collect_vec();
         Self::new(Space::new_watched(recipe, watch)?, 3, points)
     }
 
@@ -274,12 +274,12 @@ fn check_numbers(rows: &[f64], dim: usize, expected: usize) -> Result<(), D1rcEr
 /// The boundary loops of the faces on which a surface is best shown: those of the domain, in the mode `Paper` those
 /// whose vertices are all inside.
 fn trims(space: &Space) -> Trims {
-    let triangles = space.shown.iter().map(|&face| space.locator.faces()[face as usize]).collect();
+    let triangles = space.shown.iter().map(|&face| space.locator.faces()[face as usize]).collect_vec();
     let places = space.locator.places();
-    let Ok(mesh) = Mesh::new(places.iter().map(|uv| uv.extend(0.0)).collect(), triangles) else {
+    let Ok(mesh) = Mesh::new(places.iter().map(|uv| uv.extend(0.0)).collect_vec(), triangles) else {
         return Trims::default(); // no face is shown
     };
-    let polyline = |line: &Vec<u32>| line.iter().map(|&knot| places[knot as usize]).collect();
+    let polyline = |line: &Vec<u32>| line.iter().map(|&knot| places[knot as usize]).collect_vec();
     Trims::new(mesh.loops().iter().map(polyline).collect(), &space.locator.domain()).unwrap_or_default()
 }
 

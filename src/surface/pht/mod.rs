@@ -128,7 +128,7 @@ impl PhtSurface {
             return Err(PhtError::NotFinite { index: index / length });
         }
         let vertices = topology.basis.iter().map(|&vertex| topology.vertices[vertex as usize]);
-        let jets = vertices.zip(jets.chunks_exact(length).map(<[f64]>::to_vec)).collect();
+        let jets = vertices.zip(jets.chunks_exact(length).map(memory::copied)).collect();
         let (smooth, region) = (None, Region::default());
         let surface = Self { dim, is_rational, mesh, jets, smooth, region, view: OnceLock::new() };
         surface.view.get_or_init(|| View::new(&surface, topology));

@@ -72,7 +72,7 @@ impl<D: Direction> TensorBasis<D> {
         let (width_u, width_v, count_v) = (self.u.width(), self.v.width(), self.v.len());
         let pairs = (0..width_u).flat_map(|a| (0..width_v).map(move |b| (a, b)));
         let unknown = |(a, b)| (along_u.first + a) * count_v + along_v.first + b;
-        pairs.map(|(a, b)| (unknown((a, b)), along_u.weights[a] * along_v.weights[b])).collect()
+        pairs.map(|(a, b)| (unknown((a, b)), along_u.weights[a] * along_v.weights[b])).collect_vec()
     }
 
     fn cell(&self, uv: DVec2) -> usize {
@@ -150,8 +150,8 @@ impl<D: Direction + Clone> NormalEquations<D> {
         is_tense: &[bool],
     ) -> Self {
         let (n, count_v) = (basis.len(), basis.v.len());
-        let mut matrix = vec![0.0; n * STENCIL];
-        let across: Vec<_> = parts[1].iter().map(|part| LocalGrams::new(&basis.v, part)).collect();
+        let mut matrix = memory::filled(0.0, n * STENCIL);
+        let across: Vec<_> = parts[1].iter().map(|part| LocalGrams::new(&basis.v, part)).collect_vec();
         for (part, is_tense) in parts[0].iter().zip(is_tense.chunks_exact(across.len())) {
             let along = LocalGrams::new(&basis.u, part);
             for (across, _) in across.iter().zip(is_tense).filter(|(_, tense)| **tense) {

@@ -161,7 +161,7 @@ impl Transfer {
         let distances = project_in_pieces(targets, control, |points, pool| {
             let rows: Vec<f64> = points.iter().flat_map(|p| p.to_array()).collect_vec();
             let nearest = projector.project(&rows, &ProjectOptions::default(), pool)?;
-            parameters.extend(nearest.uv);
+            memory::extend(&mut parameters, nearest.uv);
             Ok(nearest.distances)
         })?;
         let (surface, distances, report) = shape.report(options, distances)?;

@@ -10,6 +10,7 @@
 
 use super::evidence::{Evidence, Limits, gradient, signed_distance};
 use super::recognize::{Recognized, recognize_region};
+use crate::memory::CollectVec;
 use crate::mesh::{HalfEdge, Mesh};
 use crate::model::Carrier;
 use glam::DVec3;
@@ -45,7 +46,7 @@ pub(crate) fn split(mesh: &Mesh, normals: &[DVec3], triangles: &[u32], limits: &
         return None;
     }
     for piece in region.pieces(None) {
-        let piece = piece.into_iter().collect();
+        let piece: BTreeSet<u32> = piece.into_iter().collect();
         if let Some(found) = region.plane_of(&piece, limits) {
             parts.push(region.take(piece, found));
         }
@@ -74,7 +75,7 @@ pub(crate) fn split_at_blunt_edges(
             None => split(mesh, normals, &piece, limits),
         };
         let parts: Option<Vec<Vec<Part>>> = pieces.into_iter().map(of_piece).collect();
-        Some(parts?.into_iter().flatten().collect())
+        Some(parts?.into_iter().flatten().collect_vec())
     })
 }
 
@@ -125,7 +126,7 @@ impl<'a> Region<'a> {
         triangles.iter().for_each(|triangle| {
             self.free.remove(triangle);
         });
-        Part { triangles: triangles.into_iter().collect(), found }
+        Part { triangles: triangles.into_iter().collect_vec(), found }
     }
 
     fn normal(&self, triangle: u32) -> DVec3 {
@@ -153,7 +154,7 @@ impl<'a> Region<'a> {
     fn rings(&self, start: &[u32], count: usize) -> BTreeSet<u32> {
         let mut set: BTreeSet<u32> = start.iter().copied().collect();
         for _ in 0..count {
-            let ring: Vec<u32> = set.iter().flat_map(|&triangle| self.beside(triangle)).collect();
+            let ring: Vec<u32> = set.iter().flat_map(|&triangle| self.beside(triangle)).collect_vec();
             set.extend(ring);
         }
         set
@@ -236,9 +237,9 @@ impl<'a> Region<'a> {
             self.beside(triangle).map(|other| own.distance(self.normal(other))).fold(0.0, f64::max)
         };
         let mut turns: Vec<(f64, u32)> =
-            self.free.iter().map(|&triangle| (turn(triangle), triangle)).collect();
+            self.free.iter().map(|&triangle| (turn(triangle), triangle)).collect_vec();
         turns.sort_by(|a, b| a.0.total_cmp(&b.0));
-        turns.into_iter().map(|(_, triangle)| triangle).collect()
+        turns.into_iter().map(|(_, triangle)| triangle).collect_vec()
     }
 
     /// A plane on a triangle and those around it, grown as far as it goes; none if it hardly ends there.
@@ -279,7 +280,7 @@ impl<'a> Region<'a> {
                 let best = beside.min_by(|&a, &b| off(a).total_cmp(&off(b)))?;
                 (off(best) <= limits.max).then_some((triangle, best))
             };
-            let given: Vec<(u32, usize)> = self.free.iter().filter_map(nearest).collect();
+            let given: Vec<(u32, usize)> = self.free.iter().filter_map(nearest).collect_vec();
             if given.is_empty() {
                 break;
             }
@@ -358,13 +359,13 @@ fn settled(mesh: &Mesh, mut parts: Vec<Part>) -> Vec<Part> {
         part_of.extend(part.triangles.iter().map(|&triangle| (triangle, number)));
     }
     let off = |triangle: u32, part: usize| off(mesh, triangle, &parts[part].found.carrier);
-    let mut stack: Vec<u32> = part_of.keys().copied().collect();
+    let mut stack: Vec<u32> = part_of.keys().copied().collect_vec();
     let mut moves = 4 * stack.len();
     while let Some(triangle) = stack.pop() {
         let own = part_of[&triangle];
         let sides =
             (0..3).filter_map(|corner| mesh.topology().twin(HalfEdge::new(triangle as usize, corner)));
-        let beside: Vec<u32> = sides.map(|edge| edge.triangle() as u32).collect();
+        let beside: Vec<u32> = sides.map(|edge| edge.triangle() as u32).collect_vec();
         let others =
             beside.iter().filter_map(|other| part_of.get(other)).copied().filter(|&part| part != own);
         let best = others.min_by(|&a, &b| off(triangle, a).total_cmp(&off(triangle, b)));
@@ -379,7 +380,7 @@ fn settled(mesh: &Mesh, mut parts: Vec<Part>) -> Vec<Part> {
     }
     for (number, part) in parts.iter_mut().enumerate() {
         part.triangles =
-            part_of.iter().filter(|(_, of)| **of == number).map(|(&triangle, _)| triangle).collect();
+            part_of.iter().filter(|(_, of)| **of == number).map(|(&triangle, _)| triangle).collect_vec();
         if let Some(evidence) = Evidence::new(mesh, &part.triangles) {
             let better: Option<Carrier> = match part.found.carrier {
                 Carrier::Plane(_) => evidence.plane().map(Carrier::Plane),

@@ -156,7 +156,7 @@ impl<'a> NetFitter<'a> {
     pub(super) fn use_all_data(&mut self) {
         self.withholds = false;
         let given = self.problem.weights.clone();
-        self.weights = given.unwrap_or_else(|| vec![1.0; self.problem.uv.len()]);
+        self.weights = given.unwrap_or_else(|| memory::filled(1.0, self.problem.uv.len()));
         self.weight_sum = self.weights.iter().sum();
     }
 
