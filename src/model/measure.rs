@@ -114,7 +114,7 @@ impl Model {
         let of_sides = [a, b].map(|at| self.coedge(at).pcurve.as_ref());
         let in_plane = of_sides.into_iter().flatten().flat_map(|curve| curve.knots().breaks());
         let mut breaks: Vec<f64> = in_plane.chain(self.edge(edge).curve.breaks()).collect();
-        breaks.sort_by(f64::total_cmp);
+        breaks.sort_unstable_by(f64::total_cmp);
         breaks.dedup();
         let parameters = between(&breaks, EDGE_SAMPLES);
         let [a, b] = [a, b].map(|at| {

@@ -264,7 +264,7 @@ fn moved_on(mut corner: usize, direction: DVec2, hull: &[DVec2]) -> usize {
 
 /// The corners of the convex hull, counter-clockwise (A. Andrew's monotone chain).
 fn convex_hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
-    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    points.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     let mut hull: Vec<DVec2> = Vec::new();
     let upper = points.iter().rev().skip(1);
     let mut start = 0;

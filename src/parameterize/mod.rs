@@ -362,10 +362,10 @@ fn next_map(
     }
     weights::scale_rows(patch, &mut weights)?;
     let line = map.line.slid(s, eta);
-    let mut uv = map.uv.clone();
+    let mut uv = memory::copied(&map.uv);
     line.place(&mut uv);
     control.pool().check()?;
-    system.set_weights(weights.clone(), control)?;
+    system.set_weights(memory::copied(&weights), control)?;
     control.pool().check()?;
     system.solve(&mut uv, control);
     control.pool().check()?;

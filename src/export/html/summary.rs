@@ -146,7 +146,9 @@ fn histogram(page: &Page) -> String {
 fn worst_places(page: &Page) -> String {
     let mut nodes: Vec<usize> = (0..page.distances.len()).collect();
     // ties by number, so that the page is the same each time
-    nodes.sort_by(|&a, &b| page.distances[b].abs().total_cmp(&page.distances[a].abs()).then(a.cmp(&b)));
+    nodes.sort_unstable_by(|&a, &b| {
+        page.distances[b].abs().total_cmp(&page.distances[a].abs()).then(a.cmp(&b))
+    });
     nodes.truncate(WORST);
     let rows = nodes.iter().map(|&node| {
         let p = page.mesh.points()[node];

@@ -74,9 +74,9 @@ impl Grid {
 
     pub(super) fn finish(self) -> Vec<u8> {
         let mut bytes = self.xml.into_bytes();
-        bytes.extend_from_slice(b"</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
+        memory::extend(&mut bytes, *b"</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
         memory::extend(&mut bytes, self.appended);
-        bytes.extend_from_slice(b"\n</AppendedData>\n</VTKFile>\n");
+        memory::extend(&mut bytes, *b"\n</AppendedData>\n</VTKFile>\n");
         bytes
     }
 }

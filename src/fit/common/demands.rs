@@ -96,7 +96,7 @@ impl Standards {
             .fold((DVec2::MAX, DVec2::MIN), |(min, max), &datum| (min.min(uv[datum]), max.max(uv[datum])));
         let near = SAME_PLACE * (max - min);
         let mut sorted = self.fixed.clone();
-        sorted.sort_by(|&a, &b| uv[a].x.total_cmp(&uv[b].x).then(a.cmp(&b)));
+        sorted.sort_unstable_by(|&a, &b| uv[a].x.total_cmp(&uv[b].x).then(a.cmp(&b)));
         for (k, &first) in sorted.iter().enumerate() {
             let beside = sorted[k + 1..].iter().take_while(|&&second| uv[second].x - uv[first].x <= near.x);
             for &second in beside.filter(|&&second| (uv[second].y - uv[first].y).abs() <= near.y) {

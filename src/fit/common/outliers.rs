@@ -386,7 +386,7 @@ fn suspects(
 /// The data that are farthest off, as many as may be left out, in their order.
 fn farthest(mut off: Vec<(usize, f64)>, outliers: Outliers, cloud: &Cloud) -> Vec<usize> {
     if let Outliers::Share(share) = outliers {
-        off.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+        off.sort_unstable_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
         off.truncate((share * cloud.uv.len() as f64) as usize);
     }
     let mut data: Vec<usize> = off.into_iter().map(|(datum, _)| datum).collect();

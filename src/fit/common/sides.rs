@@ -454,7 +454,7 @@ pub(crate) fn side_lines(sides: &[GivenSide]) -> [Vec<f64>; 2] {
     [0, 1].map(|axis| {
         let sides = sides.iter().filter(|side| side.across_axis() != axis);
         let mut lines: Vec<f64> = sides.flat_map(|side| side.curve.knots().breaks()).collect_vec();
-        lines.sort_by(f64::total_cmp);
+        lines.sort_unstable_by(f64::total_cmp);
         lines.dedup();
         lines
     })
@@ -468,7 +468,7 @@ pub(crate) fn with_side_lines(start: Vec<f64>, needed: &[f64]) -> Vec<f64> {
     let near = TOO_NEAR * (start[start.len() - 1] - start[0]) / (start.len() - 1) as f64;
     let is_free = |line: &f64| needed.iter().all(|needed| (needed - line).abs() > near);
     let mut lines: Vec<f64> = start.into_iter().filter(is_free).chain(needed.iter().copied()).collect_vec();
-    lines.sort_by(f64::total_cmp);
+    lines.sort_unstable_by(f64::total_cmp);
     lines
 }
 

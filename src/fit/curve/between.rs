@@ -20,7 +20,7 @@ pub(super) struct Between {
 impl Between {
     pub(super) fn new(u: &[f64], values: &[f64], dim: usize) -> Self {
         let mut order: Vec<usize> = (0..u.len()).collect_vec();
-        order.sort_by(|&a, &b| u[a].total_cmp(&u[b]));
+        order.sort_unstable_by(|&a, &b| u[a].total_cmp(&u[b]).then(a.cmp(&b)));
         let value = |datum: usize| &values[datum * dim..][..dim];
         let pairs: Vec<[usize; 2]> =
             order.windows(2).map(|pair| [pair[0], pair[1]]).filter(|&[a, b]| u[a] < u[b]).collect_vec();

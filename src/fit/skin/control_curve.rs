@@ -74,12 +74,15 @@ impl Target {
                 );
             }
         }
-        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        // of candidates at one place the first stays
+        let mut numbered = found.into_iter().enumerate().collect_vec();
+        numbered.sort_unstable_by(|(i, a), (j, b)| a.0.total_cmp(&b.0).then(i.cmp(j)));
+        let mut found = numbered.into_iter().map(|(_, candidate)| candidate).collect_vec();
         found.dedup_by_key(|candidate| candidate.0);
         let between = between(&found, rules.extra_checks);
         let extra = sources.combine(&[&loft.weights[curve]], &between).swap_remove(0);
         memory::extend(&mut found, between.iter().copied().zip(extra.chunks_exact(dim)));
-        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
         let ends = sources.slopes(&loft.weights[curve], &[0.0, 1.0]);
         Self {
             dim,

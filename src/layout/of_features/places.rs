@@ -123,7 +123,7 @@ fn even(line: &Line, begin: f64, count: u32) -> Vec<f64> {
     } else {
         std::iter::once(0.0).chain((1..count).map(at)).chain([all]).collect()
     };
-    lengths.sort_by(f64::total_cmp);
+    lengths.sort_unstable_by(f64::total_cmp);
     lengths
 }
 

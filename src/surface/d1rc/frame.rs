@@ -123,6 +123,7 @@ impl<'a> Builder<'a> {
     /// Gives each sector of a cut vertex a knot, the first keeps the vertex's.
     fn split_vertices(&mut self) {
         let mesh = self.plane.mesh;
+        memory::reserve(&mut self.sectors, self.plane.places.len());
         self.sectors.resize_with(self.plane.places.len(), || None);
         for vertex in 0..self.plane.places.len() as u32 {
             let Some(start) = mesh.topology().first(vertex) else { continue };
@@ -141,7 +142,7 @@ impl<'a> Builder<'a> {
                 self.sectors[knot as usize] = Some(Sector { half_edges, knot, is_clamped });
             }
         }
-        self.frame.triangles = self.corners.as_chunks().0.to_vec();
+        self.frame.triangles = memory::copied(self.corners.as_chunks().0);
     }
 
     /// A further knot with the control point of another.

@@ -178,7 +178,7 @@ fn are_apart(polygon: &[DVec2], other: &[DVec2]) -> bool {
 /// The corners of the convex hull, counter-clockwise (A. M. Andrew, "Another efficient algorithm for convex hulls
 /// in two dimensions", 1979).
 fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
-    points.sort_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
+    points.sort_unstable_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
     points.dedup();
     let chain = |points: &mut dyn Iterator<Item = DVec2>| {
         let mut chain: Vec<DVec2> = Vec::new();

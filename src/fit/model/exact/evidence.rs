@@ -187,7 +187,7 @@ impl Evidence {
             from.dot(frame.y()).atan2(from.dot(frame.x()))
         };
         let mut angles: Vec<f64> = self.points.iter().map(angle).collect_vec();
-        angles.sort_by(f64::total_cmp);
+        angles.sort_unstable_by(f64::total_cmp);
         let gaps: Vec<f64> =
             angles.windows(2).map(|pair| pair[1] - pair[0]).filter(|gap| *gap > SAME).collect();
         let least = gaps.iter().copied().fold(f64::INFINITY, f64::min);

@@ -238,7 +238,7 @@ impl<'a> Region<'a> {
         };
         let mut turns: Vec<(f64, u32)> =
             self.free.iter().map(|&triangle| (turn(triangle), triangle)).collect_vec();
-        turns.sort_by(|a, b| a.0.total_cmp(&b.0));
+        turns.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         turns.into_iter().map(|(_, triangle)| triangle).collect_vec()
     }
 
