@@ -208,9 +208,9 @@ const CALL: &str = "PLANISH_OUT_OF_MEMORY";
 const NTH: &str = "PLANISH_NTH_ALLOCATION";
 /// So many allocations of each call fail in turn, evenly over the call.
 const MOST_INJECTIONS: usize = 16;
-/// Of so many injections one may end the process: docs/testing.md says where. It is one in nine, and which allocations are hit
-/// depends on their number.
-const OF_INJECTIONS: usize = 7;
+/// Of so many injections one may end the process: docs/testing.md says where. It is one in thirty, and which allocations are
+/// hit depends on their number.
+const OF_INJECTIONS: usize = 15;
 
 type Call = fn() -> planish_status;
 
