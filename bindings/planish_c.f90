@@ -1350,7 +1350,7 @@ module planish_records
 
   !> How a mesh becomes a model.
   type, bind(c), public :: planish_model_options
-    integer(c_size_t) :: struct_size = 13 * word + 80
+    integer(c_size_t) :: struct_size = 13 * word + 88
     type(c_funptr) :: progress = c_null_funptr !! Hears of the progress and may cancel; NULL (default) for nobody
     type(c_ptr) :: user = c_null_ptr !! Handed to progress as it is
     !> Cancels when it is not 0, which any thread may set while the call runs; NULL (default) for no such flag
@@ -1387,13 +1387,17 @@ module planish_records
     !> Edges whose facets turn by more than this are sharp, in radians, at most pi; 0 looks for none
     real(c_double) :: sharp_angle = 0.7_c_double
     !> A number for each triangle, such as the face of a CAD model that it comes from: edges between triangles of
-    !> different numbers are features, and exact faces have the number as their label; NULL (default) for none
+    !> different numbers are features unless label_angle says otherwise, and faces have the number as their label;
+    !> NULL (default) for none
     type(c_ptr) :: labels = c_null_ptr
     integer(c_size_t) :: label_count = 0 !! Numbers in labels: planish_mesh_triangle_count(), or 0 (default)
     !> Whether a mesh of planes and cylinders becomes exact faces instead of patches or a chart, with
     !> PLANISH_MODEL_FAMILY_AUTO: 0 or 1 (default)
     integer(c_int32_t) :: exact = 1
     integer(c_int32_t) :: smooth = 0 !! 1 ignores all features: smooth patches everywhere; 0 (default) does not
+    !> Two labels are one where the facets turn by no more than this along all edges between them, in radians, at most
+    !> pi: labels of one smooth skin become one region, with the label of its first triangle
+    real(c_double) :: label_angle = 0
   end type
 
   !> What a fit of a model did and how good it is, of all components together.

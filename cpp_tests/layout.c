@@ -651,7 +651,8 @@ FOLLOWS(planish_model_options, sharp_angle, labels);
 FOLLOWS(planish_model_options, labels, label_count);
 FOLLOWS(planish_model_options, label_count, exact);
 FOLLOWS(planish_model_options, exact, smooth);
-LAST(planish_model_options, smooth);
+FOLLOWS(planish_model_options, smooth, label_angle);
+LAST(planish_model_options, label_angle);
 
 FIRST(planish_model_report);
 FOLLOWS(planish_model_report, struct_size, max_error);

@@ -172,12 +172,15 @@ TEST(OcctParts, ABlockWithRoundUprights) {
   check_body("rounded", fillet.Shape(), 0.05);
 }
 
-TEST(OcctParts, LabelsThatAreTooFewAreRefused) {
+TEST(OcctParts, LabelsThatAreTooFewOrAnAngleOutOfRangeAreRefused) {
   const tessellated given = tessellate(BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), 3, 2, 1).Shape(), 0.1);
   auto options = planish::defaults<planish_model_options>();
   options.labels = given.labels.data();
   options.label_count = given.labels.size() - 1;
   planish_model *model = nullptr;
+  CHECK_EQUAL(planish_model_fit(given.mesh.get(), &options, &model, nullptr), PLANISH_STATUS_INVALID_ARGUMENT);
+  options.label_count = given.labels.size();
+  options.label_angle = 4;
   CHECK_EQUAL(planish_model_fit(given.mesh.get(), &options, &model, nullptr), PLANISH_STATUS_INVALID_ARGUMENT);
   CHECK(model == nullptr);
 }

@@ -3790,7 +3790,8 @@ typedef struct planish_model_options {
     double sharp_angle;
     /**
      * A number for each triangle, such as the face of a CAD model that it comes from: edges between triangles of
-     * different numbers are features, and exact faces have the number as their label; NULL (default) for none.
+     * different numbers are features unless label_angle says otherwise, and faces have the number as their label;
+     * NULL (default) for none.
      * Array: [label_count].
      */
     const uint32_t *labels;
@@ -3804,9 +3805,16 @@ typedef struct planish_model_options {
      */
     uint32_t exact;
     /**
-     * 1 ignores all features: smooth patches everywhere; 0 (default) does not.
+     * 1 ignores all features: smooth patches everywhere; 0 (default) does not. Each patch then has the label that most
+     * of it comes from.
      */
     uint32_t smooth;
+    /**
+     * Two labels are one where the facets turn by no more than this along all edges between them, in radians, at most
+     * pi: labels of one smooth skin become one region, with the label of its first triangle. Default 0: all edges
+     * between labels are features.
+     */
+    double label_angle;
 } planish_model_options;
 
 /**

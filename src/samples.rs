@@ -9,9 +9,11 @@ pub mod machine;
 mod parts;
 pub mod rows;
 mod solids;
+mod strips;
 
 pub use parts::{bracket, bust, limb};
 pub use solids::{ball, handles, holed_block, rocker, starfish};
+pub use strips::{Strips, wing_strips};
 
 use crate::mesh::{Mesh, MeshError};
 use crate::surface::{Domain, Trims};

@@ -1375,6 +1375,7 @@ class planish_model_options(Structure):
         ("label_count", c_size_t),
         ("exact", c_uint32),
         ("smooth", c_uint32),
+        ("label_angle", c_double),
     ]
     choices = {
         "out_stage": "planish_stage",
@@ -1822,7 +1823,7 @@ SIZES = {
     planish_face_info: 144,
     planish_shell_info: 24,
     planish_measure_report: 144,
-    planish_model_options: 184,
+    planish_model_options: 192,
     planish_model_report: 272,
     planish_curve_options: 104,
     planish_interpolate_options: 24,

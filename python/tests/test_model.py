@@ -157,3 +157,5 @@ def test_planes_and_cylinders_become_exact_faces():
     assert sorted(line.split()[0] for line in surfaces) == ["1", "1", "2"]
     with pytest.raises(planish.InvalidError, match="labels"):
         planish.model(mesh, labels=labels[1:])
+    with pytest.raises(planish.InvalidError, match="label_angle is 4"):
+        planish.model(mesh, labels=labels, label_angle=4.0)

@@ -30,13 +30,27 @@ pub fn write(mesh: &Mesh, path: &Path, format: Format, encoding: Encoding) -> Re
     Ok(file::write(path, &bytes(mesh, format, encoding))?)
 }
 
+/// Writes a mesh as a PLY file with a label for each triangle: a property of its faces, `uint label`. Labels that are not as
+/// many as triangles are refused. The file appears whole or not at all.
+pub fn write_labelled(
+    mesh: &Mesh,
+    labels: &[u32],
+    path: &Path,
+    encoding: Encoding,
+) -> Result<(), ExportError> {
+    let (count, expected) = (labels.len(), mesh.triangles().len());
+    if count != expected {
+        return Err(ExportError::Count { name: "labels".to_owned(), count, expected });
+    }
+    Ok(file::write(path, &ply(mesh, Some(labels), encoding))?)
+}
+
 /// The content of the file.
 pub fn bytes(mesh: &Mesh, format: Format, encoding: Encoding) -> Vec<u8> {
     match (format, encoding) {
         (Format::Off, _) => off(mesh).into_bytes(),
         (Format::Obj, _) => obj(mesh).into_bytes(),
-        (Format::Ply, Encoding::Text) => ply_text(mesh).into_bytes(),
-        (Format::Ply, Encoding::Binary) => ply_binary(mesh),
+        (Format::Ply, _) => ply(mesh, None, encoding),
         (Format::Stl, Encoding::Text) => stl_text(mesh).into_bytes(),
         (Format::Stl, Encoding::Binary) => stl_binary(mesh),
     }
@@ -77,7 +91,14 @@ fn obj(mesh: &Mesh) -> String {
     text
 }
 
-fn ply_header(mesh: &Mesh, format: &str) -> String {
+fn ply(mesh: &Mesh, labels: Option<&[u32]>, encoding: Encoding) -> Vec<u8> {
+    match encoding {
+        Encoding::Text => ply_text(mesh, labels).into_bytes(),
+        Encoding::Binary => ply_binary(mesh, labels),
+    }
+}
+
+fn ply_header(mesh: &Mesh, labels: Option<&[u32]>, format: &str) -> String {
     let mut text =
         format!("ply\nformat {format} 1.0\ncomment planish\nelement vertex {}\n", mesh.points().len());
     let mut names: Vec<String> = ["x", "y", "z"].map(str::to_owned).to_vec();
@@ -97,9 +118,10 @@ fn ply_header(mesh: &Mesh, format: &str) -> String {
     for name in names {
         let _ = writeln!(text, "property double {name}");
     }
+    let label = labels.map_or("", |_| "property uint label\n");
     let _ = write!(
         text,
-        "element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
+        "element face {}\nproperty list uchar uint vertex_indices\n{label}end_header\n",
         mesh.triangles().len()
     );
     text
@@ -119,24 +141,26 @@ fn rows(mesh: &Mesh) -> impl Iterator<Item = Vec<f64>> + '_ {
     })
 }
 
-fn ply_text(mesh: &Mesh) -> String {
-    let mut text = ply_header(mesh, "ascii");
+fn ply_text(mesh: &Mesh, labels: Option<&[u32]>) -> String {
+    let mut text = ply_header(mesh, labels, "ascii");
     for row in rows(mesh) {
         let words: Vec<String> = row.iter().map(f64::to_string).collect_vec();
         let _ = writeln!(text, "{}", words.join(" "));
     }
-    for [a, b, c] in mesh.triangles() {
-        let _ = writeln!(text, "3 {a} {b} {c}");
+    for (triangle, [a, b, c]) in mesh.triangles().iter().enumerate() {
+        let label = labels.map_or(String::new(), |labels| format!(" {}", labels[triangle]));
+        let _ = writeln!(text, "3 {a} {b} {c}{label}");
     }
     text
 }
 
-fn ply_binary(mesh: &Mesh) -> Vec<u8> {
-    let mut bytes = ply_header(mesh, "binary_little_endian").into_bytes();
+fn ply_binary(mesh: &Mesh, labels: Option<&[u32]>) -> Vec<u8> {
+    let mut bytes = ply_header(mesh, labels, "binary_little_endian").into_bytes();
     rows(mesh).flatten().for_each(|number| bytes.extend(number.to_le_bytes()));
-    for triangle in mesh.triangles() {
+    for (triangle, nodes) in mesh.triangles().iter().enumerate() {
         bytes.push(3);
-        triangle.iter().for_each(|node| bytes.extend(node.to_le_bytes()));
+        nodes.iter().for_each(|node| bytes.extend(node.to_le_bytes()));
+        bytes.extend(labels.into_iter().flat_map(|labels| labels[triangle].to_le_bytes()));
     }
     bytes
 }
@@ -210,5 +234,22 @@ mod tests {
             }
             mesh.clear_parameters();
         }
+    }
+
+    #[test]
+    fn labels_of_triangles_read_back() {
+        let strips = crate::samples::wing_strips(1).unwrap();
+        let folder = std::env::temp_dir();
+        for encoding in ENCODINGS {
+            let path = folder.join(format!("planish-labels-{}-{encoding:?}.ply", std::process::id()));
+            write_labelled(&strips.mesh, &strips.labels, &path, encoding).unwrap();
+            let read = crate::mesh::read_face_property(&path, "label", 0);
+            std::fs::remove_file(&path).unwrap();
+            let labels: Vec<f64> = strips.labels.iter().copied().map(f64::from).collect();
+            assert_eq!(read.unwrap(), labels);
+        }
+        let few = &strips.labels[1..];
+        let refused = write_labelled(&strips.mesh, few, &folder.join("none.ply"), Encoding::Text);
+        assert!(matches!(refused, Err(ExportError::Count { .. })), "{refused:?}");
     }
 }

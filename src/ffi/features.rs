@@ -65,7 +65,7 @@ impl planish_feature_options {
             sharp_edges,
             labels,
             filter_noise: flag(self.filter_noise, "filter_noise")?,
-            find_blunt: true,
+            ..FeatureOptions::default()
         })
     }
 }

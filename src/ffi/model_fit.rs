@@ -14,6 +14,7 @@ use super::report::{gravest, planish_stop_reason};
 use crate::fit::model::{Family, MeshModelOptions, ModelFit, ModelOptions, fit_mesh};
 use crate::layout::of_mesh::{LayoutKind, MeshLayoutOptions};
 use crate::mesh::FeatureOptions;
+use std::f64::consts::PI;
 use std::ffi::c_void;
 
 /// Which way a mesh becomes a model.
@@ -101,7 +102,8 @@ record! {
         /// is 40 degrees.
         pub sharp_angle: f64 = feature_core.sharp_angle.unwrap_or(0.0),
         /// A number for each triangle, such as the face of a CAD model that it comes from: edges between triangles of
-        /// different numbers are features, and exact faces have the number as their label; NULL (default) for none.
+        /// different numbers are features unless label_angle says otherwise, and faces have the number as their label;
+        /// NULL (default) for none.
         /// Array: [label_count].
         pub labels: *const u32,
         /// Numbers in labels: planish_mesh_triangle_count(), or 0 (default).
@@ -109,8 +111,13 @@ record! {
         /// Whether a mesh of planes and cylinders becomes exact faces instead of patches or a chart, with
         /// PLANISH_MODEL_FAMILY_AUTO: 0 or 1 (default).
         pub exact: u32 = 1,
-        /// 1 ignores all features: smooth patches everywhere; 0 (default) does not.
+        /// 1 ignores all features: smooth patches everywhere; 0 (default) does not. Each patch then has the label that most
+        /// of it comes from.
         pub smooth: u32,
+        /// Two labels are one where the facets turn by no more than this along all edges between them, in radians, at most
+        /// pi: labels of one smooth skin become one region, with the label of its first triangle. Default 0: all edges
+        /// between labels are features.
+        pub label_angle: f64 = feature_core.label_angle,
     }
 }
 
@@ -273,7 +280,8 @@ impl planish_model_options {
             exact: flag(self.exact, "exact")? && !is_smooth,
             features: FeatureOptions {
                 sharp_angle: (self.sharp_angle != 0.0 && !is_smooth).then_some(self.sharp_angle),
-                labels: if is_smooth { &[] } else { labels },
+                labels,
+                label_angle: if is_smooth { PI } else { self.label_angle },
                 ..FeatureOptions::default()
             },
         })

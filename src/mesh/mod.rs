@@ -27,7 +27,7 @@ pub(crate) use decimate::Quadric;
 pub use decimate::{DecimateError, DecimateOptions, DecimateReport, Decimation};
 pub use error::MeshError;
 pub(crate) use features::facet_normals;
-pub use features::{Chain, FeatureError, FeatureOptions, Features, Region, Regions, Side};
+pub use features::{Chain, FeatureError, FeatureOptions, Features, LabelParts, Region, Regions, Side};
 pub(crate) use halve::Middles;
 pub use polygon::Faces;
 pub use read::{Format, ReadError, read, read_as, read_bytes, read_face_property};

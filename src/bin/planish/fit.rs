@@ -87,6 +87,7 @@ fn check_used(arguments: &FitArguments, family: FamilyName, given: &Given) -> Re
         ("layout", FamilyName::Model),
         ("no-exact", FamilyName::Model),
         ("labels", FamilyName::Model),
+        ("label-angle", FamilyName::Model),
         ("smooth", FamilyName::Model),
         ("patches", FamilyName::Model),
     ] {
@@ -97,7 +98,9 @@ fn check_used(arguments: &FitArguments, family: FamilyName, given: &Given) -> Re
     }
     let has_edges = matches!(family, FamilyName::D1rc | FamilyName::Model);
     given.refuse("sharp-angle", has_edges, "is used by --family d1rc and --family model only")?;
-    given.refuse("sharp-angle", !arguments.smooth, "is not used with --smooth")?;
+    for option in ["sharp-angle", "label-angle"] {
+        given.refuse(option, !arguments.smooth, "is not used with --smooth")?;
+    }
     let is_free = matches!(family, FamilyName::Tensor | FamilyName::Pht);
     for option in ["fixed", "tolerances", "outlier-share", "outlier-scale", "symmetry", "side"] {
         given.refuse(option, is_free, "is used by --family tensor and --family pht only")?;

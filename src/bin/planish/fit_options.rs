@@ -79,8 +79,12 @@ pub(crate) struct FitArguments {
     pub sharp_angle: Option<f64>,
     /// A number for each triangle, edges between different ones stay: a number of the faces of a PLY file by its name, or
     /// a text file with one a line (model).
-    #[arg(long, value_name = "NAME", conflicts_with = "smooth")]
+    #[arg(long, value_name = "NAME")]
     pub labels: Option<String>,
+    /// Labels are one where the triangles turn by no more than this along all edges between them (model; 0 if it is left
+    /// out: all edges between labels stay).
+    #[arg(long, value_name = "DEGREES", requires = "labels", allow_negative_numbers = true)]
+    pub label_angle: Option<f64>,
     /// Make patches of planes and cylinders too (model).
     #[arg(long)]
     pub no_exact: bool,

@@ -12,9 +12,10 @@ use planish::Control;
 use planish::fit::model::{Family, MeshModelOptions, ModelFit, ModelOptions, fit_mesh};
 use planish::fit::report::{FitReport, Remarks};
 use planish::layout::of_mesh::{LayoutKind, MeshLayoutOptions};
-use planish::mesh::{FeatureOptions, Mesh, MeshRepairs, read_face_property};
+use planish::mesh::{FeatureOptions, LabelParts, Mesh, MeshRepairs, read_face_property};
 use planish::surface::Label;
 use serde_json::json;
+use std::f64::consts::PI;
 use std::path::Path;
 
 pub(crate) fn fit(mesh: &Mesh, arguments: &FitArguments) -> Result<ModelFit, Failure> {
@@ -66,10 +67,11 @@ pub(crate) fn tell(
         let write = |control: &mut Control| output::write_model_report(mesh, fit, &stem, path, control);
         with_bar(arguments.threads, write)?;
     }
+    let labels = mesh.label_parts(&labels(mesh, arguments)?)?;
     if arguments.json {
-        output::print(format_args!("{}\n", json_report(arguments, mesh, repairs, fit)))?;
+        output::print(format_args!("{}\n", json_report(arguments, mesh, repairs, fit, &labels)))?;
     } else {
-        output::print(table(arguments, mesh, repairs, fit))?;
+        output::print(table(arguments, mesh, repairs, fit, &labels))?;
     }
     Ok(outcome(fit.report.remarks))
 }
@@ -126,8 +128,11 @@ fn options<'a>(arguments: &FitArguments, labels: &'a [u32]) -> MeshModelOptions<
     if let Some(angle) = arguments.sharp_angle {
         features.sharp_angle = Some(angle.to_radians());
     }
+    if let Some(angle) = arguments.label_angle {
+        features.label_angle = angle.to_radians();
+    }
     if arguments.smooth {
-        features.sharp_angle = None;
+        (features.sharp_angle, features.label_angle) = (None, PI);
     }
     // who asks for a layout wants patches
     let is_layout_given = arguments.patches.is_some() || arguments.layout != LayoutName::Auto;
@@ -152,7 +157,34 @@ fn moved(mesh: &Mesh, fit: &ModelFit) -> Mesh {
     Mesh::new(points, mesh.triangles().to_vec()).expect("the same triangles at finite places")
 }
 
-fn table(arguments: &FitArguments, mesh: &Mesh, repairs: &MeshRepairs, fit: &ModelFit) -> String {
+/// Labels told one by one.
+const MOST_LABELS: usize = 5;
+
+/// How many labels there are, and which of them are no face: in several pieces, or with handles.
+fn told_labels(labels: &[LabelParts]) -> String {
+    let is_odd = |parts: &&LabelParts| parts.pieces > 1 || parts.handles > 0;
+    let odd: Vec<&LabelParts> = labels.iter().filter(is_odd).collect();
+    let mut told = vec![labels.len().to_string()];
+    told.extend(odd.iter().take(MOST_LABELS).map(|LabelParts { label, pieces, handles, .. }| {
+        match (pieces, handles) {
+            (1, _) => format!("label {label} has {handles} handles"),
+            (_, 0) => format!("label {label} is in {pieces} pieces"),
+            _ => format!("label {label} is in {pieces} pieces with {handles} handles"),
+        }
+    }));
+    if odd.len() > MOST_LABELS {
+        told.push(format!("{} more in pieces or with handles", odd.len() - MOST_LABELS));
+    }
+    told.join(", ")
+}
+
+fn table(
+    arguments: &FitArguments,
+    mesh: &Mesh,
+    repairs: &MeshRepairs,
+    fit: &ModelFit,
+    labels: &[LabelParts],
+) -> String {
     let (report, model) = (&fit.report, &fit.model);
     let mut table = Table::default();
     let both = |error: f64| format!("{error:.3e}   {:.2e} of the diagonal", error / report.diagonal);
@@ -160,6 +192,9 @@ fn table(arguments: &FitArguments, mesh: &Mesh, repairs: &MeshRepairs, fit: &Mod
     table.row("mesh", format!("{}", arguments.mesh.display()));
     table.row("nodes, triangles", format!("{points}, {triangles}, {} boundary loops", mesh.loops().len()));
     output::repair_rows(&mut table, repairs);
+    if arguments.labels.is_some() {
+        table.row("labels", told_labels(labels));
+    }
     for component in &fit.components {
         let layout = match component.layout {
             None if component.exact_faces > 0 => format!("{} exact faces", component.exact_faces),
@@ -225,8 +260,17 @@ fn json_report(
     mesh: &Mesh,
     repairs: &MeshRepairs,
     fit: &ModelFit,
+    labels: &[LabelParts],
 ) -> serde_json::Value {
     let report = &fit.report;
+    let label = |parts: &LabelParts| {
+        json!({
+            "label": parts.label,
+            "triangle_count": parts.triangle_count,
+            "piece_count": parts.pieces,
+            "handle_count": parts.handles,
+        })
+    };
     let component = |component: &planish::fit::model::ComponentReport| {
         json!({
             "genus": component.genus,
@@ -258,6 +302,7 @@ fn json_report(
         "gap": report.gap,
         "volume": report.volume,
         "mesh_volume": report.mesh_volume,
+        "labels": arguments.labels.as_ref().map(|_| labels.iter().map(label).collect::<Vec<_>>()),
         "components": fit.components.iter().map(component).collect::<Vec<_>>(),
         "shell_count": fit.model.shells().len(),
         "face_count": fit.model.faces().len(),

@@ -2,7 +2,8 @@
 
 use crate::{Failure, Given, Outcome, output};
 use clap::{Args, ValueEnum};
-use planish::samples::{self, machine, rows::RowSet};
+use planish::export::mesh::{self as mesh_files, Encoding};
+use planish::samples::{self, Strips, machine, rows::RowSet};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -11,7 +12,7 @@ pub(crate) struct SampleArguments {
     /// Which shape.
     #[arg(value_enum)]
     shape: Shape,
-    /// Where to write it: .obj, .off, .ply or .stl for a mesh, .txt for rows.
+    /// Where to write it: .obj, .off, .ply or .stl for a mesh, .ply with labels, .txt for rows.
     out: PathBuf,
     /// Seed of the jitter.
     #[arg(long, default_value_t = 1)]
@@ -54,6 +55,8 @@ enum Shape {
     Gear,
     /// A plate with round ends and a slot.
     SlottedPlate,
+    /// A closed wing whose skins are 40 strips, with labels: `label` of the faces of a PLY file.
+    WingStrips,
     /// Rows of points round a dustpan.
     DustpanRows,
     /// Rows of points along waves of unlike length.
@@ -103,6 +106,7 @@ pub(crate) fn run(arguments: &SampleArguments, given: &Given) -> Result<Outcome,
         Shape::SteppedShaft => machine::stepped_shaft(PART_NODES, seed).map(|part| part.mesh),
         Shape::Gear => machine::gear(PART_NODES, seed).map(|part| part.mesh),
         Shape::SlottedPlate => machine::slotted_plate(PART_NODES, seed).map(|part| part.mesh),
+        Shape::WingStrips => return write_strips(&samples::wing_strips(seed)?, &arguments.out),
         Shape::DustpanRows => return write_rows(&samples::rows::dustpan(), false, &arguments.out),
         Shape::WaveRows => return write_rows(&samples::rows::wave(), false, &arguments.out),
         Shape::HeadRows => return write_rows(&samples::rows::head(), true, &arguments.out),
@@ -115,6 +119,13 @@ pub(crate) fn run(arguments: &SampleArguments, given: &Given) -> Result<Outcome,
 fn done(path: &Path) -> Result<Outcome, Failure> {
     output::print(format_args!("written  {}\n", path.display()))?;
     Ok(Outcome::Done)
+}
+
+/// Writes a mesh with labels, in the one format that has them.
+fn write_strips(strips: &Strips, path: &Path) -> Result<Outcome, Failure> {
+    output::check_name(path, &["ply"])?;
+    mesh_files::write_labelled(&strips.mesh, &strips.labels, path, Encoding::Binary)?;
+    done(path)
 }
 
 /// Writes rows for `planish skin` and `planish trim`; the first point of a closed row, which the samples repeat, stands there once.

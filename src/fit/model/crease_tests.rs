@@ -4,6 +4,7 @@ use super::tests::*;
 use super::*;
 use crate::fit::common::report::Remarks;
 use crate::layout::{CUBE_FACES, Creases, HalfEdge, Side};
+use crate::mesh::FeatureOptions;
 use crate::model::{Frame, Patchwork, Plane, PlaneFace, Planes, Rim, Role, of_patches};
 use crate::samples::layouts::{PlacedQuads, numbered_edges};
 use crate::surface::g1::{Space, normal_jump};
@@ -374,7 +375,7 @@ fn faces_have_the_labels_of_their_regions() {
         _ => 6,
     };
     let labels: Vec<u32> = mesh.triangles().iter().map(|t| label(middle(t))).collect();
-    let features = crate::mesh::FeatureOptions::default().with_labels(&labels);
+    let features = FeatureOptions::default().with_labels(&labels);
     let options = MeshModelOptions { exact: false, features, ..MeshModelOptions::default() };
     let fit = fit_mesh(&mesh, &options, &mut Control::new(1)).unwrap();
     assert!(fit.report.max_error <= fit.report.tolerance, "{:?}", fit.report);
@@ -386,5 +387,57 @@ fn faces_have_the_labels_of_their_regions() {
         let around: Vec<u32> = mesh.outgoing(node as u32).map(|edge| labels[edge.triangle()]).collect();
         let is_inside = around.iter().all(|&label| label == around[0]);
         assert!(!is_inside || fit.model.face(place.unwrap().0).label == around[0], "node {node}");
+    }
+}
+
+#[test]
+fn strips_of_a_wing_become_two_skins_between_planes() {
+    let crate::samples::Strips { mesh, labels, volume } = crate::samples::wing_strips(1).unwrap();
+    let features = FeatureOptions::default().with_labels(&labels).with_label_angle(5.0_f64.to_radians());
+    let options = MeshModelOptions::default().with_features(features);
+    let fit = fit_mesh(&mesh, &options, &mut Control::new(1)).unwrap();
+    let (report, model) = (&fit.report, &fit.model);
+    assert!(report.max_error <= report.tolerance && report.folded_cells == 0, "{report:?}");
+    let mut labels_of_faces: Vec<u32> = model.faces().iter().map(|face| face.label).collect();
+    labels_of_faces.sort_unstable();
+    assert_eq!((labels_of_faces, fit.components[0].exact_faces), (vec![0, 20, 40, 41], 2));
+    assert_eq!((model.free_edge_count(), model.euler_characteristic()), (0, 2));
+    assert!(report.gap <= 1e-12 && model.edges().iter().all(|edge| edge.is_sharp), "{report:?}");
+    // all of the model is within the tolerance of the body, whose area is at most that of both skins' boxes and ends
+    let off = (model.measure().volume / volume - 1.0).abs();
+    assert!(off <= report.tolerance * model.measure().area / volume, "{off:e}");
+    // the map back: each node lies on a face of its skin or end, and the mesh there tells the strip
+    let skin = |label: u32| if label < 40 { label / 20 * 20 } else { label };
+    let tree = crate::query::triangles::TriangleTree::new(&mesh);
+    for (node, place) in fit.places.iter().enumerate() {
+        let (face, uv) = place.unwrap();
+        let of_face = model.face(face).label;
+        let around: Vec<u32> = mesh.outgoing(node as u32).map(|edge| labels[edge.triangle()]).collect();
+        assert!(around.iter().any(|&label| skin(label) == of_face), "node {node}");
+        if around.iter().all(|&label| label == around[0]) {
+            let near = tree.nearest(model.carrier(face).points(&[uv])[0]).unwrap();
+            assert_eq!(labels[near.triangle as usize], around[0], "node {node}");
+        }
+    }
+}
+
+#[test]
+fn smooth_patches_have_the_labels_that_most_of_them_comes_from() {
+    let mesh = crate::samples::ball(1500, 1).unwrap();
+    let is_high = |t: &[u32; 3]| t.iter().map(|&node| mesh.points()[node as usize].z).sum::<f64>() > 0.0;
+    let labels: Vec<u32> = mesh.triangles().iter().map(|t| 3 + u32::from(is_high(t))).collect();
+    let features = FeatureOptions::default().with_sharp_angle(None).with_labels(&labels).with_label_angle(PI);
+    let options = MeshModelOptions::default().with_exact(false).with_features(features);
+    let fit = fit_mesh(&mesh, &options, &mut Control::new(1)).unwrap();
+    assert!((0..fit.model.edges().len()).all(|edge| !fit.model.edges()[edge].is_sharp));
+    let mut votes = vec![[0; 2]; fit.model.faces().len()];
+    for (triangle, &label) in mesh.triangles().iter().zip(&labels) {
+        for (face, _) in triangle.iter().filter_map(|&node| fit.places[node as usize]) {
+            votes[face.index()][label as usize - 3] += 1;
+        }
+    }
+    for (face, [low, high]) in fit.model.faces().iter().zip(votes) {
+        let is_most = if face.label == 3 { low >= high } else { face.label == 4 && high >= low };
+        assert!(is_most, "label {} of {low} and {high}", face.label);
     }
 }

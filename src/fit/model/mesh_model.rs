@@ -10,6 +10,8 @@ use crate::options::with_fields;
 use crate::summary::summarize;
 use crate::surface::pht::PhtSurface;
 use glam::DVec2;
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
 
 /// Which way a mesh becomes a model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -99,7 +101,8 @@ pub struct Piece {
     pub surfaces: Vec<PhtSurface>,
     /// What closes them where the layout has borders.
     pub planes: Planes,
-    /// By patch the label of the region that it covers; empty without labels, or where patches run over them.
+    /// By patch the label of the region that it covers, or where patches run over labels the one that most of it has; empty
+    /// without labels.
     pub labels: Vec<u32>,
 }
 
@@ -125,6 +128,28 @@ impl Component {
         let spots = fit.places.into_iter().map(|place| place.map(Spot::Patch)).collect();
         let piece = Piece { layout, surfaces: fit.surfaces, planes: Planes::default(), labels: Vec::new() };
         Self { piece, spots, errors: fit.errors, report }
+    }
+
+    /// Gives each patch the label, of those by triangle, that most corners of triangles on it have; of equals the smallest.
+    pub(super) fn name_patches(&mut self, mesh: &Mesh, labels: &[u32]) {
+        if labels.is_empty() {
+            return;
+        }
+        let mut votes: Vec<BTreeMap<u32, usize>> = vec![BTreeMap::new(); self.piece.surfaces.len()];
+        for (triangle, &label) in mesh.triangles().iter().zip(labels) {
+            for spot in triangle.iter().filter_map(|&node| self.spots[node as usize]) {
+                if let Spot::Patch(place) = spot {
+                    *votes[place.quad as usize].entry(label).or_default() += 1;
+                }
+            }
+        }
+        let most = |votes: &BTreeMap<u32, usize>| {
+            votes
+                .iter()
+                .max_by_key(|&(&label, &count)| (count, Reverse(label)))
+                .map_or(0, |(&label, _)| label)
+        };
+        self.piece.labels = votes.iter().map(most).collect();
     }
 }
 

@@ -34,6 +34,7 @@ use crate::query::crossings::crossings;
 use crate::query::tessellate::TessellateOptions;
 use crate::surface::AnySurface;
 use glam::DVec2;
+use std::f64::consts::PI;
 use std::time::Instant;
 
 /// Makes a model of a mesh.
@@ -106,8 +107,8 @@ fn open(mesh: &Mesh, options: &MeshModelOptions, control: &mut Control) -> Resul
 
 /// Whether edges may stay sharp.
 fn asks_for_features(options: &MeshModelOptions) -> bool {
-    let FeatureOptions { sharp_angle, sharp_edges, labels, .. } = options.features;
-    sharp_angle.is_some() || !sharp_edges.is_empty() || !labels.is_empty()
+    let FeatureOptions { sharp_angle, sharp_edges, labels, label_angle, .. } = options.features;
+    sharp_angle.is_some() || !sharp_edges.is_empty() || (!labels.is_empty() && label_angle < PI)
 }
 
 /// Whether a fit is all that was asked for.
@@ -169,8 +170,11 @@ fn shells(
     let mut done = 0.0;
     for body in &bodies {
         let next = done + body.mesh.triangles().len() as f64 / all;
-        let made = control.within(done, next, |control| component(body, &options, control))?;
+        let mut made = control.within(done, next, |control| component(body, &options, control))?;
         done = next;
+        if made.piece.labels.is_empty() {
+            made.name_patches(&body.mesh, &of_body(&options.features, body).0);
+        }
         for (&node, &error) in body.nodes.iter().zip(&made.errors) {
             errors[node as usize] = error;
         }

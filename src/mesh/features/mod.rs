@@ -7,7 +7,7 @@
 //!                                   d  a bit that ends in nothing and is short: dropped
 //! ```
 //! Feature edges are those whose facets turn by more than an angle, blunter ones that stand out from the surface beside
-//! them and divide it (`ridges`), edges between different labels, edges given, and the border. Normals of noisy facets
+//! them and divide it (`ridges`), edges between labels that do not meet smoothly, edges given, and the border. Normals of noisy facets
 //! are filtered first (`noise`).
 
 mod chains;
@@ -24,8 +24,9 @@ use crate::memory::CollectVec;
 use crate::options::with_fields;
 use chains::Net;
 use glam::DVec3;
-pub use regions::{Region, Regions, Side};
+pub use regions::{LabelParts, Region, Regions, Side};
 use ridges::Facets;
+use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
 /// How features are found. Angles are in radians.
@@ -45,6 +46,9 @@ pub struct FeatureOptions<'a> {
     pub sharp_edges: &'a [[u32; 2]],
     /// A number for each triangle: edges between different ones are features. Empty for none.
     pub labels: &'a [u32],
+    /// Two labels are one where the facets turn by no more than this along all edges between them; at pi labels part
+    /// nothing. Default 0: all edges between labels are features.
+    pub label_angle: f64,
     /// Whether the normals of a noisy mesh are filtered before angles are measured. Default: yes.
     pub filter_noise: bool,
     /// Whether edges between `weak_angle` and `sharp_angle` that stand out are features too. Default: yes.
@@ -60,6 +64,7 @@ impl Default for FeatureOptions<'_> {
             least_length: 0.04,
             sharp_edges: &[],
             labels: &[],
+            label_angle: 0.0,
             filter_noise: true,
             find_blunt: true,
         }
@@ -74,6 +79,7 @@ impl<'a> FeatureOptions<'a> {
         with_least_length least_length: f64,
         with_sharp_edges sharp_edges: &'a [[u32; 2]],
         with_labels labels: &'a [u32],
+        with_label_angle label_angle: f64,
         with_filter_noise filter_noise: bool,
         with_find_blunt find_blunt: bool,
     }
@@ -85,6 +91,7 @@ impl<'a> FeatureOptions<'a> {
             ("sharp_angle", self.sharp_angle.unwrap_or(0.0)),
             ("weak_angle", self.weak_angle),
             ("corner_angle", self.corner_angle),
+            ("label_angle", self.label_angle),
         ];
         if let Some(&(option, value)) = angles.iter().find(|(_, value)| !(0.0..=PI).contains(value)) {
             return Err(FeatureError::Option { option, value, range: "between 0 and pi" });
@@ -213,7 +220,7 @@ impl Mesh {
         let is_noisy = options.filter_noise && noise > noise::WORTH_FILTERING;
         let normals = facet_normals(self, is_noisy);
         let turns = turns(self, &normals);
-        let kept = given_edges(self, options);
+        let kept = given_edges(self, &turns, options);
         let sharp_angle = options.sharp_angle.unwrap_or(PI);
         let is_sharp = |edge: HalfEdge| turns[edge.index()] > sharp_angle;
         let mut net = Net::new(self, is_sharp, kept);
@@ -265,12 +272,13 @@ fn turns(mesh: &Mesh, normals: &[DVec3]) -> Vec<f64> {
     half_edges(mesh).map(|edge| turn(edge).unwrap_or(0.0)).collect_vec()
 }
 
-/// The half-edges that are features whatever their angle: border, between labels, given by the caller and checked.
-fn given_edges(mesh: &Mesh, options: &FeatureOptions) -> Vec<bool> {
-    let label = |edge: HalfEdge| options.labels.get(edge.triangle());
+/// The half-edges that are features whatever their angle: border, between labels that are not one, given by the caller and
+/// checked.
+fn given_edges(mesh: &Mesh, turns: &[f64], options: &FeatureOptions) -> Vec<bool> {
+    let parting = parting_labels(mesh, turns, options);
     let is_kept = |edge: HalfEdge| match mesh.topology().twin(edge) {
         None => true,
-        Some(twin) => label(edge) != label(twin),
+        Some(twin) => labels_beside(edge, twin, options.labels).is_some_and(|pair| parting.contains(&pair)),
     };
     let mut kept: Vec<bool> = half_edges(mesh).map(is_kept).collect();
     for edge in options.sharp_edges.iter().filter_map(|&[a, b]| mesh.edge_between(a, b)) {
@@ -278,4 +286,21 @@ fn given_edges(mesh: &Mesh, options: &FeatureOptions) -> Vec<bool> {
         sides.into_iter().flatten().for_each(|side| kept[side.index()] = true);
     }
     kept
+}
+
+/// Pairs of labels that stay apart: some edge between them turns by more than the angle below which labels are one.
+fn parting_labels(mesh: &Mesh, turns: &[f64], options: &FeatureOptions) -> BTreeSet<[u32; 2]> {
+    let keeps_all = options.label_angle == 0.0;
+    let parting = |edge: HalfEdge| {
+        let pair = labels_beside(edge, mesh.topology().twin(edge)?, options.labels)?;
+        (keeps_all || turns[edge.index()] > options.label_angle).then_some(pair)
+    };
+    half_edges(mesh).filter_map(parting).collect()
+}
+
+/// The labels on both sides of an edge, the smaller first; none if they are equal or not given.
+fn labels_beside(edge: HalfEdge, twin: HalfEdge, labels: &[u32]) -> Option<[u32; 2]> {
+    let [a, b] = [edge, twin].map(|side| labels.get(side.triangle()).copied());
+    let (a, b) = (a?, b?);
+    (a != b).then_some([a.min(b), a.max(b)])
 }

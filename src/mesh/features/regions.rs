@@ -10,8 +10,9 @@
 
 use super::super::decimate::half_edges;
 use super::super::{HalfEdge, Mesh};
-use super::{Chain, Features};
+use super::{Chain, FeatureError, FeatureOptions, Features};
 use crate::memory::{self, CollectVec};
+use std::collections::BTreeMap;
 
 /// A chain as a bound of the region on one side of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -78,6 +79,39 @@ impl Regions {
     pub fn is_inside(&self, chain: u32) -> bool {
         let [left, right] = self.beside[chain as usize];
         left.is_some() && left == right
+    }
+}
+
+/// How the triangles of a label hang together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct LabelParts {
+    /// The label.
+    pub label: u32,
+    /// Its triangles.
+    pub triangle_count: usize,
+    /// Pieces that share no edge: a face has one.
+    pub pieces: usize,
+    /// Handles of all pieces: a face has none.
+    pub handles: usize,
+}
+
+impl Mesh {
+    /// How each label hangs together, in increasing order of the labels; one label for each triangle.
+    pub fn label_parts(&self, labels: &[u32]) -> Result<Vec<LabelParts>, FeatureError> {
+        let options =
+            FeatureOptions::default().with_sharp_angle(None).with_least_length(0.0).with_labels(labels);
+        let regions = self.find_features(&options)?.regions(self).regions;
+        let mut parts: BTreeMap<u32, LabelParts> = BTreeMap::new();
+        for (&label, Region { triangles, genus, .. }) in
+            regions.iter().filter_map(|region| Some((labels.get(region.triangles[0] as usize)?, region)))
+        {
+            let empty = LabelParts { label, triangle_count: 0, pieces: 0, handles: 0 };
+            let of = parts.entry(label).or_insert(empty);
+            of.triangle_count += triangles.len();
+            of.pieces += 1;
+            of.handles += genus;
+        }
+        Ok(parts.into_values().collect())
     }
 }
 

@@ -203,11 +203,51 @@ fn chains_go_on_along_weak_edges_and_short_bits_go() {
 }
 
 #[test]
+fn labels_that_meet_smoothly_are_one() {
+    let samples::Strips { mesh, labels, .. } = samples::wing_strips(3).unwrap();
+    let base = FeatureOptions::default().with_sharp_angle(None).with_labels(&labels);
+    let count = |options: FeatureOptions| regions_of(&mesh, options).1.regions.len();
+    assert_eq!(count(base), 42);
+    // upper and lower skin, root and tip
+    let angle = 5.0_f64.to_radians();
+    assert_eq!(count(base.with_label_angle(angle)), 4);
+    assert_eq!(count(base.with_label_angle(PI)), 1);
+    // one edge that turns more is enough: strips with a dent between them, away from all others, stay two
+    let is_between = |node: u32| {
+        let around: BTreeSet<u32> = mesh.outgoing(node).map(|edge| labels[edge.triangle()]).collect();
+        around == BTreeSet::from([4, 5])
+    };
+    let ends = |edge: HalfEdge| [edge.origin(mesh.triangles()), edge.target(mesh.triangles())];
+    let raised = mesh.edges().map(ends).find(|ends| ends.iter().all(|&node| is_between(node))).unwrap();
+    let is_raised = |node: usize| raised.contains(&(node as u32));
+    let points =
+        mesh.points().iter().enumerate().map(|(k, &p)| if is_raised(k) { p + 0.05 * DVec3::Z } else { p });
+    let dented = Mesh::new(points.collect(), mesh.triangles().to_vec()).unwrap();
+    assert_eq!(regions_of(&dented, base.with_label_angle(angle)).1.regions.len(), 5);
+}
+
+#[test]
+fn labels_tell_their_pieces_and_handles() {
+    let ring = samples::handles(1, 3000, 2).unwrap();
+    let middle = |t: &[u32; 3]| t.iter().map(|&node| ring.points()[node as usize]).sum::<DVec3>() / 3.0;
+    // two patches on the left and right; the rest of a ring keeps its handle
+    let label = |t: &[u32; 3]| u32::from(middle(t).x.abs() > 1.3) + 7;
+    let labels: Vec<u32> = ring.triangles().iter().map(label).collect();
+    let parts = ring.label_parts(&labels).unwrap();
+    let told: Vec<[usize; 3]> = parts.iter().map(|of| [of.label as usize, of.pieces, of.handles]).collect();
+    assert_eq!(told, [[7, 1, 1], [8, 2, 0]]);
+    assert_eq!(parts.iter().map(|of| of.triangle_count).sum::<usize>(), ring.triangles().len());
+    assert_eq!(ring.label_parts(&[]).unwrap(), []);
+    assert!(matches!(ring.label_parts(&labels[1..]), Err(FeatureError::LabelCount { .. })));
+}
+
+#[test]
 fn refusals_name_the_offender() {
     let mesh = block([3, 3, 3]);
     let refuse = |options: FeatureOptions| mesh.find_features(&options).unwrap_err();
     let base = FeatureOptions::default();
     assert_eq!(refuse(base.with_sharp_angle(Some(4.0))).kind(), ErrorKind::InvalidArgument);
+    assert_eq!(refuse(base.with_label_angle(-1.0)).kind(), ErrorKind::InvalidArgument);
     assert_eq!(refuse(FeatureOptions { least_length: f64::NAN, ..base }).kind(), ErrorKind::InvalidArgument);
     assert_eq!(refuse(base.with_labels(&[1, 2])), FeatureError::LabelCount { given: 2, count: 108 });
     let far = refuse(base.with_sharp_edges(&[[0, 1], [0, 999]]));

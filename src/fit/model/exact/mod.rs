@@ -180,6 +180,7 @@ fn segment(
         corner_angle,
         least_length: 0.0,
         labels: &part_of,
+        label_angle: 0.0,
         sharp_edges: &[],
         ..*options
     };
