@@ -441,3 +441,58 @@ fn smooth_patches_have_the_labels_that_most_of_them_comes_from() {
         assert!(is_most, "label {} of {low} and {high}", face.label);
     }
 }
+
+#[test]
+fn planes_under_noise_stay_planes() {
+    use crate::samples::machine::{any_part, roughened};
+    const NOISE: f64 = 0.01;
+    for seed in [17, 196] {
+        let clean = any_part(seed).unwrap().mesh;
+        let mesh = roughened(&clean, NOISE, seed).unwrap();
+        let fit = fit_mesh(&mesh, &MeshModelOptions::default(), &mut Control::new(1)).unwrap();
+        let (report, model) = (&fit.report, &fit.model);
+        // a prism whose sides meet too bluntly under noise: patches between two planes, without the folds of smooth ones
+        assert_eq!(fit.components[0].exact_faces, 2, "seed {seed}");
+        assert!(!report.patches.is_empty() && report.folded_cells == 0, "seed {seed}: {report:?}");
+        assert_eq!((model.free_edge_count(), report.crossings), (0, Some(0)), "seed {seed}");
+        let is_missed = report.max_error > report.tolerance;
+        assert_eq!(report.remarks.has(Remarks::TOLERANCE_NOT_MET), is_missed, "seed {seed}");
+        // least squares of many nodes tilt a plane by less than one deviation over its size does
+        let sigma = NOISE * super::exact::mean_edge(&clean);
+        let height = clean.bounds().max[2] - clean.bounds().min[2];
+        let width = (clean.diagonal().powi(2) - height * height).sqrt();
+        let planes: Vec<Plane> = (model.faces().iter())
+            .filter_map(|face| match model.surface(face.surface) {
+                crate::model::Carrier::Plane(plane) => Some(*plane),
+                _ => None,
+            })
+            .collect();
+        assert_eq!(planes.len(), 2, "seed {seed}");
+        for Plane(frame) in planes {
+            let tilt = frame.z().cross(DVec3::Z).length();
+            assert!(tilt <= sigma / (0.25 * width), "seed {seed}: {tilt:e}, deviation {sigma:e}");
+            let ends = [clean.bounds().min[2], clean.bounds().max[2]];
+            let off =
+                ends.map(|end| (frame.origin().z - end).abs()).into_iter().fold(f64::INFINITY, f64::min);
+            assert!(off <= sigma, "seed {seed}: {off:e}, deviation {sigma:e}");
+        }
+    }
+}
+
+#[test]
+fn bends_larger_than_noise_are_no_planes() {
+    use super::exact::evidence::Evidence;
+    let (places, triangles) = crate::samples::grid([20, 20], 0.2, 5, |_| true);
+    let all: Vec<u32> = (0..triangles.len() as u32).collect();
+    let mut random = crate::samples::Random::new(9);
+    let noise: Vec<f64> = places.iter().map(|_| random.signed()).collect();
+    // a quadric bend of 1 leaves a mean square of 4/45 of a plane, uniform noise of 1 one of 1/3: five bends are 6.7 times it
+    for (bend, is_straight) in [(0.0, true), (0.3, true), (5.0, false)] {
+        let height = |(k, p): (usize, &DVec2)| 1e-3 * (noise[k] + bend * (2.0 * p.x - 1.0).powi(2));
+        let points = places.iter().enumerate().map(|at| at.1.extend(height(at))).collect();
+        let mesh = Mesh::new(points, triangles.clone()).unwrap();
+        let evidence = Evidence::new(&mesh, &all).unwrap();
+        let Plane(frame) = evidence.plane().unwrap();
+        assert_eq!(evidence.is_straight(&frame), is_straight, "bend {bend}");
+    }
+}

@@ -7,18 +7,24 @@
 //! fit with the creases in their planes
 //! planes bounded by those creases and by straight lines
 //! ```
+//! Where noise hides planes, nodes lie about as far from them as it moves them, with no bend beyond that. The tolerance of
+//! the patches beside them then grows to what noise does to nodes, and the report tells what is missed.
+//!
 //! A plane keeps its exact face if each side of its loops is a crease of patches or straight; else it gets patches, as
 //! where a border of the mesh curves.
 
 use super::bodies::Body;
 use super::constraints::{Constraints, PlaneEquation, nearest_in};
 use super::error::ModelFitError;
+use super::exact::evidence::Evidence;
+use super::exact::{Limits, mean_edge};
 use super::mesh_model::{Component, ComponentReport, MeshModelOptions, Piece, Spot};
 use super::options::ModelOptions;
 use super::report::mesh_volume;
 use super::{LayoutFit, NodePlaces, fit_with_creases};
 use crate::control::Control;
-use crate::fit::common::report::Remarks;
+use crate::failure::{Classify, ErrorKind};
+use crate::fit::common::report::{Remarks, StopReason, Tolerance, ToleranceScale};
 use crate::layout::HalfEdge;
 use crate::layout::of_features::{FeatureLayout, FeatureLayoutOptions, VertexSource, layout_of_features};
 use crate::layout::of_mesh::LayoutKind;
@@ -37,6 +43,8 @@ const LAYOUT_SHARE: f64 = 0.4;
 const SMOOTHING: f64 = 1e-3;
 /// A region is a plane if its nodes lie within this part of the tolerance of one: what the other errors leave.
 const PLANE_SHARE: f64 = 1.0 / 3.0;
+/// Nodes beside planes that noise hides may be off by this many deviations of it, as beside exact faces.
+const NOISE: f64 = 5.0;
 
 /// A body as patches and planes, which make a model; none if its features part nothing. With them come the labels of its
 /// triangles, or none.
@@ -53,13 +61,27 @@ pub(super) fn over_features(
     if !is_parted {
         return Ok(None);
     }
-    let planes =
+    let planes: Vec<Option<PlaneEquation>> =
         regions.regions.iter().map(|region| plane_of(mesh, region, PLANE_SHARE * tolerance)).collect();
     let part = Part { mesh, features, regions: &regions, labels };
-    let fit = part.fit(planes, (&options.fit, tolerance), control)?;
-    let component = fit.component(body, &part);
-    check_shell(&component.piece, mesh.loops().is_empty(), options.level_spread)?;
-    Ok(Some(component))
+    let fit = |planes, fit_options: &ModelOptions, control: &mut Control| {
+        let (allowed, _) = fit_options.tolerance.absolute(&mesh.bounds());
+        let component = part.fit(planes, (fit_options, allowed), control)?.component(body, &part, tolerance);
+        check_shell(&component.piece, mesh.loops().is_empty(), options.level_spread)?;
+        Ok::<Component, ModelFitError>(component)
+    };
+    let noise = regions.noise(mesh) * mean_edge(mesh);
+    let Some((more_planes, rms)) = part.planes_under_noise(&planes, &Limits::new(tolerance, noise)) else {
+        return fit(planes, &options.fit, control).map(Some);
+    };
+    // planes miss their nodes by noise, and so do the patches at their common edges; the estimate may hold blunt edges too
+    let allowed = Tolerance { value: tolerance.max(NOISE * rms), scale: ToleranceScale::Absolute };
+    let fit_options = options.fit.with_tolerance(allowed);
+    match control.within(0.0, 0.5, |control| fit(more_planes, &fit_options, control)) {
+        Ok(made) if made.misses_noise_only => Ok(Some(made)),
+        Err(error) if error.kind() == ErrorKind::Cancelled => Err(error),
+        _ => control.within(0.5, 1.0, |control| fit(planes, &options.fit, control)).map(Some),
+    }
 }
 
 /// Refuses patches and planes that do not make one shell, closed where the mesh is.
@@ -112,8 +134,8 @@ struct CreasedFit {
 }
 
 impl CreasedFit {
-    /// What is known by node of the whole.
-    fn component(self, body: &Body, part: &Part) -> Component {
+    /// What is known by node of the whole, held against a tolerance.
+    fn component(self, body: &Body, part: &Part, tolerance: f64) -> Component {
         let Self { made, fit, planes, of_planes } = self;
         let count = part.mesh.points().len();
         let (mut spots, mut errors) = (vec![None; count], vec![f64::NAN; count]);
@@ -143,10 +165,18 @@ impl CreasedFit {
         let summary = summarize(known);
         let worst = errors.iter().position(|&error| error == summary.max).unwrap_or(0);
         let mut report = fit.report;
+        let misses_noise_only = report.max_error <= report.tolerance && report.folded_cells == 0;
+        report.tolerance = tolerance;
         (report.max_error, report.rms_error, report.mean_error) = (summary.max, summary.rms, summary.mean);
         (report.worst_node, report.diagonal) = (worst, part.mesh.diagonal());
         report.mesh_volume = mesh_volume(part.mesh);
-        report.remarks.add_if(report.max_error > report.tolerance, Remarks::TOLERANCE_NOT_MET);
+        let is_missed = report.max_error > tolerance;
+        report.remarks.add_if(is_missed, Remarks::TOLERANCE_NOT_MET);
+        let beyond_facets = report.max_interior_error - report.facet_sagitta;
+        report.remarks.add_if(beyond_facets > tolerance, Remarks::ROUGH_BETWEEN_NODES);
+        if is_missed && report.stop == StopReason::ToleranceMet {
+            report.stop = StopReason::Stagnated;
+        }
         let labels = part.labels_of_patches(&made.report.patches);
         let report = ComponentReport {
             genus: part.mesh.genus(),
@@ -161,7 +191,7 @@ impl CreasedFit {
             fit: report,
         };
         let piece = Piece { layout: made.layout, surfaces: fit.surfaces, planes, labels };
-        Component { piece, spots, errors, report }
+        Component { piece, spots, errors, report, misses_noise_only }
     }
 }
 
@@ -176,6 +206,31 @@ struct Part<'a> {
 }
 
 impl Part<'_> {
+    /// The planes of regions, some found already, with those that nodes lie about as far from as noise moves them, and how
+    /// far that is: the largest root of the mean square of theirs. None if there are no more of them.
+    fn planes_under_noise(
+        &self,
+        found: &[Option<PlaneEquation>],
+        limits: &Limits,
+    ) -> Option<(Vec<Option<PlaneEquation>>, f64)> {
+        let mut largest: f64 = 0.0;
+        let mut plane_of = |region: &Region| {
+            let evidence = Evidence::new(self.mesh, &region.triangles)?;
+            let carrier = Carrier::Plane(evidence.plane()?);
+            let Carrier::Plane(Plane(frame)) = &carrier else { return None };
+            let is_plane = evidence.accepts(&carrier, limits) && evidence.is_straight(frame);
+            let (normal, origin) = (frame.z(), frame.origin());
+            if is_plane {
+                largest = largest.max(evidence.rms(&carrier));
+            }
+            is_plane.then_some(PlaneEquation { normal, offset: normal.dot(origin) })
+        };
+        let both = found.iter().zip(&self.regions.regions);
+        let planes: Vec<Option<PlaneEquation>> =
+            both.map(|(plane, region)| plane.or_else(|| plane_of(region))).collect();
+        (largest > 0.0).then_some((planes, largest))
+    }
+
     /// Fits patches over the regions that are no planes.
     fn fit(
         &self,

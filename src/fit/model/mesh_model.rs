@@ -121,13 +121,16 @@ pub(super) struct Component {
     pub spots: Vec<Option<Spot>>,
     pub errors: Vec<f64>,
     pub report: ComponentReport,
+    /// Whether its patches are as good as noise lets them be, which may be more than the tolerance, and its planes lie in
+    /// the middle of it.
+    pub misses_noise_only: bool,
 }
 
 impl Component {
     pub(super) fn smooth(layout: Layout, fit: LayoutFit, report: ComponentReport) -> Self {
         let spots = fit.places.into_iter().map(|place| place.map(Spot::Patch)).collect();
         let piece = Piece { layout, surfaces: fit.surfaces, planes: Planes::default(), labels: Vec::new() };
-        Self { piece, spots, errors: fit.errors, report }
+        Self { piece, spots, errors: fit.errors, report, misses_noise_only: false }
     }
 
     /// Gives each patch the label, of those by triangle, that most corners of triangles on it have; of equals the smallest.

@@ -116,6 +116,11 @@ fn is_good(report: &ModelReport) -> bool {
     !report.remarks.has(Remarks::TOLERANCE_NOT_MET) && report.folded_cells == 0
 }
 
+/// Whether a component is all that was asked for, or that noise lets be had.
+fn is_done(made: &Component) -> bool {
+    made.misses_noise_only || is_good(&made.report.fit)
+}
+
 /// Whether a fit is better than another: without folds, then with fewer where both are near enough, then nearer to the nodes.
 fn is_better(report: &ModelReport, other: &ModelReport) -> bool {
     let is_near = |report: &ModelReport| report.max_error <= report.tolerance;
@@ -311,7 +316,7 @@ fn component(
     }
     match control.within(0.0, 0.5, |control| creased(body, options, control)) {
         Ok(None) if is_open => Err(open_body(body)),
-        Ok(Some(made)) if is_open || is_good(&made.report.fit) => Ok(made),
+        Ok(Some(made)) if is_open || is_done(&made) => Ok(made),
         Err(error) if is_open || error.kind() == ErrorKind::Cancelled => Err(error),
         creased => match (creased, control.within(0.5, 1.0, |control| smooth(body, options, control))) {
             (Ok(Some(made)), Ok(rounded)) if is_better(&made.report.fit, &rounded.report.fit) => Ok(made),
@@ -344,7 +349,7 @@ fn creased(
         return fit(&sharp, control);
     }
     let over_sharp = match control.within(0.0, 0.5, |control| fit(&sharp, control)) {
-        Ok(Some(made)) if !is_good(&made.report.fit) => Some(made),
+        Ok(Some(made)) if !is_done(&made) => Some(made),
         Err(error) if error.kind() != ErrorKind::Cancelled => None,
         Ok(None) => None,
         done => return done,
@@ -354,7 +359,9 @@ fn creased(
         made => made?,
     };
     Ok(match (over_sharp, over_all) {
-        (Some(sharp), Some(all)) if !is_better(&all.report.fit, &sharp.report.fit) => Some(sharp),
+        (Some(sharp), Some(all)) if !is_done(&all) && !is_better(&all.report.fit, &sharp.report.fit) => {
+            Some(sharp)
+        }
         (sharp, all) => all.or(sharp),
     })
 }

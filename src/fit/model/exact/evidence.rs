@@ -145,6 +145,37 @@ impl Evidence {
         Some(Plane(Frame::new(self.centre, normal, least_aligned(normal))?))
     }
 
+    /// Whether nodes under noise bend away from a plane by no more than noise does: a quadric through them leaves nearly as
+    /// much. Few nodes do not tell.
+    pub fn is_straight(&self, plane: &Frame) -> bool {
+        /// A quadric through so many more nodes than it has coefficients explains noise only in part.
+        const LEAST: usize = 2 * COEFFICIENTS;
+        const COEFFICIENTS: usize = 6;
+        /// The mean square that is left may be so many times larger without the quadric: bends of half of noise.
+        const MOST: f64 = 1.25;
+        /// By chance three coefficients explain as much as one node each does on average; ten times that is no chance.
+        const CHANCE: f64 = 30.0;
+        let count = self.points.len();
+        if count < LEAST {
+            return false;
+        }
+        let row = |point: &DVec3| {
+            let from = (*point - self.centre) / self.extent;
+            let (x, y) = (from.dot(plane.x()), from.dot(plane.y()));
+            (SVector::<f64, 6>::new(1.0, x, y, x * x, x * y, y * y), from.dot(plane.z()))
+        };
+        let (mut matrix, mut right) = (SMatrix::<f64, 6, 6>::zeros(), SVector::<f64, 6>::zeros());
+        for (row, height) in self.points.iter().map(row) {
+            matrix += row * row.transpose();
+            right += height * row;
+        }
+        // nodes on two lines lie on many quadrics
+        let Some(solution) = matrix.cholesky().map(|factor| factor.solve(&right)) else { return false };
+        let left = self.points.iter().map(row).map(|(row, height)| (height - row.dot(&solution)).powi(2));
+        let (left, all) = (left.sum::<f64>(), self.points.iter().map(row).map(|(_, z)| z * z).sum::<f64>());
+        all <= (MOST + CHANCE / (count - COEFFICIENTS) as f64) * left
+    }
+
     /// The cylinder nearest to the nodes.
     pub fn cylinder(&self) -> Option<Cylinder> {
         // normals are across the axis

@@ -5,7 +5,7 @@ use super::evidence::signed_distance;
 use super::{ModelReport, Obstacle};
 use crate::control::Watch;
 use crate::fit::common::interior::triangle_sagittas;
-use crate::fit::common::report::Remarks;
+use crate::fit::common::report::{Remarks, StopReason};
 use crate::fit::model::report::mesh_volume;
 use crate::memory::{self, CollectVec};
 use crate::mesh::{Features, Mesh, Regions};
@@ -85,6 +85,8 @@ pub(super) fn measure(
         volume: enclosed(measured.volume),
         mesh_volume: enclosed(mesh_volume),
         passes: 1,
+        // what is missed is noise: more faces would not help
+        stop: if known.max > scale.tolerance { StopReason::Stagnated } else { StopReason::ToleranceMet },
         remarks,
         ..ModelReport::default()
     };

@@ -290,7 +290,7 @@ fn touch_neighbours(found: &mut [Recognized], regions: &Regions, diagonal: f64) 
     }
 }
 
-fn mean_edge(mesh: &Mesh) -> f64 {
+pub(super) fn mean_edge(mesh: &Mesh) -> f64 {
     let place = |node: u32| mesh.points()[node as usize];
     let length = |edge: crate::mesh::HalfEdge| {
         place(edge.origin(mesh.triangles())).distance(place(edge.target(mesh.triangles())))
