@@ -61,7 +61,7 @@ impl<M: Borrow<Mesh>> TriangleTree<M> {
         tree
     }
 
-    pub(super) fn corners(&self, triangle: u32) -> [DVec3; 3] {
+    pub(crate) fn corners(&self, triangle: u32) -> [DVec3; 3] {
         let mesh = self.mesh();
         mesh.triangles()[triangle as usize].map(|node| mesh.points()[node as usize])
     }
@@ -98,7 +98,7 @@ impl<M: Borrow<Mesh>> TriangleTree<M> {
     }
 
     /// Calls `visit` with the triangles that may meet one with these corners: those whose leaf's box meets its box.
-    pub(super) fn for_each_near(&self, corners: [DVec3; 3], mut visit: impl FnMut(u32)) {
+    pub(crate) fn for_each_near(&self, corners: [DVec3; 3], mut visit: impl FnMut(u32)) {
         let [a, b, c] = corners;
         let (min, max) = (a.min(b).min(c), a.max(b).max(c));
         let mut stack = vec![0];

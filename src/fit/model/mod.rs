@@ -32,6 +32,7 @@ mod report;
 mod samples;
 #[cfg(test)]
 mod tests;
+mod walls;
 mod whole;
 
 pub use constraints::{Constraints, PlaneEquation};
@@ -47,7 +48,7 @@ use super::common::interior::triangle_sagittas;
 use super::common::rounds::run;
 use crate::control::Control;
 use crate::layout::{Layout, Place};
-use crate::memory::CollectVec;
+use crate::memory::{self, CollectVec};
 use crate::mesh::Mesh;
 use crate::surface::g1::uniform;
 use crate::surface::pht::PhtSurface;
@@ -113,13 +114,21 @@ pub fn fit_with_creases(
     super::common::checks::check_count(samples.nodes.len())?;
     let of_nodes = samples.nodes.iter().copied().zip(samples.places.iter().copied());
     let regions = Regions::new(mesh, layout, of_nodes);
+    let has_creases = (0..layout.edges().len() as u32).any(|edge| !layout.is_smooth(edge));
+    let strictness = match has_creases {
+        // a mesh that is cut along creases has walls at all of them
+        true => memory::filled(1.0, samples.points.len()),
+        false => walls::strictness(mesh, &samples, tolerance, control.pool()),
+    };
+    control.pool().check()?;
     let mut refinement = Refinement {
         layout,
         options,
         samples,
+        strictness,
         meshes: uniform(layout, start_level)?,
         constraints,
-        has_creases: (0..layout.edges().len() as u32).any(|edge| !layout.is_smooth(edge)),
+        has_creases,
         is_corner,
         regions,
         facet_normals: facet_normals(mesh),

@@ -37,6 +37,8 @@ pub(super) struct Refinement<'a> {
     pub layout: &'a Layout,
     pub options: &'a ModelOptions,
     pub samples: Samples,
+    /// What the tolerance is divided by at each of them.
+    pub strictness: Vec<f64>,
     pub meshes: Vec<TMesh>,
     /// What the fit keeps exactly.
     pub constraints: &'a Constraints,
@@ -110,14 +112,6 @@ const KNOWN_OF_PARTS: f64 = 0.1;
 
 /// What the tolerance is for samples that are no nodes, beside that of nodes.
 const SLACK: f64 = 2.0;
-
-impl Samples {
-    /// What a distance is beside the tolerance of nodes: between them, only what the facet does not explain.
-    fn error(&self, sample: usize, distance: f64) -> f64 {
-        let excess = distance - self.allowances[sample];
-        if sample < self.nodes.len() { distance } else { excess / SLACK }
-    }
-}
 
 /// Rounds that only move samples before cells with fewer of them are split, or a fit is given up.
 const MOST_STUCK: usize = 3;
@@ -268,7 +262,7 @@ impl Refinement<'_> {
             folded_cells(&surfaces, cells, of_samples, &by_cell, self.has_creases, &normal_near, pool);
         let folded =
             folded.into_iter().map(|cell| (quads[cell], domain_of(&system.cells()[cell]))).collect_vec();
-        let errors = (0..distances.len()).map(|sample| self.samples.error(sample, distances[sample]));
+        let errors = (0..distances.len()).map(|sample| self.error_at(sample, distances[sample]));
         let error = errors.fold(0.0, f64::max);
         let node_error = distances[..self.samples.nodes.len()].iter().copied().fold(0.0, f64::max);
         let free_count = space.free_count();
@@ -311,9 +305,29 @@ impl Refinement<'_> {
         (targets, guards)
     }
 
+    /// What a distance at a sample is beside the tolerance of nodes: between them, only what the facet does not explain; more
+    /// where a wall is thin.
+    fn error_at(&self, sample: usize, distance: f64) -> f64 {
+        let excess = distance - self.samples.allowances[sample];
+        let error = if sample < self.samples.nodes.len() { distance } else { excess / SLACK };
+        error * self.strictness[sample]
+    }
+
+    fn rough_cells(&self, round: &Round) -> Vec<Rough> {
+        let is_rough = |&sample: &u32| {
+            let sample = sample as usize;
+            !(self.error_at(sample, round.distances[sample]) <= self.tolerance)
+        };
+        let cells = (0..round.by_cell.cell_count()).map(|cell| (cell, round.by_cell.of(cell)));
+        cells
+            .filter(|(_, of_cell)| of_cell.iter().any(is_rough))
+            .map(|(cell, of_cell)| Rough { cell, samples: of_cell.len() })
+            .collect_vec()
+    }
+
     /// Splits the cells that miss the tolerance, or says why none can be split.
     fn split(&mut self, round: &Round) -> Result<(), StopReason> {
-        let cells = rough_cells(round, &self.samples, self.tolerance);
+        let cells = self.rough_cells(round);
         let (options, mut stop) = (self.options, StopReason::DataExhausted);
         let before: usize = self.meshes.iter().map(TMesh::leaf_count).sum();
         let mut count = before;
@@ -372,16 +386,4 @@ fn is_at_corner(domain: &Domain) -> bool {
 struct Rough {
     cell: usize,
     samples: usize,
-}
-
-fn rough_cells(round: &Round, samples: &Samples, tolerance: f64) -> Vec<Rough> {
-    let is_rough = |&sample: &u32| {
-        let sample = sample as usize;
-        !(samples.error(sample, round.distances[sample]) <= tolerance)
-    };
-    let cells = (0..round.by_cell.cell_count()).map(|cell| (cell, round.by_cell.of(cell)));
-    cells
-        .filter(|(_, of_cell)| of_cell.iter().any(is_rough))
-        .map(|(cell, of_cell)| Rough { cell, samples: of_cell.len() })
-        .collect_vec()
 }
