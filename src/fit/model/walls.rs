@@ -12,6 +12,7 @@ use super::samples::Samples;
 use crate::control::Pool;
 use crate::memory::{self, ParallelCollectVec};
 use crate::mesh::{HalfEdge, Mesh};
+use crate::query::crossings::crossings;
 use crate::query::triangles::{TriangleTree, nearest_on_triangle};
 use glam::DVec3;
 use rayon::prelude::*;
@@ -29,7 +30,7 @@ const OPPOSITE: f64 = -0.5;
 /// about 14 degrees, are joined within them.
 const SURROUNDINGS: f64 = 4.0;
 
-/// What the tolerance is to be divided by at each sample: 1 away from thin walls.
+/// What the tolerance is to be divided by at each sample: 1 away from thin walls, and in meshes that cross themselves.
 pub(super) fn strictness(mesh: &Mesh, samples: &Samples, tolerance: f64, pool: &Pool) -> Vec<f64> {
     let walls = Walls { tree: &TriangleTree::watched(mesh, pool.watch()), farthest: tolerance / SHARE };
     let at = |sample: usize| {
@@ -41,11 +42,12 @@ pub(super) fn strictness(mesh: &Mesh, samples: &Samples, tolerance: f64, pool: &
     let of = |range: Range<usize>| pool.run(|| range.into_par_iter().with_min_len(256).map(at).collect_vec());
     let (nodes, all) = (samples.nodes.len(), samples.points.len());
     let mut strictness = of(0..nodes);
-    if strictness.iter().all(|&factor| factor == 1.0) {
-        memory::extend(&mut strictness, std::iter::repeat_n(1.0, all - nodes));
-    } else {
-        memory::extend(&mut strictness, of(nodes..all));
+    let has_walls = strictness.iter().any(|&factor| factor > 1.0);
+    // what crosses itself, as noise makes thin plates do, has no sides to keep apart
+    if !has_walls || crossings(mesh, pool).is_ok_and(|found| found.count > 0) {
+        return memory::filled(1.0, all);
     }
+    memory::extend(&mut strictness, of(nodes..all));
     strictness
 }
 
@@ -175,10 +177,13 @@ mod tests {
     fn each_side_of_a_thin_sheet_keeps_its_share() {
         // at most 0.02 thick, while the tolerance is 0.028
         let ball = crate::samples::ball(4000, 1).unwrap();
-        let wavy =
-            |p: &DVec3| DVec3::new(p.x, p.y, 0.01 * p.z + 0.05 * (6.0 * p.x).sin() * (5.0 * p.y).cos());
+        let wavy = |p: &DVec3| {
+            let wave = (1.0 - p.x * p.x - p.y * p.y) * (6.0 * p.x).sin() * (5.0 * p.y).cos();
+            DVec3::new(p.x, p.y, 0.01 * p.z + 0.05 * wave)
+        };
         let mesh = Mesh::new(ball.points().iter().map(wavy).collect(), ball.triangles().to_vec()).unwrap();
         let mut control = Control::new(2);
+        assert_eq!(crossings(&mesh, control.pool()).unwrap().count, 0);
         let sphere = map_to_sphere(&mesh, &SphereOptions::default(), &mut control).unwrap();
         let (layout, places) = (Layout::cube(), NodePlaces::Sphere(&sphere.points));
         let tolerance = Tolerance { value: 1e-2, ..Tolerance::default() };
