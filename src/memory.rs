@@ -11,7 +11,7 @@
 use crate::failure::{Classify, ErrorKind};
 use rayon::iter::IndexedParallelIterator;
 use std::any::Any;
-use std::collections::{BTreeSet, BinaryHeap, HashMap};
+use std::collections::{BinaryHeap, HashMap};
 use std::hash::{BuildHasher, Hash};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::Path;
@@ -111,11 +111,11 @@ pub fn extend<T>(items: &mut Vec<T>, more: impl IntoIterator<Item = T>) {
     }
 }
 
-/// A set of what an iterator yields, which is put in one by one: to collect it would sort all in an array of its own.
-pub fn set_of<T: Ord>(items: impl IntoIterator<Item = T>) -> BTreeSet<T> {
-    let mut set = BTreeSet::new();
-    set.extend(items);
-    set
+/// A tree of what an iterator yields, which is put in one by one: to collect it would sort all in an array of its own.
+pub fn tree_of<Tree: Default + Extend<T>, T>(items: impl IntoIterator<Item = T>) -> Tree {
+    let mut tree = Tree::default();
+    tree.extend(items);
+    tree
 }
 
 /// Room for a further entry; room grows twofold.

@@ -60,7 +60,7 @@ fn content(byte: u8) -> Vec<u8> {
 }
 
 #[test]
-#[ignore = "the other side of the next test"]
+#[ignore = "ends only when it is killed: a_process_that_dies_while_it_writes_leaves_a_whole_file starts and kills it"]
 fn a_process_that_writes_until_it_is_killed() {
     let Some(path) = std::env::var_os(PATH_VARIABLE) else { return };
     for byte in (b'a'..=b'z').cycle() {

@@ -98,9 +98,13 @@ impl<M: Borrow<Mesh>> TriangleTree<M> {
     }
 
     /// Calls `visit` with the triangles that may meet one with these corners: those whose leaf's box meets its box.
-    pub(crate) fn for_each_near(&self, corners: [DVec3; 3], mut visit: impl FnMut(u32)) {
+    pub(super) fn for_each_near(&self, corners: [DVec3; 3], visit: impl FnMut(u32)) {
         let [a, b, c] = corners;
-        let (min, max) = (a.min(b).min(c), a.max(b).max(c));
+        self.for_each_in_box(a.min(b).min(c), a.max(b).max(c), visit);
+    }
+
+    /// Calls `visit` with the triangles that may meet a box: those whose leaf's box does.
+    pub(crate) fn for_each_in_box(&self, min: DVec3, max: DVec3, mut visit: impl FnMut(u32)) {
         let mut stack = vec![0];
         while let Some(at) = stack.pop() {
             let Some(node) = self.nodes.get(at) else { continue };

@@ -44,15 +44,17 @@ pub(crate) fn run(arguments: &FitArguments, given: &Given) -> Result<Outcome, Fa
     check_fields(arguments, &mesh)?;
     let saved = saved_sides(arguments)?;
     if is_model {
-        let fit = model::fit(&mesh, arguments)?;
-        return model::tell(&mesh, &repairs, &fit, arguments);
+        let labels = model::labels(&mesh, arguments)?;
+        let fit = model::fit(&mesh, &labels, arguments)?;
+        return model::tell(&mesh, &repairs, &labels, &fit, arguments);
     }
     let fit = with_bar(arguments.threads, |control| fit_by_family(&mesh, arguments, &saved, control))?;
     // what is asked of one grid alone is no matter of a model
     let is_free =
         arguments.family == FamilyName::Auto && check_used(arguments, FamilyName::Model, given).is_ok();
     if is_free && let Some(better) = model::better(&mesh, arguments, &fit.report)? {
-        return model::tell(&mesh, &repairs, &better, arguments);
+        // a surface is not asked for where labels are given
+        return model::tell(&mesh, &repairs, &[], &better, arguments);
     }
     let stem = arguments.mesh.file_stem().unwrap_or_default().to_string_lossy();
     let label = Label::default();

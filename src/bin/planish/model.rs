@@ -18,9 +18,8 @@ use serde_json::json;
 use std::f64::consts::PI;
 use std::path::Path;
 
-pub(crate) fn fit(mesh: &Mesh, arguments: &FitArguments) -> Result<ModelFit, Failure> {
-    let labels = labels(mesh, arguments)?;
-    let options = options(arguments, &labels);
+pub(crate) fn fit(mesh: &Mesh, labels: &[u32], arguments: &FitArguments) -> Result<ModelFit, Failure> {
+    let options = options(arguments, labels);
     Ok(with_bar(arguments.threads, |control| fit_mesh(mesh, &options, control))?)
 }
 
@@ -38,7 +37,7 @@ pub(crate) fn better(
         (remarks.has(Remarks::TOLERANCE_NOT_MET), remarks.has(Remarks::ROUGH_BETWEEN_NODES))
     };
     // a mesh that no model can be made of has its surface
-    let fit = fit(mesh, arguments).ok();
+    let fit = fit(mesh, &[], arguments).ok();
     Ok(fit.filter(|fit| misses(fit.report.remarks) < misses(surface.remarks)))
 }
 
@@ -46,6 +45,7 @@ pub(crate) fn better(
 pub(crate) fn tell(
     mesh: &Mesh,
     repairs: &MeshRepairs,
+    labels: &[u32],
     fit: &ModelFit,
     arguments: &FitArguments,
 ) -> Result<Outcome, Failure> {
@@ -67,7 +67,7 @@ pub(crate) fn tell(
         let write = |control: &mut Control| output::write_model_report(mesh, fit, &stem, path, control);
         with_bar(arguments.threads, write)?;
     }
-    let labels = mesh.label_parts(&labels(mesh, arguments)?)?;
+    let labels = mesh.label_parts(labels)?;
     if arguments.json {
         output::print(format_args!("{}\n", json_report(arguments, mesh, repairs, fit, &labels)))?;
     } else {
@@ -77,7 +77,7 @@ pub(crate) fn tell(
 }
 
 /// The label of each triangle; none without `--labels`.
-fn labels(mesh: &Mesh, arguments: &FitArguments) -> Result<Vec<u32>, Failure> {
+pub(crate) fn labels(mesh: &Mesh, arguments: &FitArguments) -> Result<Vec<u32>, Failure> {
     let Some(name) = &arguments.labels else { return Ok(Vec::new()) };
     let path = Path::new(name);
     let (of_faces, told): (Vec<f64>, String) = if path.is_file() {

@@ -153,7 +153,7 @@ fn payloads_that_panic_when_dropped_stay_inside() {
 
 /// Panics in all places; run by the test below in a process of its own.
 #[test]
-#[ignore = "writes to stderr; run by another test"]
+#[ignore = "panics on purpose and writes to stderr: panics_inside_are_silent_and_others_are_not runs it and reads that"]
 fn panics_everywhere() {
     assert_eq!(guard(|| -> Result<(), _> { panic!("in the guard") }), planish_status::Internal);
     let nested = guard(|| {

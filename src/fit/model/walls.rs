@@ -61,8 +61,8 @@ impl Walls<'_> {
     /// The distance from a place of the mesh to the nearest facet opposite; none if none is near.
     fn thickness(&self, point: DVec3, normal: DVec3) -> Option<f64> {
         let mut opposite: Vec<(f64, u32)> = Vec::new();
-        let corners = [point - self.farthest, point + self.farthest, point];
-        self.tree.for_each_near(corners, |triangle| {
+        let reach = DVec3::splat(self.farthest);
+        self.tree.for_each_in_box(point - reach, point + reach, |triangle| {
             let corners = self.tree.corners(triangle);
             let [a, b, c] = corners;
             let faces_away = (b - a).cross(c - a).normalize_or_zero().dot(normal) < OPPOSITE;

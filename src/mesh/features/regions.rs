@@ -98,8 +98,14 @@ pub struct LabelParts {
 impl Mesh {
     /// How each label hangs together, in increasing order of the labels; one label for each triangle.
     pub fn label_parts(&self, labels: &[u32]) -> Result<Vec<LabelParts>, FeatureError> {
-        let options =
-            FeatureOptions::default().with_sharp_angle(None).with_least_length(0.0).with_labels(labels);
+        if labels.is_empty() {
+            return Ok(Vec::new());
+        }
+        let options = FeatureOptions::default()
+            .with_sharp_angle(None)
+            .with_least_length(0.0)
+            .with_filter_noise(false)
+            .with_labels(labels);
         let regions = self.find_features(&options)?.regions(self).regions;
         let mut parts: BTreeMap<u32, LabelParts> = BTreeMap::new();
         for (&label, Region { triangles, genus, .. }) in

@@ -128,9 +128,7 @@ impl PhtSurface {
             return Err(PhtError::NotFinite { index: index / length });
         }
         let vertices = topology.basis.iter().map(|&vertex| topology.vertices[vertex as usize]);
-        let jets_of_vertices = vertices.zip(jets.chunks_exact(length).map(memory::copied));
-        let mut jets = BTreeMap::new();
-        jets.extend(jets_of_vertices); // one after the other: collecting would sort them in an array of its own
+        let jets = memory::tree_of(vertices.zip(jets.chunks_exact(length).map(memory::copied)));
         let (smooth, region) = (None, Region::default());
         let surface = Self { dim, is_rational, mesh, jets, smooth, region, view: OnceLock::new() };
         surface.view.get_or_init(|| View::new(&surface, topology));

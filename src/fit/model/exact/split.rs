@@ -46,7 +46,7 @@ pub(crate) fn split(mesh: &Mesh, normals: &[DVec3], triangles: &[u32], limits: &
         return None;
     }
     for piece in region.pieces(None) {
-        let piece = memory::set_of(piece);
+        let piece = memory::tree_of(piece);
         if let Some(found) = region.plane_of(&piece, limits) {
             parts.push(region.take(piece, found));
         }
@@ -115,7 +115,7 @@ struct Region<'a> {
 
 impl<'a> Region<'a> {
     fn new(mesh: &'a Mesh, normals: &'a [DVec3], triangles: &'a [u32]) -> Self {
-        Self { mesh, normals, triangles, free: memory::set_of(triangles.iter().copied()) }
+        Self { mesh, normals, triangles, free: memory::tree_of(triangles.iter().copied()) }
     }
 
     fn is_free(&self, triangle: u32) -> bool {
@@ -152,7 +152,7 @@ impl<'a> Region<'a> {
 
     /// Some triangles with so many rings of free ones around them.
     fn rings(&self, start: &[u32], count: usize) -> BTreeSet<u32> {
-        let mut set = memory::set_of(start.iter().copied());
+        let mut set: BTreeSet<u32> = memory::tree_of(start.iter().copied());
         for _ in 0..count {
             let ring: Vec<u32> = set.iter().flat_map(|&triangle| self.beside(triangle)).collect_vec();
             set.extend(ring);
