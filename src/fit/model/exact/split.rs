@@ -273,22 +273,23 @@ impl<'a> Region<'a> {
         for (number, part) in parts.iter().enumerate() {
             part_of.extend(part.triangles.iter().map(|&triangle| (triangle, number)));
         }
-        loop {
+        let mut ring: Vec<u32> = self.free.iter().copied().collect_vec();
+        while !ring.is_empty() {
             let nearest = |&triangle: &u32| {
                 let beside = self.sides(triangle).filter_map(|other| part_of.get(&other).copied());
                 let off = |part: usize| off(self.mesh, triangle, &parts[part].found.carrier);
                 let best = beside.min_by(|&a, &b| off(a).total_cmp(&off(b)))?;
                 (off(best) <= limits.max).then_some((triangle, best))
             };
-            let given: Vec<(u32, usize)> = self.free.iter().filter_map(nearest).collect_vec();
-            if given.is_empty() {
-                break;
-            }
-            for (triangle, part) in given {
+            let given: Vec<(u32, usize)> = ring.iter().filter_map(nearest).collect_vec();
+            for &(triangle, part) in &given {
                 self.free.remove(&triangle);
                 parts[part].triangles.push(triangle);
                 part_of.insert(triangle, part);
             }
+            // only these have a part beside them that they had not before
+            let next = given.iter().flat_map(|&(triangle, _)| self.beside(triangle)).collect_vec();
+            ring = memory::tree_of::<BTreeSet<u32>, _>(next).into_iter().collect_vec();
         }
         parts.iter_mut().for_each(|part| part.triangles.sort_unstable());
     }
@@ -378,9 +379,11 @@ fn settled(mesh: &Mesh, mut parts: Vec<Part>) -> Vec<Part> {
             stack.extend(beside.into_iter().filter(|other| part_of.contains_key(other)));
         }
     }
-    for (number, part) in parts.iter_mut().enumerate() {
-        part.triangles =
-            part_of.iter().filter(|(_, of)| **of == number).map(|(&triangle, _)| triangle).collect_vec();
+    parts.iter_mut().for_each(|part| part.triangles.clear());
+    for (triangle, part) in part_of {
+        parts[part].triangles.push(triangle);
+    }
+    for part in &mut parts {
         if let Some(evidence) = Evidence::new(mesh, &part.triangles) {
             let better: Option<Carrier> = match part.found.carrier {
                 Carrier::Plane(_) => evidence.plane().map(Carrier::Plane),
