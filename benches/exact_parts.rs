@@ -3,7 +3,7 @@
 //! `cargo bench --bench exact_parts [-- count [noise [folder]]]`; the parts and their STEP files go to the folder.
 
 use planish::Control;
-use planish::control::Watch;
+use planish::control::{Pool, Watch};
 use planish::export;
 use planish::export::mesh::Encoding;
 use planish::export::step::{self, StepOptions};
@@ -131,8 +131,8 @@ fn crowd(count: u64, noise: f64, output: Option<&Path>) {
 
 /// What keeps a part from being exact.
 fn obstacle(mesh: &Mesh) -> String {
-    let fit = |watch: &Watch| fit_exact(mesh, 1e-3 * mesh.diagonal(), &FeatureOptions::default(), watch);
-    match Control::new(1).watch(|_, watch| fit(watch)).expect("nobody cancels") {
+    let fit = |pool: &Pool| fit_exact(mesh, 1e-3 * mesh.diagonal(), &FeatureOptions::default(), pool);
+    match Control::new(1).watch(|pool, _| fit(pool)).expect("nobody cancels") {
         Ok(_) => String::new(),
         Err(obstacle) => format!("; {obstacle:?}"),
     }

@@ -26,7 +26,7 @@ pub use cut::{CutError, Piece};
 pub(crate) use decimate::Quadric;
 pub use decimate::{DecimateError, DecimateOptions, DecimateReport, Decimation};
 pub use error::MeshError;
-pub(crate) use features::facet_normals;
+pub(crate) use features::FacetNormals;
 pub use features::{Chain, FeatureError, FeatureOptions, Features, LabelParts, Region, Regions, Side};
 pub(crate) use halve::Middles;
 pub use polygon::Faces;

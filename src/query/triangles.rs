@@ -103,17 +103,36 @@ impl<M: Borrow<Mesh>> TriangleTree<M> {
         self.for_each_in_box(a.min(b).min(c), a.max(b).max(c), visit);
     }
 
+    /// The triangles below each branch of the hierarchy.
+    pub(crate) fn branches(&self) -> impl Iterator<Item = &[u32]> {
+        self.nodes.iter().map(|node| self.below(node))
+    }
+
+    fn below(&self, node: &Node) -> &[u32] {
+        &self.order[node.first as usize..(node.first + node.count) as usize]
+    }
+
     /// Calls `visit` with the triangles that may meet a box: those whose leaf's box does.
-    pub(crate) fn for_each_in_box(&self, min: DVec3, max: DVec3, mut visit: impl FnMut(u32)) {
+    fn for_each_in_box(&self, min: DVec3, max: DVec3, visit: impl FnMut(u32)) {
+        self.for_each_in_box_of(|_| true, min, max, visit);
+    }
+
+    /// The same, of the branches that are wanted alone; by their number.
+    pub(crate) fn for_each_in_box_of(
+        &self,
+        is_wanted: impl Fn(usize) -> bool,
+        min: DVec3,
+        max: DVec3,
+        mut visit: impl FnMut(u32),
+    ) {
         let mut stack = vec![0];
         while let Some(at) = stack.pop() {
             let Some(node) = self.nodes.get(at) else { continue };
-            if node.min.cmpgt(max).any() || node.max.cmplt(min).any() {
+            if node.min.cmpgt(max).any() || node.max.cmplt(min).any() || !is_wanted(at) {
                 continue;
             }
             if node.second == 0 {
-                let range = node.first as usize..(node.first + node.count) as usize;
-                self.order[range].iter().for_each(|&triangle| visit(triangle));
+                self.below(node).iter().for_each(|&triangle| visit(triangle));
             } else {
                 stack.extend([at + 1, node.second as usize]);
             }
@@ -131,7 +150,7 @@ impl<M: Borrow<Mesh>> TriangleTree<M> {
             }
             let node = &self.nodes[at];
             if node.second == 0 {
-                for &triangle in &self.order[node.first as usize..(node.first + node.count) as usize] {
+                for &triangle in self.below(node) {
                     let place = nearest_on_triangle(point, self.corners(triangle));
                     let distance = place.distance(point);
                     if distance < best.distance {

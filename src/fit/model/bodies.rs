@@ -4,9 +4,10 @@ use super::error::ModelFitError;
 use super::report::mesh_volume;
 use crate::geometry::Bounds;
 use crate::memory::{self, CollectVec};
-use crate::mesh::{Mesh, Piece};
+use crate::mesh::{FacetNormals, Mesh, Piece};
 use glam::DVec3;
 use std::f64::consts::PI;
+use std::sync::OnceLock;
 
 /// A closed component, its fronts out of the material: of a solid outwards, of a void inwards.
 #[derive(Debug, Clone)]
@@ -21,6 +22,14 @@ pub(super) struct Body {
     pub void_in: Option<usize>,
     /// Whether it was turned inside out.
     pub is_turned: bool,
+    /// The normals of its facets, once they are asked for.
+    facets: OnceLock<FacetNormals>,
+}
+
+impl Body {
+    pub(super) fn facets(&self) -> &FacetNormals {
+        self.facets.get_or_init(|| FacetNormals::new(&self.mesh))
+    }
 }
 
 /// Most components: each gets a fit of its own.
@@ -73,6 +82,7 @@ pub(super) fn bodies(mesh: &Mesh) -> Result<Vec<Body>, ModelFitError> {
             triangles,
             void_in: innermost.filter(|_| is_void).map(|outer| number[outer]),
             is_turned,
+            facets: OnceLock::new(),
         })
     };
     order.iter().map(body).collect()
@@ -88,6 +98,7 @@ pub(super) fn shells(mesh: &Mesh) -> Vec<Body> {
         triangles,
         void_in: None,
         is_turned: false,
+        facets: OnceLock::new(),
     };
     parts.into_iter().zip(triangles).map(shell).collect_vec()
 }

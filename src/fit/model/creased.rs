@@ -26,7 +26,9 @@ use crate::control::Control;
 use crate::failure::{Classify, ErrorKind};
 use crate::fit::common::report::{Remarks, StopReason, Tolerance, ToleranceScale};
 use crate::layout::HalfEdge;
-use crate::layout::of_features::{FeatureLayout, FeatureLayoutOptions, VertexSource, layout_of_features};
+use crate::layout::of_features::{
+    FeatureLayout, FeatureLayoutError, FeatureLayoutOptions, VertexSource, layout_of_features,
+};
 use crate::layout::of_mesh::LayoutKind;
 use crate::linalg::Symmetric2;
 use crate::mesh::{Features, Mesh, Region, Regions, Side};
@@ -80,6 +82,8 @@ pub(super) fn over_features(
     match control.within(0.0, 0.5, |control| fit(more_planes, &fit_options, control)) {
         Ok(made) if made.misses_noise_only => Ok(Some(made)),
         Err(error) if error.kind() == ErrorKind::Cancelled => Err(error),
+        // with fewer planes that region gets patches too
+        Err(ModelFitError::Regions(error @ FeatureLayoutError::NoLayout { .. })) => Err(error.into()),
         _ => control.within(0.5, 1.0, |control| fit(planes, &options.fit, control)).map(Some),
     }
 }

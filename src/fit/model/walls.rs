@@ -5,12 +5,12 @@
 //!             | d             where that is less than the tolerance
 //! ---------------------------
 //! ```
-//! Opposite is a facet that faces the other way and is not reached over the mesh without leaving the surroundings: where
-//! two facets meet at a sharp edge there is no wall.
+//! Opposite is a facet that faces the other way but for some degrees: where two facets meet at an edge there is no wall. Nor
+//! is there where it is reached over the mesh without leaving the surroundings, as slivers that are turned over are.
 
 use super::samples::Samples;
 use crate::control::Pool;
-use crate::memory::{self, ParallelCollectVec};
+use crate::memory::{self, CollectVec, ParallelCollectVec};
 use crate::mesh::{HalfEdge, Mesh};
 use crate::query::crossings::crossings;
 use crate::query::triangles::{TriangleTree, nearest_on_triangle};
@@ -24,15 +24,16 @@ use std::ops::Range;
 const SHARE: f64 = 0.4;
 /// The tolerance is divided by so much at most; what is thinner still is told by its crossings.
 const STRICTEST: f64 = 8.0;
-/// The cosine between the normals of two sides, at most.
-const OPPOSITE: f64 = -0.5;
-/// The surroundings of a place, as a multiple of the distance to what lies opposite: facets that meet at more than asin(1/4),
-/// about 14 degrees, are joined within them.
-const SURROUNDINGS: f64 = 4.0;
+/// The cosine between the normals of two sides, at most: they are parallel to 14 degrees, or meet farther off than four times
+/// their distance.
+const OPPOSITE: f64 = -0.97;
+/// The surroundings of a place, as a multiple of the distance to what lies opposite.
+const SURROUNDINGS: f64 = 1.5;
 
 /// What the tolerance is to be divided by at each sample: 1 away from thin walls, and in meshes that cross themselves.
 pub(super) fn strictness(mesh: &Mesh, samples: &Samples, tolerance: f64, pool: &Pool) -> Vec<f64> {
-    let walls = Walls { tree: &TriangleTree::watched(mesh, pool.watch()), farthest: tolerance / SHARE };
+    let tree = TriangleTree::watched(mesh, pool.watch());
+    let walls = Walls::new(&tree, tolerance / SHARE);
     let at = |sample: usize| {
         let (point, normal) = (samples.points[sample], samples.normals[sample]);
         // a cancelled call throws its fit away
@@ -51,22 +52,51 @@ pub(super) fn strictness(mesh: &Mesh, samples: &Samples, tolerance: f64, pool: &
     strictness
 }
 
+/// The normals of some facets: all within an angle of one direction.
+struct Cone {
+    axis: DVec3,
+    angle: f64,
+}
+
+impl Cone {
+    fn of(normals: impl Iterator<Item = DVec3> + Clone) -> Self {
+        let axis = normals.clone().sum::<DVec3>().normalize_or(DVec3::Z);
+        let angle = |normal: DVec3| axis.dot(normal).clamp(-1.0, 1.0).acos();
+        Self { axis, angle: normals.map(angle).fold(0.0, f64::max) }
+    }
+
+    /// Whether some direction within it may be opposite to a normal.
+    fn may_be_opposite(&self, normal: DVec3) -> bool {
+        self.axis.dot(normal).clamp(-1.0, 1.0).acos() + self.angle + ROUNDING > OPPOSITE.acos()
+    }
+}
+
+/// What cosines lose of an angle: at most the root of twice the rounding of a number near one.
+const ROUNDING: f64 = 1e-7;
+
 struct Walls<'a> {
     tree: &'a TriangleTree<&'a Mesh>,
+    /// By branch of the tree.
+    cones: Vec<Cone>,
     /// Facets farther off do not matter.
     farthest: f64,
 }
 
-impl Walls<'_> {
+impl<'a> Walls<'a> {
+    fn new(tree: &'a TriangleTree<&'a Mesh>, farthest: f64) -> Self {
+        let normal = |&triangle: &u32| facet_normal(tree.corners(triangle));
+        let cone = |triangles: &[u32]| Cone::of(triangles.iter().map(normal));
+        Self { tree, cones: tree.branches().map(cone).collect_vec(), farthest }
+    }
+
     /// The distance from a place of the mesh to the nearest facet opposite; none if none is near.
     fn thickness(&self, point: DVec3, normal: DVec3) -> Option<f64> {
         let mut opposite: Vec<(f64, u32)> = Vec::new();
         let reach = DVec3::splat(self.farthest);
-        self.tree.for_each_in_box(point - reach, point + reach, |triangle| {
+        let may_hold_one = |branch: usize| self.cones[branch].may_be_opposite(normal);
+        self.tree.for_each_in_box_of(may_hold_one, point - reach, point + reach, |triangle| {
             let corners = self.tree.corners(triangle);
-            let [a, b, c] = corners;
-            let faces_away = (b - a).cross(c - a).normalize_or_zero().dot(normal) < OPPOSITE;
-            if faces_away {
+            if facet_normal(corners).dot(normal) < OPPOSITE {
                 let distance = nearest_on_triangle(point, corners).distance(point);
                 if distance < self.farthest {
                     opposite.push((distance, triangle));
@@ -86,6 +116,10 @@ impl Walls<'_> {
         }
         None
     }
+}
+
+fn facet_normal([a, b, c]: [DVec3; 3]) -> DVec3 {
+    (b - a).cross(c - a).normalize_or_zero()
 }
 
 /// The facets that are reached over a mesh from a place of it without leaving a ball around it, as the ball grows.
@@ -170,7 +204,7 @@ mod tests {
     fn thickness(mesh: &Mesh, x: f64, farthest: f64) -> Option<f64> {
         let tree = TriangleTree::new(mesh);
         // the lower strip is wound to face down
-        Walls { tree: &tree, farthest }.thickness(DVec3::new(x, 0.1, 0.0), DVec3::NEG_Z)
+        Walls::new(&tree, farthest).thickness(DVec3::new(x, 0.1, 0.0), DVec3::NEG_Z)
     }
 
     #[test]

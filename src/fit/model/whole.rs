@@ -251,7 +251,8 @@ fn exact_parts(
     for body in bodies {
         let (labels, sharp_edges) = of_body(&options.features, body);
         let features = FeatureOptions { labels: &labels, sharp_edges: &sharp_edges, ..options.features };
-        match control.watch(|_, watch| exact::fit_exact(&body.mesh, tolerance, &features, watch))? {
+        let part = (&body.mesh, body.facets());
+        match control.watch(|pool, _| exact::fit_exact_by(part, tolerance, &features, pool))? {
             Ok(fit) => fits.push(fit),
             Err(Obstacle::Features(error)) => return Err(error.into()),
             Err(Obstacle::Cancelled(cancelled)) => return Err(cancelled.into()),
@@ -336,16 +337,16 @@ fn creased(
     control: &mut Control,
 ) -> Result<Option<Component>, ModelFitError> {
     let (labels, sharp_edges) = of_body(&options.features, body);
-    let find = |find_blunt: bool| {
+    let mut find = |find_blunt: bool| {
         let features =
             FeatureOptions { labels: &labels, sharp_edges: &sharp_edges, find_blunt, ..options.features };
-        body.mesh.find_features(&features)
+        control.watch(|pool, _| body.mesh.find_features_by(body.facets(), &features, pool))
     };
-    let (sharp, all) = (find(false)?, find(options.features.find_blunt)?);
+    let (sharp, all) = (find(false)??, find(options.features.find_blunt)??);
     let fit = |features: &Features, control: &mut Control| {
         over_features(body, (features, &labels), options, control)
     };
-    if sharp == all {
+    if (&sharp.chains, &sharp.corners) == (&all.chains, &all.corners) {
         return fit(&sharp, control);
     }
     let over_sharp = match control.within(0.0, 0.5, |control| fit(&sharp, control)) {

@@ -19,6 +19,7 @@ mod tests;
 
 use super::decimate::{half_edges, normal};
 use super::{HalfEdge, Mesh};
+use crate::control::Pool;
 use crate::failure::{Classify, ErrorKind};
 use crate::memory::CollectVec;
 use crate::options::with_fields;
@@ -28,6 +29,7 @@ pub use regions::{LabelParts, Region, Regions, Side};
 use ridges::Facets;
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
+use std::sync::OnceLock;
 
 /// How features are found. Angles are in radians.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -211,15 +213,26 @@ const NOISY_REACH: usize = 3;
 impl Mesh {
     /// Finds edges where the surface is not smooth.
     pub fn find_features(&self, options: &FeatureOptions) -> Result<Features, FeatureError> {
-        options.check(self)?;
-        Ok(self.at_safe_scale().0.features(options))
+        let pool = Pool::new(1);
+        self.find_features_by(&FacetNormals::new(self), options, &pool)
     }
 
-    fn features(&self, options: &FeatureOptions) -> Features {
-        let noise = noise::estimate(self);
+    /// The same by normals that are found once for several searches.
+    pub(crate) fn find_features_by(
+        &self,
+        facets: &FacetNormals,
+        options: &FeatureOptions,
+        pool: &Pool,
+    ) -> Result<Features, FeatureError> {
+        options.check(self)?;
+        Ok(self.at_safe_scale().0.features(facets, options, pool))
+    }
+
+    fn features(&self, facets: &FacetNormals, options: &FeatureOptions, pool: &Pool) -> Features {
+        let noise = facets.noise;
         let is_noisy = options.filter_noise && noise > noise::WORTH_FILTERING;
-        let normals = facet_normals(self, is_noisy);
-        let turns = turns(self, &normals);
+        let normals = facets.get(self, is_noisy, pool);
+        let turns = turns(self, normals);
         let kept = given_edges(self, &turns, options);
         let sharp_angle = options.sharp_angle.unwrap_or(PI);
         let is_sharp = |edge: HalfEdge| turns[edge.index()] > sharp_angle;
@@ -229,7 +242,7 @@ impl Mesh {
             prolonged_count += net.prolong(&turns, options.weak_angle);
         }
         if options.find_blunt && options.sharp_angle.is_some() && options.weak_angle < PI {
-            let facets = Facets { mesh: self, normals: &normals, turns: &turns, sharp_angle };
+            let facets = Facets { mesh: self, normals, turns: &turns, sharp_angle };
             net.add(|edge| {
                 turns[edge.index()] > options.weak_angle && facets.ratio(edge) > ridges::LEAST_RATIO
             });
@@ -257,10 +270,29 @@ impl Mesh {
     }
 }
 
-/// The normal of each facet, without noise.
-pub(crate) fn facet_normals(mesh: &Mesh, is_noisy: bool) -> Vec<DVec3> {
-    let normals = mesh.triangles().iter().map(|t| normal(mesh.points(), t).normalize_or_zero()).collect_vec();
-    if is_noisy { noise::filtered(mesh, normals) } else { normals }
+/// The normals of a mesh's facets, as they are and without noise, for all that is asked of the mesh.
+#[derive(Debug, Clone)]
+pub(crate) struct FacetNormals {
+    plain: Vec<DVec3>,
+    filtered: OnceLock<Vec<DVec3>>,
+    /// See [`Features::noise`].
+    noise: f64,
+}
+
+impl FacetNormals {
+    pub(crate) fn new(mesh: &Mesh) -> Self {
+        let (mesh, _) = mesh.at_safe_scale();
+        let of_facet = |t: &[u32; 3]| normal(mesh.points(), t).normalize_or_zero();
+        let plain = mesh.triangles().iter().map(of_facet).collect_vec();
+        Self { plain, filtered: OnceLock::new(), noise: noise::estimate(&mesh) }
+    }
+
+    /// One for each facet of the same mesh, without noise if it is noisy.
+    pub(crate) fn get(&self, mesh: &Mesh, is_noisy: bool, pool: &Pool) -> &[DVec3] {
+        let filtered =
+            || noise::filtered(&mesh.at_safe_scale().0, self.plain.iter().copied().collect_vec(), pool);
+        if is_noisy { self.filtered.get_or_init(filtered) } else { &self.plain }
+    }
 }
 
 /// By half-edge: the angle by which the facets at it turn; 0 at the border and where one has no area.

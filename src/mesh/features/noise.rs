@@ -10,8 +10,10 @@
 
 use super::super::Mesh;
 use super::super::decimate::normal;
-use crate::memory::CollectVec;
+use crate::control::Pool;
+use crate::memory::{self, CollectVec, ParallelCollectVec};
 use glam::DVec3;
+use rayon::prelude::*;
 
 /// Noise above which normals are filtered, by mean edge length: below it angles are right within a few degrees.
 pub(super) const WORTH_FILTERING: f64 = 0.02;
@@ -71,40 +73,60 @@ fn mean_edge_length(mesh: &Mesh) -> f64 {
     sum / (3 * mesh.triangles().len()) as f64
 }
 
-/// Normals of the facets without noise; those of facets without area stay zero.
-pub(super) fn filtered(mesh: &Mesh, mut normals: Vec<DVec3>) -> Vec<DVec3> {
+/// Normals of the facets without noise; those of facets without area stay zero. A cancelled call gets those that it has.
+pub(super) fn filtered(mesh: &Mesh, mut normals: Vec<DVec3>, pool: &Pool) -> Vec<DVec3> {
     let triangles = mesh.triangles();
     let centroid = |t: &[u32; 3]| t.iter().map(|&node| mesh.points()[node as usize]).sum::<DVec3>() / 3.0;
     let centroids: Vec<DVec3> = triangles.iter().map(centroid).collect_vec();
     let areas: Vec<f64> = triangles.iter().map(|t| normal(mesh.points(), t).length()).collect_vec();
-    let around: Vec<Vec<u32>> = triangles
-        .iter()
-        .map(|t| {
-            let mut facets: Vec<u32> = t
-                .iter()
-                .flat_map(|&node| mesh.outgoing(node))
-                .map(|edge| edge.triangle() as u32)
-                .collect_vec();
-            facets.sort_unstable();
-            facets.dedup();
-            facets
-        })
-        .collect_vec();
+    let around = Around::new(mesh);
     let distance = |i: usize, j: u32| centroids[i].distance(centroids[j as usize]);
-    let (count, sum) = around.iter().enumerate().fold((0, 0.0), |(count, sum), (i, facets)| {
-        (count + facets.len(), sum + facets.iter().map(|&j| distance(i, j)).sum::<f64>())
-    });
-    let spread_sq = (sum / count as f64).powi(2);
+    let of_facet = |i: usize| around.of(i).iter().map(|&j| distance(i, j)).sum::<f64>();
+    let sum: f64 = (0..triangles.len()).map(of_facet).sum();
+    let spread_sq = (sum / around.facets.len() as f64).powi(2);
     for _ in 0..SWEEPS {
-        let mean = |(i, facets): (usize, &Vec<u32>)| {
-            let weighted = facets.iter().map(|&j| {
+        let mean = |i: usize| {
+            let weighted = around.of(i).iter().map(|&j| {
                 let far = distance(i, j).powi(2) / (2.0 * spread_sq);
                 let turned = normals[i].distance_squared(normals[j as usize]) / (2.0 * NORMAL_SPREAD.powi(2));
                 areas[j as usize] * (-far - turned).exp() * normals[j as usize]
             });
             weighted.sum::<DVec3>().normalize_or_zero()
         };
-        normals = around.iter().enumerate().map(mean).collect_vec();
+        if pool.check().is_err() {
+            break;
+        }
+        normals =
+            pool.run(|| (0..triangles.len()).into_par_iter().with_min_len(1024).map(mean).collect_vec());
     }
     normals
+}
+
+/// The facets around the corners of each, itself among them.
+struct Around {
+    facets: Vec<u32>,
+    /// Where those of each begin, and at last where those of the last end.
+    starts: Vec<usize>,
+}
+
+impl Around {
+    fn new(mesh: &Mesh) -> Self {
+        let (mut facets, mut starts, mut own) = (Vec::new(), Vec::new(), Vec::new());
+        for triangle in mesh.triangles() {
+            own.clear();
+            own.extend(
+                triangle.iter().flat_map(|&node| mesh.outgoing(node)).map(|edge| edge.triangle() as u32),
+            );
+            own.sort_unstable();
+            own.dedup();
+            memory::push(&mut starts, facets.len());
+            memory::extend(&mut facets, own.iter().copied());
+        }
+        memory::push(&mut starts, facets.len());
+        Self { facets, starts }
+    }
+
+    fn of(&self, facet: usize) -> &[u32] {
+        &self.facets[self.starts[facet]..self.starts[facet + 1]]
+    }
 }

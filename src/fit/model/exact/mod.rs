@@ -23,14 +23,14 @@ pub use evidence::Limits;
 pub use recognize::{Recognized, recognize};
 
 use super::ModelReport;
-use crate::control::{Cancelled, Watch};
+use crate::control::{Cancelled, Pool, Watch};
 use crate::memory;
-use crate::mesh::{FeatureOptions, Features, Mesh, Region, Regions, facet_normals};
+use crate::mesh::{FacetNormals, FeatureOptions, Features, Mesh, Region, Regions};
 use crate::model::{Builder, Carrier, FaceId, Model, ModelError, Role};
 use draft::{Draft, Scale};
 use glam::{DVec2, DVec3};
 use recognize::recognize_region;
-use split::{Part, split, split_at_blunt_edges, split_into_planes};
+use split::{Part, Splitting};
 use std::f64::consts::PI;
 use std::time::Instant;
 
@@ -93,19 +93,30 @@ pub fn fit_exact(
     mesh: &Mesh,
     tolerance: f64,
     features: &FeatureOptions,
-    watch: &Watch,
+    pool: &Pool,
+) -> Result<ExactFit, Obstacle> {
+    fit_exact_by((mesh, &FacetNormals::new(mesh)), tolerance, features, pool)
+}
+
+/// The same by normals that are found once for several fits.
+pub(super) fn fit_exact_by(
+    (mesh, facets): (&Mesh, &FacetNormals),
+    tolerance: f64,
+    features: &FeatureOptions,
+    pool: &Pool,
 ) -> Result<ExactFit, Obstacle> {
     let start = Instant::now();
-    let found = mesh.find_features(features).map_err(Obstacle::Features)?;
+    let found = mesh.find_features_by(facets, features, pool).map_err(Obstacle::Features)?;
     let scale = Scale { tolerance, noise: 0.0, diagonal: mesh.diagonal() };
-    let mut fit = fit_segments(mesh, &found, &scale, features, watch);
+    let fit_at = |scale: &Scale| fit_segments((mesh, facets), &found, scale, features, pool);
+    let mut fit = fit_at(&scale);
     // on coarse round walls the estimate finds noise where there is none, and over all nodes also beside edges
     let estimates = [found.regions(mesh).noise(mesh), found.noise].map(|noise| noise * mean_edge(mesh));
     for noise in estimates.into_iter().filter(|noise| *noise > 0.0) {
         if matches!(&fit, Ok(_) | Err(Obstacle::Cancelled(_))) {
             break;
         }
-        fit = fit_segments(mesh, &found, &Scale { noise, ..scale }, features, watch);
+        fit = fit_at(&Scale { noise, ..scale });
     }
     let mut fit = fit?;
     fit.report.fit_seconds = start.elapsed().as_secs_f64();
@@ -114,14 +125,14 @@ pub fn fit_exact(
 
 /// With noise of the given size.
 fn fit_segments(
-    mesh: &Mesh,
+    (mesh, facets): (&Mesh, &FacetNormals),
     found: &Features,
     scale: &Scale,
     options: &FeatureOptions,
-    watch: &Watch,
+    pool: &Pool,
 ) -> Result<ExactFit, Obstacle> {
-    let labels = options.labels;
-    let Segmented { features, regions, found } = segment(mesh, found, scale, options)?;
+    let (labels, watch) = (options.labels, pool.watch());
+    let Segmented { features, regions, found } = segment((mesh, facets), found, scale, options, pool)?;
     watch.check()?;
     let draft = Draft::new(mesh, &features, &regions, &found, labels, scale)?;
     let role = if mesh.loops().is_empty() { Role::Solid } else { Role::Open };
@@ -159,14 +170,15 @@ struct Segmented {
 }
 
 fn segment(
-    mesh: &Mesh,
+    (mesh, facets): (&Mesh, &FacetNormals),
     features: &Features,
     scale: &Scale,
     options: &FeatureOptions,
+    pool: &Pool,
 ) -> Result<Segmented, Obstacle> {
     let limits = Limits::new(scale.tolerance, scale.noise);
-    let normals = facet_normals(mesh, scale.noise > 0.0);
-    let parts = parts(mesh, &normals, &features.regions(mesh), &limits)?;
+    let normals = facets.get(mesh, scale.noise > 0.0, pool);
+    let parts = parts(mesh, normals, &features.regions(mesh), &limits, pool.watch())?;
     let mut parts = merge(mesh, parts, &limits);
     relations::align(&mut parts, scale.diagonal);
     let mut part_of = memory::filled(0, mesh.triangles().len());
@@ -184,7 +196,7 @@ fn segment(
         sharp_edges: &[],
         ..*options
     };
-    let features = mesh.find_features(&options).map_err(Obstacle::Features)?;
+    let features = mesh.find_features_by(facets, &options, pool).map_err(Obstacle::Features)?;
     let regions = features.regions(mesh);
     let of_region = |region: &Region| parts[part_of[region.triangles[0] as usize] as usize].found.clone();
     let mut found: Vec<Recognized> = regions.regions.iter().map(of_region).collect();
@@ -193,15 +205,25 @@ fn segment(
 }
 
 /// Regions with their carriers; a smooth region of several carriers in parts.
-fn parts(mesh: &Mesh, normals: &[DVec3], regions: &Regions, limits: &Limits) -> Result<Vec<Part>, Obstacle> {
+fn parts(
+    mesh: &Mesh,
+    normals: &[DVec3],
+    regions: &Regions,
+    limits: &Limits,
+    watch: &Watch,
+) -> Result<Vec<Part>, Obstacle> {
     let mut parts = Vec::new();
     for (region, of) in regions.regions.iter().enumerate() {
+        watch.check()?;
         match recognize_region(mesh, &of.triangles, limits) {
             Some(found) => parts.push(Part { triangles: of.triangles.clone(), found }),
             None => {
-                let found = split(mesh, normals, &of.triangles, limits)
-                    .or_else(|| split_at_blunt_edges(mesh, normals, &of.triangles, limits))
-                    .or_else(|| split_into_planes(mesh, normals, &of.triangles, limits));
+                let splitting = Splitting { mesh, normals, limits, watch };
+                let found = splitting
+                    .split(&of.triangles)
+                    .or_else(|| splitting.split_at_blunt_edges(&of.triangles))
+                    .or_else(|| splitting.split_into_planes(&of.triangles));
+                watch.check()?;
                 parts.extend(found.ok_or(Obstacle::Region { region })?);
             }
         }

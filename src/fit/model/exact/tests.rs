@@ -1,12 +1,11 @@
 use super::*;
-use crate::control::Control;
-use crate::control::Watch;
+use crate::control::{Control, Watch};
 use crate::mesh::Mesh;
 use crate::samples::machine::{self, Part};
 
 fn fit(mesh: &Mesh, tolerance: f64) -> Result<ExactFit, Obstacle> {
     let absolute = tolerance * mesh.diagonal();
-    Control::new(1).watch(|_, watch| fit_exact(mesh, absolute, &FeatureOptions::default(), watch)).unwrap()
+    Control::new(1).watch(|pool, _| fit_exact(mesh, absolute, &FeatureOptions::default(), pool)).unwrap()
 }
 
 fn parts() -> Vec<(&'static str, Part)> {
@@ -65,7 +64,7 @@ fn labels_part_faces_and_name_them() {
     let labels: Vec<u32> =
         mesh.triangles().iter().map(|t| if middle(t).z > 1.0 - 1e-9 { 7 } else { 9 }).collect();
     let options = FeatureOptions::default().with_labels(&labels);
-    let fit = Control::new(1).watch(|_, watch| fit_exact(&mesh, 1e-3, &options, watch)).unwrap().unwrap();
+    let fit = Control::new(1).watch(|pool, _| fit_exact(&mesh, 1e-3, &options, pool)).unwrap().unwrap();
     let count = |label: u32| fit.model.faces().iter().filter(|face| face.label == label).count();
     assert_eq!((count(7), count(9)), (1, 6));
     // nodes of the top's inside lie on the face with its label
