@@ -3,7 +3,6 @@
 //!
 //! `cargo bench --bench models_robustness [-- count [tolerance [folder]]]`; the meshes and their STEP files go to the folder.
 
-use glam::DVec3;
 use planish::Control;
 use planish::control::Watch;
 use planish::export;
@@ -11,9 +10,8 @@ use planish::export::mesh::Encoding;
 use planish::export::step::{self, StepOptions};
 use planish::fit::model::{MeshModelOptions, ModelOptions, fit_mesh};
 use planish::fit::report::{Remarks, Tolerance};
-use planish::mesh::{Format, Mesh};
-use planish::samples::Random;
-use planish::samples::closed::{block, with_noise};
+use planish::mesh::Format;
+use planish::samples::closed::seeded_block;
 use std::path::Path;
 use std::time::Instant;
 
@@ -33,7 +31,7 @@ fn run(count: u64, tolerance: f64, output: Option<&Path>) {
     let start = Instant::now();
     let (mut met, mut missed, mut refused, mut folded, mut nodes) = (0, 0, 0, 0, 0);
     for seed in 0..count {
-        let (name, mesh) = closed(seed);
+        let (name, mesh) = seeded_block(seed).expect("a block is a mesh");
         nodes += mesh.points().len();
         let fit =
             ModelOptions::default().with_tolerance(Tolerance { value: tolerance, ..Tolerance::default() });
@@ -84,28 +82,4 @@ fn run(count: u64, tolerance: f64, output: Option<&Path>) {
          folds; {:.1} s",
         start.elapsed().as_secs_f64()
     );
-}
-
-fn closed(seed: u64) -> (String, Mesh) {
-    let mut random = Random::new(seed);
-    let holes = (random.unit() * 7.0) as usize;
-    let fineness = 2 + (random.unit() * 6.0 / (1.0 + holes as f64).sqrt()) as u32;
-    let mesh = block(holes, fineness.max(3), 2 + (random.unit() * 8.0) as usize).expect("a block is a mesh");
-    // thin plates and limbs: one direction shorter, or a bend that draws one end out
-    let flat = [1.0, 0.3, 0.1][(random.unit() * 3.0) as usize];
-    let limb = random.unit();
-    let size = mesh.points().iter().fold(0.0, |size: f64, p| size.max(p.x));
-    let moved = |p: &DVec3| {
-        let along = p.x / size;
-        DVec3::new(
-            p.x * (1.0 + 2.0 * limb * along),
-            p.y * (1.0 - 0.5 * limb * along),
-            flat * p.z + 0.3 * along * along,
-        )
-    };
-    let points = mesh.points().iter().map(moved).collect();
-    let mesh = Mesh::new(points, mesh.triangles().to_vec()).expect("the same triangles");
-    let noise = 0.2 * random.unit();
-    let mesh = with_noise(&mesh, noise, seed).expect("the same triangles");
-    (format!("genus {holes}, flat {flat}, limb {limb:.2}, noise {noise:.2}"), mesh)
 }

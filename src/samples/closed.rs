@@ -37,6 +37,30 @@ pub fn block(holes: usize, fineness: u32, rounding: usize) -> Result<Mesh, MeshE
     Mesh::new(points, triangles)
 }
 
+/// A block of up to six holes, its number of nodes, thickness, a limb at one end and noise by its seed, and words for them.
+pub fn seeded_block(seed: u64) -> Result<(String, Mesh), MeshError> {
+    let mut random = Random::new(seed);
+    let holes = (random.unit() * 7.0) as usize;
+    let fineness = 2 + (random.unit() * 6.0 / (1.0 + holes as f64).sqrt()) as u32;
+    let mesh = block(holes, fineness.max(3), 2 + (random.unit() * 8.0) as usize)?;
+    // thin plates and limbs: one direction shorter, or a bend that draws one end out
+    let flat = [1.0, 0.3, 0.1][(random.unit() * 3.0) as usize];
+    let limb = random.unit();
+    let size = mesh.points().iter().fold(0.0, |size: f64, p| size.max(p.x));
+    let moved = |p: &DVec3| {
+        let along = p.x / size;
+        DVec3::new(
+            p.x * (1.0 + 2.0 * limb * along),
+            p.y * (1.0 - 0.5 * limb * along),
+            flat * p.z + 0.3 * along * along,
+        )
+    };
+    let mesh = Mesh::new(mesh.points().iter().map(moved).collect(), mesh.triangles().to_vec())?;
+    let noise = 0.2 * random.unit();
+    let words = format!("genus {holes}, flat {flat}, limb {limb:.2}, noise {noise:.2}");
+    Ok((words, with_noise(&mesh, noise, seed)?))
+}
+
 /// The same mesh with its nodes moved along the normals by normally distributed steps, in parts of the mean edge length.
 pub fn with_noise(mesh: &Mesh, deviation: f64, seed: u64) -> Result<Mesh, MeshError> {
     let mut normals = vec![DVec3::ZERO; mesh.points().len()];

@@ -318,7 +318,10 @@ fn component(
     match control.within(0.0, 0.5, |control| creased(body, options, control)) {
         Ok(None) if is_open => Err(open_body(body)),
         Ok(Some(made)) if is_open || is_done(&made) => Ok(made),
-        Err(error) if is_open || error.kind() == ErrorKind::Cancelled => Err(error),
+        Err(error) if error.kind() == ErrorKind::Cancelled => Err(error),
+        Err(error) if is_open => {
+            control.within(0.5, 1.0, |control| over_borders(body, options, error, control))
+        }
         creased => match (creased, control.within(0.5, 1.0, |control| smooth(body, options, control))) {
             (Ok(Some(made)), Ok(rounded)) if is_better(&made.report.fit, &rounded.report.fit) => Ok(made),
             (Ok(Some(made)), Err(error)) if error.kind() != ErrorKind::Cancelled => Ok(made),
@@ -366,6 +369,45 @@ fn creased(
         (sharp, all) => all.or(sharp),
     })
 }
+
+/// An open body where its features let no layout be had: over its borders and what is marked alone, with corners only where
+/// these turn by much. `refused` says why the features do not serve.
+fn over_borders(
+    body: &Body,
+    options: &MeshModelOptions,
+    refused: ModelFitError,
+    control: &mut Control,
+) -> Result<Component, ModelFitError> {
+    let (labels, sharp_edges) = of_body(&options.features, body);
+    for (rank, corner_angle) in BORDER_CORNERS.into_iter().enumerate() {
+        let features = FeatureOptions {
+            labels: &labels,
+            sharp_edges: &sharp_edges,
+            sharp_angle: None,
+            corner_angle,
+            ..options.features
+        };
+        let [from, to] = [rank, rank + 1].map(|k| k as f64 / BORDER_CORNERS.len() as f64);
+        let made = control.within(from, to, |control| {
+            let features =
+                control.watch(|pool, _| body.mesh.find_features_by(body.facets(), &features, pool))??;
+            over_features(body, (&features, &labels), options, control)
+        });
+        match made {
+            Ok(Some(mut made)) => {
+                made.report.rounds_edges = true;
+                return Ok(made);
+            }
+            Err(error) if error.kind() == ErrorKind::Cancelled => return Err(error),
+            _ => {}
+        }
+    }
+    Err(refused)
+}
+
+/// Where borders turn by more they have corners if all their features let no layout be had, one after the other: 57 degrees
+/// leaves the corners of holes that are cut, 86 the sharpest of them, and the last none.
+const BORDER_CORNERS: [f64; 3] = [1.0, 1.5, PI];
 
 fn open_body(body: &Body) -> ModelFitError {
     let loops = body.mesh.loops();
@@ -540,5 +582,32 @@ fn of_chart(fit: &FitReport) -> ModelReport {
         remarks: fit.remarks,
         fit_seconds: fit.seconds - fit.parameterize_seconds,
         ..ModelReport::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+
+    #[test]
+    fn ragged_borders_serve_where_features_do_not() {
+        let ball = crate::samples::ball(3000, 1).unwrap();
+        let is_kept = |triangle: &&[u32; 3]| {
+            let middle = triangle.iter().map(|&node| ball.points()[node as usize]).sum::<DVec3>() / 3.0;
+            let holes = [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::Z];
+            holes.iter().all(|hole| middle.distance(*hole) > 0.4)
+        };
+        let triangles: Vec<[u32; 3]> = ball.triangles().iter().filter(is_kept).copied().collect();
+        let mesh = Mesh::new(ball.points().to_vec(), triangles).unwrap();
+        assert_eq!(mesh.loops().len(), 4);
+        let [body] = &bodies::shells(&mesh)[..] else { panic!("one piece") };
+        let tolerance = Tolerance { value: 1e-2, ..Tolerance::default() };
+        let fit = super::super::ModelOptions::default().with_tolerance(tolerance);
+        let options = MeshModelOptions { fit, ..MeshModelOptions::default() };
+        let made = over_borders(body, &options, open_body(body), &mut Control::new(2)).unwrap();
+        assert!(made.report.rounds_edges && made.report.fold_count == 0, "{:?}", made.report);
+        let tolerance = made.report.fit.tolerance;
+        assert!(tolerance > 0.0 && made.errors.iter().all(|error| !(*error > tolerance)));
     }
 }

@@ -45,6 +45,9 @@ const CHUNK: usize = 64;
 const SERIAL: usize = 256;
 /// Shortest step of a repair.
 const LEAST_STEP: f64 = 1e-7;
+/// What a step of it has to gain, as a part of its length times that of the first: along a ridge it would go on by what rounding
+/// gains, without end.
+const WORTH_A_STEP: f64 = 1e-3;
 
 /// How good a map is.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -345,11 +348,13 @@ fn unfolded(star: &Star, start: DVec2, accepts: impl Fn(DVec3) -> bool) -> Optio
             return Some(middle);
         }
     }
-    let mut step = star.corners().map(|corner| corner.distance(best)).fold(0.0, f64::max);
+    let first = star.corners().map(|corner| corner.distance(best)).fold(0.0, f64::max);
+    let mut step = first;
     while step > LEAST_STEP {
         let around = (0..8).map(|k| best + step * DVec2::from_angle(f64::from(k) * FRAC_PI_4).extend(0.0));
         let better = around.map(|point| (point, star.least_det(point)));
-        let better = better.filter(|&(point, det)| det > least && accepts(point));
+        let better =
+            better.filter(|&(point, det)| det > least + WORTH_A_STEP * step * first && accepts(point));
         match better.max_by(|a, b| a.1.total_cmp(&b.1)) {
             Some(better) => (best, least) = better,
             None => step *= 0.5,

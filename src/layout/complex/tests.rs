@@ -54,6 +54,14 @@ fn every_genus_has_a_layout() {
     }
 }
 
+/// Around some nodes of this mesh the least determinant has a ridge along which it grows by rounding alone.
+#[test]
+fn the_search_for_a_place_without_folds_ends() {
+    let (_, mesh) = samples::closed::seeded_block(85).unwrap();
+    let made = complex(&mesh, 40);
+    assert_eq!(made.layout.euler_characteristic(), mesh.euler_characteristic());
+}
+
 #[test]
 fn limbs_lose_their_doublets() {
     let mesh = samples::starfish(4000, 6).unwrap();
