@@ -92,17 +92,53 @@ fn open(mesh: &Mesh, options: &MeshModelOptions, control: &mut Control) -> Resul
         return chart(mesh, options, control);
     }
     options.fit.check(1)?;
-    let creased = control.within(0.0, 0.5, |control| shells(mesh, bodies::shells(mesh), options, control));
     let is_cancelled = |error: &ModelFitError| error.kind() == ErrorKind::Cancelled;
-    match creased {
-        Ok(fit) if is_good(&fit.report) => Ok(fit),
-        Err(error) if is_cancelled(&error) => Err(error),
-        creased => match (creased, control.within(0.5, 1.0, |control| chart(mesh, options, control))) {
-            (Ok(creased), Ok(chart)) if is_better(&creased.report, &chart.report) => Ok(creased),
-            (Ok(creased), Err(error)) if !is_cancelled(&error) => Ok(creased),
-            (_, chart) => chart,
-        },
+    let creased = control.within(0.0, 0.4, |control| shells(mesh, bodies::shells(mesh), options, control));
+    let creased = match creased {
+        Ok(fit) if is_good(&fit.report) => return Ok(fit),
+        Err(error) if is_cancelled(&error) => return Err(error),
+        creased => creased,
+    };
+    let chart = match control.within(0.4, 0.6, |control| chart(mesh, options, control)) {
+        Ok(fit) if is_good(&fit.report) => return Ok(fit),
+        Err(error) if is_cancelled(&error) => return Err(error),
+        chart => chart,
+    };
+    let over_borders = match creased {
+        Ok(_) => None,
+        Err(_) => control.within(0.6, 1.0, |control| over_borders(mesh, options, control))?,
+    };
+    [creased.ok(), over_borders].into_iter().flatten().fold(chart, |best, fit| match best {
+        Ok(best) if !is_better(&fit.report, &best.report) => Ok(best),
+        _ => Ok(fit),
+    })
+}
+
+/// Where borders turn by more they have corners if all their features let no layout be had, one after the other: 57 degrees
+/// leaves the corners of holes that are cut, 86 the sharpest of them, and the last none.
+const BORDER_CORNERS: [f64; 3] = [1.0, 1.5, PI];
+
+/// An open mesh over its borders and what is marked alone, with corners only where these turn by much; none where that lets no
+/// layout be had either.
+fn over_borders(
+    mesh: &Mesh,
+    options: &MeshModelOptions,
+    control: &mut Control,
+) -> Result<Option<ModelFit>, ModelFitError> {
+    for (rank, corner_angle) in BORDER_CORNERS.into_iter().enumerate() {
+        let features = FeatureOptions { sharp_angle: None, corner_angle, ..options.features };
+        let options = MeshModelOptions { features, ..*options };
+        let [from, to] = [rank, rank + 1].map(|k| k as f64 / BORDER_CORNERS.len() as f64);
+        match control.within(from, to, |control| shells(mesh, bodies::shells(mesh), &options, control)) {
+            Ok(mut fit) => {
+                fit.components.iter_mut().for_each(|component| component.rounds_edges = true);
+                return Ok(Some(fit));
+            }
+            Err(error) if error.kind() == ErrorKind::Cancelled => return Err(error),
+            Err(_) => {}
+        }
     }
+    Ok(None)
 }
 
 /// Whether edges may stay sharp.
@@ -318,10 +354,7 @@ fn component(
     match control.within(0.0, 0.5, |control| creased(body, options, control)) {
         Ok(None) if is_open => Err(open_body(body)),
         Ok(Some(made)) if is_open || is_done(&made) => Ok(made),
-        Err(error) if error.kind() == ErrorKind::Cancelled => Err(error),
-        Err(error) if is_open => {
-            control.within(0.5, 1.0, |control| over_borders(body, options, error, control))
-        }
+        Err(error) if is_open || error.kind() == ErrorKind::Cancelled => Err(error),
         creased => match (creased, control.within(0.5, 1.0, |control| smooth(body, options, control))) {
             (Ok(Some(made)), Ok(rounded)) if is_better(&made.report.fit, &rounded.report.fit) => Ok(made),
             (Ok(Some(made)), Err(error)) if error.kind() != ErrorKind::Cancelled => Ok(made),
@@ -369,45 +402,6 @@ fn creased(
         (sharp, all) => all.or(sharp),
     })
 }
-
-/// An open body where its features let no layout be had: over its borders and what is marked alone, with corners only where
-/// these turn by much. `refused` says why the features do not serve.
-fn over_borders(
-    body: &Body,
-    options: &MeshModelOptions,
-    refused: ModelFitError,
-    control: &mut Control,
-) -> Result<Component, ModelFitError> {
-    let (labels, sharp_edges) = of_body(&options.features, body);
-    for (rank, corner_angle) in BORDER_CORNERS.into_iter().enumerate() {
-        let features = FeatureOptions {
-            labels: &labels,
-            sharp_edges: &sharp_edges,
-            sharp_angle: None,
-            corner_angle,
-            ..options.features
-        };
-        let [from, to] = [rank, rank + 1].map(|k| k as f64 / BORDER_CORNERS.len() as f64);
-        let made = control.within(from, to, |control| {
-            let features =
-                control.watch(|pool, _| body.mesh.find_features_by(body.facets(), &features, pool))??;
-            over_features(body, (&features, &labels), options, control)
-        });
-        match made {
-            Ok(Some(mut made)) => {
-                made.report.rounds_edges = true;
-                return Ok(made);
-            }
-            Err(error) if error.kind() == ErrorKind::Cancelled => return Err(error),
-            _ => {}
-        }
-    }
-    Err(refused)
-}
-
-/// Where borders turn by more they have corners if all their features let no layout be had, one after the other: 57 degrees
-/// leaves the corners of holes that are cut, 86 the sharpest of them, and the last none.
-const BORDER_CORNERS: [f64; 3] = [1.0, 1.5, PI];
 
 fn open_body(body: &Body) -> ModelFitError {
     let loops = body.mesh.loops();
@@ -601,13 +595,12 @@ mod tests {
         let triangles: Vec<[u32; 3]> = ball.triangles().iter().filter(is_kept).copied().collect();
         let mesh = Mesh::new(ball.points().to_vec(), triangles).unwrap();
         assert_eq!(mesh.loops().len(), 4);
-        let [body] = &bodies::shells(&mesh)[..] else { panic!("one piece") };
         let tolerance = Tolerance { value: 1e-2, ..Tolerance::default() };
         let fit = super::super::ModelOptions::default().with_tolerance(tolerance);
         let options = MeshModelOptions { fit, ..MeshModelOptions::default() };
-        let made = over_borders(body, &options, open_body(body), &mut Control::new(2)).unwrap();
-        assert!(made.report.rounds_edges && made.report.fold_count == 0, "{:?}", made.report);
-        let tolerance = made.report.fit.tolerance;
+        let made = over_borders(&mesh, &options, &mut Control::new(2)).unwrap().unwrap();
+        assert!(made.components[0].rounds_edges && made.components[0].fold_count == 0);
+        let tolerance = made.report.tolerance;
         assert!(tolerance > 0.0 && made.errors.iter().all(|error| !(*error > tolerance)));
     }
 }
