@@ -6,7 +6,8 @@
 //! closed, genus 0     over the cube; where that misses the tolerance or folds, over a base complex too, and the better is kept
 //! closed, handles     over a base complex
 //! open, exact         shells of planes and cylinders
-//! open                one chart: a PHT-spline inside its trims; with sharp edges or several loops as above
+//! open                over its features if it has sharp edges or several loops, else, or where that is no good, one chart: a
+//!                     PHT-spline inside its trims; where no features serve and the chart misses, over its borders alone
 //! ```
 //! Several closed components become several shells, one inside another a void.
 
@@ -486,33 +487,40 @@ fn over_complex(
     Ok(Component::smooth(made.layout, fit, report))
 }
 
-/// Times that the number of patches is doubled where a layout folds nodes.
-const DOUBLINGS: u32 = 2;
+/// Where a layout folds nodes, so many times as many patches are tried one after the other: over coarse meshes with handles some
+/// numbers have folds and about half of the others have none.
+const OTHER_COUNTS: [f64; 7] = [0.85, 1.25, 1.6, 0.75, 1.5, 2.0, 4.0];
 
 /// Nodes a patch: fewer say too little of where it lies.
 const NODES_PER_PATCH: usize = 8;
 
-/// A base complex; where it folds nodes, the one of twice or four times the patches that folds fewest.
+/// Share of the time for the number of patches that is asked for.
+const FIRST_COUNT: f64 = 0.5;
+
+/// A base complex; where it folds nodes, the one of another number of patches that folds fewest.
 fn complex(
     mesh: &Mesh,
     options: &MeshLayoutOptions,
     control: &mut Control,
 ) -> Result<MeshLayout, MeshLayoutError> {
     let options = options.with_kind(LayoutKind::Complex);
-    let share = |attempt: u32| f64::from(attempt) / f64::from(DOUBLINGS + 1);
-    let mut best = control.within(0.0, share(1), |control| layout_of_mesh(mesh, &options, control))?;
-    for attempt in 1..=DOUBLINGS {
-        let patches = options.patches.saturating_mul(1 << attempt);
-        if best.report.folded_nodes == 0 || patches.saturating_mul(NODES_PER_PATCH) > mesh.points().len() {
+    let mut best = control.within(0.0, FIRST_COUNT, |control| layout_of_mesh(mesh, &options, control))?;
+    let most = options.patches.max(mesh.points().len() / NODES_PER_PATCH);
+    for (rank, times) in OTHER_COUNTS.into_iter().enumerate() {
+        let patches = (times * options.patches as f64).round() as usize;
+        if best.report.folded_nodes == 0 {
             break;
         }
-        let more = options.with_patches(patches);
-        let made = control
-            .within(share(attempt), share(attempt + 1), |control| layout_of_mesh(mesh, &more, control));
-        match made {
+        if patches > most {
+            continue;
+        }
+        let other = options.with_patches(patches);
+        let [from, to] = [rank, rank + 1].map(|k| k as f64 / OTHER_COUNTS.len() as f64);
+        let [from, to] = [from, to].map(|share| FIRST_COUNT + (1.0 - FIRST_COUNT) * share);
+        match control.within(from, to, |control| layout_of_mesh(mesh, &other, control)) {
             Ok(made) if made.report.folded_nodes < best.report.folded_nodes => best = made,
             Err(MeshLayoutError::Cancelled(cancelled)) => return Err(cancelled.into()),
-            // the first will do
+            // the best so far will do
             _ => {}
         }
     }
