@@ -8,7 +8,7 @@
 //! Opposite is a facet that faces the other way but for some degrees: where two facets meet at an edge there is no wall. Nor
 //! is there where it is reached over the mesh without leaving the surroundings, as slivers that are turned over are.
 
-use super::samples::Samples;
+use super::samples::{Samples, facet_normals};
 use crate::control::Pool;
 use crate::memory::{self, CollectVec, ParallelCollectVec};
 use crate::mesh::{HalfEdge, Mesh};
@@ -76,6 +76,8 @@ const ROUNDING: f64 = 1e-7;
 
 struct Walls<'a> {
     tree: &'a TriangleTree<&'a Mesh>,
+    /// By facet.
+    normals: Vec<DVec3>,
     /// By branch of the tree.
     cones: Vec<Cone>,
     /// Facets farther off do not matter.
@@ -84,9 +86,10 @@ struct Walls<'a> {
 
 impl<'a> Walls<'a> {
     fn new(tree: &'a TriangleTree<&'a Mesh>, farthest: f64) -> Self {
-        let normal = |&triangle: &u32| facet_normal(tree.corners(triangle));
-        let cone = |triangles: &[u32]| Cone::of(triangles.iter().map(normal));
-        Self { tree, cones: tree.branches().map(cone).collect_vec(), farthest }
+        let normals = facet_normals(tree.mesh());
+        let cone = |triangles: &[u32]| Cone::of(triangles.iter().map(|&triangle| normals[triangle as usize]));
+        let cones = tree.branches().map(cone).collect_vec();
+        Self { tree, normals, cones, farthest }
     }
 
     /// The distance from a place of the mesh to the nearest facet opposite; none if none is near.
@@ -95,8 +98,8 @@ impl<'a> Walls<'a> {
         let reach = DVec3::splat(self.farthest);
         let may_hold_one = |branch: usize| self.cones[branch].may_be_opposite(normal);
         self.tree.for_each_in_box_of(may_hold_one, point - reach, point + reach, |triangle| {
-            let corners = self.tree.corners(triangle);
-            if facet_normal(corners).dot(normal) < OPPOSITE {
+            if self.normals[triangle as usize].dot(normal) < OPPOSITE {
+                let corners = self.tree.corners(triangle);
                 let distance = nearest_on_triangle(point, corners).distance(point);
                 if distance < self.farthest {
                     opposite.push((distance, triangle));
@@ -116,10 +119,6 @@ impl<'a> Walls<'a> {
         }
         None
     }
-}
-
-fn facet_normal([a, b, c]: [DVec3; 3]) -> DVec3 {
-    (b - a).cross(c - a).normalize_or_zero()
 }
 
 /// The facets that are reached over a mesh from a place of it without leaving a ball around it, as the ball grows.
