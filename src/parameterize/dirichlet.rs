@@ -27,6 +27,8 @@ use glam::{DVec2, DVec3};
 const LEAST_AREA_SHARE: f64 = 0.01;
 /// Below this ratio of areas a triangle counts as turned over: rounding has more than its sign.
 const LEAST_DET: f64 = 1e-9;
+/// Above this ratio of areas a triangle is well clear of turning over.
+const CLEAR_DET: f64 = 0.1;
 /// Shortest step tried, as a power of [`SHORTER`].
 const TRIES: usize = 16;
 /// A step that does not lower the energy is cut to this.
@@ -73,13 +75,14 @@ struct Image {
     opposite: f64,
     /// n.
     normal: DVec3,
+    area: f64,
 }
 
 impl Image {
     fn new(shape: &Shape, a: DVec3, b: DVec3) -> Self {
         let [cot_x, cot_a, cot_b] = shape.cotangents;
         let opposite = cot_x * a.distance_squared(b);
-        Self { a, b, cot_a, cot_b, opposite, normal: a.cross(b) * (0.5 / shape.area) }
+        Self { a, b, cot_a, cot_b, opposite, normal: a.cross(b) * (0.5 / shape.area), area: shape.area }
     }
 
     /// A |J|^2.
@@ -144,9 +147,10 @@ impl Star {
         self.triangles.iter().map(|triangle| triangle.energy(x)).sum()
     }
 
-    /// The least det of the triangles.
-    pub(crate) fn least_det(&self, x: DVec3) -> f64 {
-        self.triangles.iter().map(|triangle| x.dot(triangle.normal)).fold(f64::INFINITY, f64::min)
+    /// The area by which triangles are turned over, or nearly so: convex in `x`, 0 where all are well clear of it.
+    pub(crate) fn turned_area(&self, x: DVec3) -> f64 {
+        let turned = |triangle: &Image| triangle.area * (CLEAR_DET - x.dot(triangle.normal)).max(0.0);
+        self.triangles.iter().map(turned).sum()
     }
 
     /// The images around the node.

@@ -489,7 +489,7 @@ fn over_complex(
 
 /// Where a layout folds nodes, so many times as many patches are tried one after the other: over coarse meshes with handles some
 /// numbers have folds and about half of the others have none.
-const OTHER_COUNTS: [f64; 7] = [0.85, 1.25, 1.6, 0.75, 1.5, 2.0, 4.0];
+const OTHER_COUNTS: [f64; 7] = [1.25, 1.6, 2.0, 0.85, 2.5, 3.0, 4.0];
 
 /// Nodes a patch: fewer say too little of where it lies.
 const NODES_PER_PATCH: usize = 8;

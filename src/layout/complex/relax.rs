@@ -3,7 +3,7 @@
 //! Each node takes Newton steps in a picture of the quads around it (`chart`), with the symmetric
 //! Dirichlet energy of its triangles (`parameterize::dirichlet`). Nodes cross edges, and with them
 //! edges and vertices of the layout slide over the mesh until patches are equal and square. Nodes whose triangles are
-//! turned over at the start go first to where the least of their determinants is largest; from then on none turns over.
+//! turned over at the start go first to where the least area is turned over; a node none of whose triangles is turned over stays so.
 
 use super::base::Fine;
 use super::border::Border;
@@ -45,8 +45,8 @@ const CHUNK: usize = 64;
 const SERIAL: usize = 256;
 /// Shortest step of a repair.
 const LEAST_STEP: f64 = 1e-7;
-/// What a step of it has to gain, as a part of its length times that of the first: along a ridge it would go on by what rounding
-/// gains, without end.
+/// The share of the area turned over that a step of it has to gain, times its length beside the first: along a ridge it would go on
+/// by what rounding gains, without end.
 const WORTH_A_STEP: f64 = 1e-3;
 
 /// How good a map is.
@@ -335,15 +335,15 @@ impl<'a> Map<'a> {
     }
 }
 
-/// The middle of the corners if nothing is turned over there, else the place where the least determinant of the triangles
-/// is largest, by a search with shrinking steps.
+/// The middle of the corners if nothing is turned over there, else the place where the area that is turned over is least, by a
+/// search with shrinking steps. That area is a sum over triangles, so it shrinks for the whole map.
 fn unfolded(star: &Star, start: DVec2, accepts: impl Fn(DVec3) -> bool) -> Option<DVec3> {
-    let (mut best, mut least) = (start.extend(1.0), star.least_det(start.extend(1.0)));
+    let (mut best, mut least) = (start.extend(1.0), star.turned_area(start.extend(1.0)));
     let (count, sum) =
         star.corners().fold((0.0, DVec3::ZERO), |(count, sum), corner| (count + 1.0, sum + corner));
     let middle = sum / count;
-    if star.least_det(middle) > least && accepts(middle) {
-        (best, least) = (middle, star.least_det(middle));
+    if star.turned_area(middle) < least && accepts(middle) {
+        (best, least) = (middle, star.turned_area(middle));
         if star.energy(middle).is_finite() {
             return Some(middle);
         }
@@ -351,11 +351,11 @@ fn unfolded(star: &Star, start: DVec2, accepts: impl Fn(DVec3) -> bool) -> Optio
     let first = star.corners().map(|corner| corner.distance(best)).fold(0.0, f64::max);
     let mut step = first;
     while step > LEAST_STEP {
+        let worth = WORTH_A_STEP * step / first * least;
         let around = (0..8).map(|k| best + step * DVec2::from_angle(f64::from(k) * FRAC_PI_4).extend(0.0));
-        let better = around.map(|point| (point, star.least_det(point)));
-        let better =
-            better.filter(|&(point, det)| det > least + WORTH_A_STEP * step * first && accepts(point));
-        match better.max_by(|a, b| a.1.total_cmp(&b.1)) {
+        let better = around.map(|point| (point, star.turned_area(point)));
+        let better = better.filter(|&(point, area)| area < least - worth && accepts(point));
+        match better.min_by(|a, b| a.1.total_cmp(&b.1)) {
             Some(better) => (best, least) = better,
             None => step *= 0.5,
         }
