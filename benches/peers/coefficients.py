@@ -3,13 +3,18 @@
 Functions on a jittered grid of 101 x 101 places, values (x, y, f), tolerance in model units; with the shared data also samples
 of a surface with two ridges, and Igea's head over the map that the fit with one continuous derivative leaves. `before` are
 the coefficients before cells were merged again; errors are shares of the tolerance, the last one at places not given.
+Beside them LR B-splines and THB-splines of other libraries, all bicubic and on one thread, where there are programs for them.
 
-Usage: coefficients.py libplanish.so [DATA]   (the folder with igea_disk_43k.ply and synthetic/)
+Usage: coefficients.py libplanish.so PROGRAMS [DATA]   (the folders with lr/lr and thb/thb, and with igea_disk_43k.ply and
+synthetic/)
 """
 
+import subprocess
 import sys
 import time
 from ctypes import byref, c_void_p
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 
@@ -28,6 +33,10 @@ KINDS = {
     "C1, coarsened": {"coarsening": 1},
     "C2": {"continuity": 2},
 }
+
+PEERS = {"lr": "GoTools, LR", "thb": "G+Smo, THB"}
+# Seconds after which a peer is not waited for.
+PATIENCE = 300
 
 
 def on_graph(function, places):
@@ -57,7 +66,7 @@ def fitted(library, call, *arguments, **changes):
     return Surface(library, made), report, seconds
 
 
-def scattered(library, name, data, held_out, **changes):
+def scattered(library, programs, name, data, held_out, **changes):
     (uv, values), (places, exact) = data, held_out
     for kind, asked in KINDS.items():
         surface, report, seconds = fitted(
@@ -67,6 +76,30 @@ def scattered(library, name, data, held_out, **changes):
         surface.eval(places, out)
         worst = np.linalg.norm(out - exact, axis=1).max() / report.tolerance
         told(name, kind, report, seconds, f"{worst:.2f}")
+    # as smooth as theirs
+    beside(programs, name, data, held_out, report, seconds)
+
+
+def beside(programs, name, data, held_out, report, seconds):
+    """The peers, and how many times as much they take as the fit that is reported."""
+    with TemporaryDirectory() as folder:
+        files = [f"{folder}/data", f"{folder}/held_out"]
+        for path, columns in zip(files, (data, held_out)):
+            np.column_stack(columns).tofile(path)
+        for program, who in PEERS.items():
+            if not (path := Path(programs, program, program)).exists():
+                continue
+            command = [path, repr(report.tolerance), *files]
+            try:
+                done = subprocess.run(command, capture_output=True, check=True, text=True, timeout=PATIENCE)
+            except (subprocess.CalledProcessError, subprocess.TimeoutExpired) as failure:
+                print(f"line\t{who}, {name}: {type(failure).__name__}", flush=True)
+                continue
+            count, cells, *errors, taken, stop = done.stdout.split("\t")
+            row(name, who, "", f"{int(count):,}", f"{int(cells):,}", *errors, taken, stop.strip())
+            shares = {"seconds": float(taken) / seconds, "coefficients": int(count) / report.coefficient_count}
+            for what, share in shares.items():
+                print(f"ratio\tfit of {name}, C2: {what}\t{who}\t{share}", flush=True)
 
 
 def head(library, path, tolerance):
@@ -85,18 +118,18 @@ def head(library, path, tolerance):
     planish.planish_mesh_free(mesh)
 
 
-def main(path, folder=None):
+def main(path, programs, folder=None):
     library = Library(path)
     print("table\tCoefficients of fits with local cells")
     row("data", "kind", "before", "coefficients", "cells", "max", "max held-out", "seconds", "stop")
     uv, others = jittered(), np.random.default_rng(3).uniform(0, 1, (100_000, 2))
     for name, tolerance in CASES:
         held_out = others, on_graph(name, others)
-        scattered(library, f"{name} {tolerance:g}", (uv, on_graph(name, uv)), held_out, tolerance=tolerance,
+        scattered(library, programs, f"{name} {tolerance:g}", (uv, on_graph(name, uv)), held_out, tolerance=tolerance,
                   tolerance_scale=1)
     if folder:
         data = [read(f"{folder}/synthetic/{name}.f64") for name in ("ridges_45k", "ridges_held_100k")]
-        scattered(library, "ridges 0.001", *data, tolerance=1e-3)
+        scattered(library, programs, "ridges 0.001", *data, tolerance=1e-3)
         head(library, f"{folder}/igea_disk_43k.ply", 1e-3)
 
 
