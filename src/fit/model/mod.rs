@@ -121,6 +121,7 @@ pub fn fit_with_creases(
         false => walls::strictness(mesh, &samples, tolerance, control.pool()),
     };
     control.pool().check()?;
+    let emphasis = memory::filled(1.0, samples.nodes.len());
     let mut refinement = Refinement {
         layout,
         options,
@@ -142,6 +143,7 @@ pub fn fit_with_creases(
         least_error: f64::INFINITY,
         folded_rounds: 0,
         idle_limit: refine::MOST_IDLE,
+        emphasis,
     };
     let outcome = run(&mut refinement, control)?;
     let mut report = report::measure(mesh, &refinement, &outcome, control)?;

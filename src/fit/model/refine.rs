@@ -5,6 +5,7 @@
 //! move each sample one step towards its foot point
 //! split the cells that hold a node above the tolerance, or another sample above twice of it
 //! stiffen the cells whose normals are reversed
+//! let nodes that miss by little count more
 //! ```
 //! Between the samples a cell may swing: cells with few of them get guards, places whose targets are the points of the
 //! mesh nearest to the surface of the round before.
@@ -69,6 +70,8 @@ pub(super) struct Refinement<'a> {
     pub(super) folded_rounds: usize,
     /// Rounds without gain before the fit is given up.
     pub idle_limit: usize,
+    /// By node: what it counts beside others.
+    pub emphasis: Vec<f64>,
 }
 
 /// One round: the surfaces and where the samples lie on them.
@@ -119,8 +122,18 @@ const MOST_STUCK: usize = 3;
 const MOST_FOLDED: usize = 12;
 /// Folds of smooth patches are mended once the error is no more than so many times the tolerance.
 const NEAR: f64 = 2.0;
-/// Rounds without gain before a fit is given up, while cells of no fewer samples are split.
-pub(super) const MOST_IDLE: usize = 3;
+/// Rounds without gain before a fit is given up, while cells of no fewer samples are split: folds that are mended come first.
+pub(super) const MOST_IDLE: usize = 5;
+
+/// Once the error is no more than so many times the tolerance, nodes that miss count more, as weights of C. L. Lawson (1961) do on
+/// the way to the least largest error: more cells alone cannot hold noise that is larger than the tolerance.
+const WITHIN_REACH: f64 = 2.5;
+/// The share of the tolerance that nodes are to be brought below.
+const AIM: f64 = 0.7;
+/// A node counts at most so many times more from one round to the next.
+const MOST_GROWTH: f64 = 4.0;
+/// Most that it counts: more would be all that a cell sees.
+const MOST_EMPHASIS: f64 = 1e4;
 
 impl Rounds for Refinement<'_> {
     type Round = Round;
@@ -165,6 +178,7 @@ impl Rounds for Refinement<'_> {
         if standing.idle >= self.idle_limit && self.stuck == 0 {
             return Next::Stop(StopReason::Stagnated);
         }
+        self.insist(round);
         self.folded_rounds += usize::from(is_folded);
         if is_folded && self.folded_rounds == MOST_FOLDED + 1 {
             self.stiff.clear();
@@ -193,6 +207,18 @@ impl Refinement<'_> {
     fn mends(&self, round: &Round) -> bool {
         let is_near = round.error <= NEAR * self.tolerance;
         !round.folded.is_empty() && self.folded_rounds <= MOST_FOLDED && (self.has_creases || is_near)
+    }
+
+    /// Lets nodes that miss count more, where the round is near enough.
+    fn insist(&mut self, round: &Round) {
+        if round.error > WITHIN_REACH * self.tolerance {
+            return;
+        }
+        for sample in 0..self.emphasis.len() {
+            let miss = self.error_at(sample, round.distances[sample]) / (AIM * self.tolerance);
+            let growth = (miss * miss).clamp(1.0, MOST_GROWTH);
+            self.emphasis[sample] = (growth * self.emphasis[sample]).min(MOST_EMPHASIS);
+        }
     }
 
     /// The distance to which facets say where the shape is.
@@ -278,7 +304,10 @@ impl Refinement<'_> {
         pool: &Pool,
     ) -> (Targets, Vec<Place>) {
         let Samples { places, points, .. } = &self.samples;
-        let weight = |sample: usize| self.samples.weight(sample, self.known_on_facets());
+        let weight = |sample: usize| {
+            let emphasis = self.emphasis.get(sample).copied().unwrap_or(1.0);
+            emphasis * self.samples.weight(sample, self.known_on_facets())
+        };
         let mut targets = Targets {
             uv: places.iter().map(|place| place.uv).collect_vec(),
             points: points.clone(),
