@@ -127,7 +127,7 @@ pub(super) const MOST_IDLE: usize = 5;
 
 /// Once the error is no more than so many times the tolerance, nodes that miss count more, as weights of C. L. Lawson (1961) do on
 /// the way to the least largest error: more cells alone cannot hold noise that is larger than the tolerance.
-const WITHIN_REACH: f64 = 2.5;
+const WITHIN_REACH: f64 = 5.0;
 /// The share of the tolerance that nodes are to be brought below.
 const AIM: f64 = 0.7;
 /// A node counts at most so many times more from one round to the next.
