@@ -2121,6 +2121,23 @@ module planish_calls
       integer(c_size_t), intent(inout) :: out_count
     end function
 
+    integer(c_int) function c_mesh_label_parts( &
+        mesh, labels, label_count, out_labels, out_triangle_counts, out_piece_counts, out_handle_counts, count, &
+        out_count) &
+        bind(c, name="planish_mesh_label_parts")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int32_t), intent(in) :: labels(*)
+      integer(c_size_t), value :: label_count
+      integer(c_int32_t), intent(inout), optional :: out_labels(*)
+      integer(c_size_t), intent(inout), optional :: out_triangle_counts(*)
+      integer(c_size_t), intent(inout), optional :: out_piece_counts(*)
+      integer(c_size_t), intent(inout), optional :: out_handle_counts(*)
+      integer(c_size_t), value :: count
+      integer(c_size_t), intent(inout) :: out_count
+    end function
+
     integer(c_int) function c_layout_options_init(options, struct_size) bind(c, name="planish_layout_options_init")
       import
       implicit none
@@ -2940,6 +2957,20 @@ module planish_calls
       real(c_double), intent(inout), optional :: out_distances(*)
       integer(c_size_t), value :: count
       type(planish_deviation_report), intent(inout), optional :: out_report
+    end function
+
+    integer(c_int) function c_mesh_project( &
+        mesh, points, count, options, out_triangles, out_points, out_distances) &
+        bind(c, name="planish_mesh_project")
+      import
+      implicit none
+      type(c_ptr), value :: mesh
+      real(c_double), intent(in) :: points(*)
+      integer(c_size_t), value :: count
+      type(planish_project_options), intent(in), optional :: options
+      integer(c_int32_t), intent(inout), optional :: out_triangles(*)
+      real(c_double), intent(inout), optional :: out_points(*)
+      real(c_double), intent(inout), optional :: out_distances(*)
     end function
 
     integer(c_int) function c_sample_rows_options_init( &

@@ -142,4 +142,44 @@ TEST(Features, OfAMeshAreItsSharpEdges) {
   CHECK_EQUAL(count, 77u);
 }
 
+TEST(Labels, TellTheirPiecesAndHandles) {
+  const planish::mesh mesh(torus(40).release());
+  const std::size_t count = mesh.triangle_count();
+  // the whole has a handle, and keeps it without two patches
+  std::vector<std::uint32_t> labels(count, 7);
+  auto parts = mesh.label_parts(labels);
+  CHECK_EQUAL(parts.size(), 1u);
+  CHECK(parts[0].label == 7 && parts[0].triangle_count == count && parts[0].piece_count == 1);
+  CHECK_EQUAL(parts[0].handle_count, 1u);
+  std::fill_n(labels.begin(), 20, 3u);
+  std::fill_n(labels.begin() + 30, 20, 3u);
+  parts = mesh.label_parts(labels);
+  CHECK_EQUAL(parts.size(), 2u);
+  CHECK(parts[0].label == 3 && parts[0].triangle_count == 40 && parts[1].triangle_count == count - 40);
+  CHECK(parts[0].piece_count == 2 && parts[0].handle_count == 0);
+  CHECK(parts[1].piece_count == 1 && parts[1].handle_count == 1);
+  // two tubes have none
+  std::fill_n(labels.begin(), count / 2, 3u);
+  std::fill_n(labels.begin() + static_cast<std::ptrdiff_t>(count / 2), count / 2, 7u);
+  for (const auto &part : mesh.label_parts(labels)) CHECK(part.piece_count == 1 && part.handle_count == 0);
+
+  std::uint32_t found[2] = {9, 9};
+  std::size_t told = 77;
+  const auto parts_of = [&](const planish_mesh *of, const std::uint32_t *given, std::size_t room, std::size_t *out) {
+    return planish_mesh_label_parts(of, given, count, found, nullptr, nullptr, nullptr, room, out);
+  };
+  CHECK_FAILS(parts_of(nullptr, labels.data(), 2, &told), PLANISH_STATUS_NULL_POINTER, -1, "mesh is NULL");
+  CHECK_FAILS(parts_of(mesh.get(), nullptr, 2, &told), PLANISH_STATUS_NULL_POINTER, -1, "labels is NULL");
+  CHECK_FAILS(parts_of(mesh.get(), labels.data(), 2, nullptr), PLANISH_STATUS_NULL_POINTER, -1, "out_count is NULL");
+  CHECK_FAILS(parts_of(mesh.get(), labels.data(), 1, &told), PLANISH_STATUS_BUFFER_TOO_SMALL, -1, "2 are needed");
+  CHECK_FAILS(planish_mesh_label_parts(mesh.get(), labels.data(), 9, found, nullptr, nullptr, nullptr, 2, &told),
+              PLANISH_STATUS_INVALID_ARGUMENT, -1, "9 labels do not fit 3200 triangles");
+  CHECK(found[0] == 9 && found[1] == 9 && told == 77);
+  CHECK(parts_of(mesh.get(), labels.data(), 2, &told) == PLANISH_STATUS_OK);
+  CHECK(found[0] == 3 && found[1] == 7 && told == 2);
+  CHECK(planish_mesh_label_parts(mesh.get(), nullptr, 0, nullptr, nullptr, nullptr, nullptr, 0, &told) ==
+        PLANISH_STATUS_OK);
+  CHECK_EQUAL(told, 0u);
+}
+
 int main() { return check::run(); }

@@ -5,7 +5,9 @@
 
 #include <planish.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -158,6 +160,123 @@ TEST(Model, RefusesByName) {
   CHECK_FAILS(planish_model_from_surface(crossing.get(), &out), PLANISH_STATUS_TOPOLOGY, 0, "crosses");
   CHECK_EQUAL(planish_model_face_count(nullptr), 0u);
   planish_model_free(nullptr);
+}
+
+// A body between two skins over a rectangle, which meet in sharp edges at x = 0 and 1, and two planes at y = 0 and 4.
+// Strips across the span have the labels 0 to 7 on the upper skin, 8 to 15 on the lower one; the planes have 16 and 17.
+struct strips {
+  static constexpr std::uint32_t cells = 16, rows = 32, of_skin = 8;
+  std::vector<double> points;
+  std::vector<std::uint32_t> triangles, labels;
+
+  strips() {
+    const double heights[2] = {0.2, -0.1};
+    std::uint32_t nodes[2][cells + 1][rows + 1];
+    for (int side = 0; side < 2; ++side) {
+      for (std::uint32_t i = 0; i <= cells; ++i) {
+        for (std::uint32_t j = 0; j <= rows; ++j) {
+          const double x = static_cast<double>(i) / cells, y = 4.0 * j / rows;
+          const bool is_shared = side == 1 && (i == 0 || i == cells);
+          nodes[side][i][j] = is_shared ? nodes[0][i][j] : static_cast<std::uint32_t>(points.size() / 3);
+          if (!is_shared) points.insert(points.end(), {x, y, 4 * heights[side] * x * (1 - x) + 0.02 * y * y});
+        }
+      }
+    }
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t label) {
+      if (a == b || b == c || c == a) return;
+      triangles.insert(triangles.end(), {a, b, c});
+      labels.push_back(label);
+    };
+    for (std::uint32_t i = 0; i < cells; ++i) {
+      for (std::uint32_t j = 0; j < rows; ++j) {
+        const auto &up = nodes[0], &low = nodes[1];
+        const std::uint32_t strip = j / (rows / of_skin);
+        add(up[i][j], up[i + 1][j], up[i + 1][j + 1], strip);
+        add(up[i][j], up[i + 1][j + 1], up[i][j + 1], strip);
+        add(low[i][j], low[i + 1][j + 1], low[i + 1][j], of_skin + strip);
+        add(low[i][j], low[i][j + 1], low[i + 1][j + 1], of_skin + strip);
+      }
+      for (const std::uint32_t j : {0u, rows}) {
+        const std::uint32_t a = nodes[1][i][j], b = nodes[1][i + 1][j], c = nodes[0][i + 1][j], d = nodes[0][i][j];
+        const std::uint32_t label = 2 * of_skin + (j == 0 ? 0 : 1);
+        add(a, j == 0 ? b : c, j == 0 ? c : b, label);
+        add(a, j == 0 ? c : d, j == 0 ? d : c, label);
+      }
+    }
+  }
+};
+
+TEST(Labels, AreFoundAgainFromPlacesOfAFaceOfMany) {
+  const strips wing;
+  const planish::mesh mesh(wing.points, wing.triangles);
+  for (const auto &part : mesh.label_parts(wing.labels)) CHECK(part.piece_count == 1 && part.handle_count == 0);
+  auto options = planish::defaults<planish_model_options>();
+  options.labels = wing.labels.data();
+  options.label_count = wing.labels.size();
+  options.label_angle = 0.09;
+  const planish::fitted_model fit = planish::model_fit(mesh, options);
+  CHECK_EQUAL(fit.model.face_count(), 4u);
+  CHECK_EQUAL(fit.model.measure().free_edge_count, 0u);
+  std::size_t asked = 0;
+  for (std::uint32_t face = 0; face < fit.model.face_count(); ++face) {
+    const std::uint32_t first = fit.model.face_info(face).label;
+    if (first >= 2 * strips::of_skin) continue;
+    const std::uint32_t skin = first / strips::of_skin * strips::of_skin;
+    const auto domain = fit.model.face(face).domain();
+    std::vector<double> uv;
+    shapes::random next(5);
+    for (int k = 0; k < 500; ++k) {
+      uv.push_back(domain[0] + (domain[1] - domain[0]) * next.unit());
+      uv.push_back(domain[2] + (domain[3] - domain[2]) * next.unit());
+    }
+    const std::vector<std::uint32_t> faces(500, face);
+    std::vector<double> places(1500);
+    CHECK(planish_model_eval(fit.model.get(), faces.data(), uv.data(), 500, 0, nullptr, places.data()) ==
+          PLANISH_STATUS_OK);
+    const auto feet = mesh.project(places);
+    for (std::size_t k = 0; k < 500; ++k) {
+      CHECK(feet.distances[k] <= 2 * fit.report.tolerance);
+      const double y = places[3 * k + 1], across = y * strips::of_skin / 4;
+      // so near to a line between strips, to a skin's end or to the other skin either may be nearest
+      const double x = places[3 * k];
+      const double off = std::abs(across - std::round(across)) * 4 / strips::of_skin;
+      if (off <= feet.distances[k] || std::min(x, 1 - x) < 0.05) continue;
+      ++asked;
+      const auto strip = static_cast<std::uint32_t>(across);
+      CHECK_EQUAL(wing.labels[feet.triangles[k]], skin + strip);
+    }
+  }
+  CHECK(asked > 700);
+}
+
+TEST(Labels, PointsThatCannotBeProjectedOntoAMeshLeaveOutputsAlone) {
+  const shapes::arrays ball = shapes::ball(4);
+  const planish::mesh mesh(ball.points, ball.triangles);
+  double points[6] = {2, 0.1, 0.2, 0, NAN, 0}, places[6] = {-1, -1, -1, -1, -1, -1}, distances[2] = {-1, -1};
+  std::uint32_t triangles[2] = {77, 77};
+  const auto project = [&](const planish_mesh *of, const double *at, const planish_project_options *options) {
+    return planish_mesh_project(of, at, 2, options, triangles, places, distances);
+  };
+  auto options = planish::defaults<planish_project_options>();
+  CHECK_FAILS(project(nullptr, points, nullptr), PLANISH_STATUS_NULL_POINTER, -1, "mesh is NULL");
+  CHECK_FAILS(project(mesh.get(), nullptr, nullptr), PLANISH_STATUS_NULL_POINTER, -1, "points is NULL");
+  CHECK_FAILS(project(mesh.get(), points, nullptr), PLANISH_STATUS_NOT_FINITE, 1, "point 1");
+  points[4] = 9;
+  options.keep_trims = 0;
+  CHECK_FAILS(project(mesh.get(), points, &options), PLANISH_STATUS_INVALID_ARGUMENT, -1, "keep_trims is not used");
+  options.keep_trims = 1;
+  const std::int32_t stop = 1;
+  options.cancel = &stop;
+  CHECK_FAILS(project(mesh.get(), points, &options), PLANISH_STATUS_CANCELLED, -1, "");
+  CHECK(triangles[0] == 77 && triangles[1] == 77 && distances[0] == -1 && distances[1] == -1);
+  for (const double x : places) CHECK_EQUAL(x, -1.0);
+  options.cancel = nullptr;
+  options.max_distance = 2;
+  CHECK(project(mesh.get(), points, &options) == PLANISH_STATUS_POINTS_OUTSIDE);
+  CHECK(triangles[0] < mesh.triangle_count() && triangles[1] == PLANISH_NONE);
+  CHECK(distances[0] > 1 && distances[0] < 1.1 && std::isnan(distances[1]) && std::isnan(places[3]));
+  CHECK(planish_mesh_project(mesh.get(), points, 2, nullptr, nullptr, nullptr, nullptr) == PLANISH_STATUS_OK);
+  CHECK(planish_mesh_project(mesh.get(), nullptr, 0, nullptr, nullptr, nullptr, nullptr) == PLANISH_STATUS_OK);
 }
 
 int main() { return check::run(); }

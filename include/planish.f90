@@ -143,6 +143,8 @@ module planish_types
     procedure :: parameterize => mesh_parameterize
     procedure :: map_to_sphere => mesh_map_to_sphere
     procedure :: find_features => mesh_find_features
+    procedure :: label_parts => mesh_label_parts
+    procedure :: project => mesh_project
   end type
 
   !> A surface: a map from a rectangle of parameters (u,v) to dim() numbers.
@@ -1159,6 +1161,73 @@ contains
       if (present(report)) report = found
       if (present(is_corner)) is_corner = corners /= 0
     end if
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Tells how each label of a mesh hangs together: a face is one piece without handles.
+  !>
+  !> labels:          a number for each triangle.
+  !> found:           receives each label once, in increasing order.
+  !> triangle_counts: receives for each its number of triangles.
+  !> piece_counts:    receives for each the number of its pieces, which share no edge.
+  !> handle_counts:   receives for each the handles of all its pieces.
+  subroutine mesh_label_parts(self, labels, found, triangle_counts, piece_counts, handle_counts, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: self
+    integer(c_int32_t), intent(in), contiguous :: labels(:)
+    integer(c_int32_t), allocatable, intent(inout) :: found(:)
+    integer(c_size_t), allocatable, intent(inout), optional :: triangle_counts(:), piece_counts(:), handle_counts(:)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t), allocatable :: taken(:)
+    integer(c_size_t), allocatable :: numbers(:, :)
+    integer(c_size_t) :: label_count, count
+    integer(c_int) :: status
+    label_count = size(labels, kind=c_size_t)
+    status = c_mesh_label_parts(self%get(), labels, label_count, count=0_c_size_t, out_count=count)
+    if (status >= 0) then
+      allocate (taken(count), numbers(count, 3))
+      status = c_mesh_label_parts(self%get(), labels, label_count, taken, numbers(:, 1), numbers(:, 2), numbers(:, 3), &
+          count, count)
+    end if
+    if (status >= 0) then
+      call move_alloc(taken, found)
+      if (present(triangle_counts)) triangle_counts = numbers(:, 1)
+      if (present(piece_counts)) piece_counts = numbers(:, 2)
+      if (present(handle_counts)) handle_counts = numbers(:, 3)
+    end if
+    call conclude(status, stat, errmsg)
+  end subroutine
+
+  !> Finds the place on the mesh nearest to each of points(3,n): the way back from places of a model to triangles, and so
+  !> to labels.
+  !>
+  !> triangles: receives the triangles they lie on, 0 for points farther away than options%max_distance.
+  !> places:    (3,n), receives the places.
+  !> distances: receives how far they are.
+  subroutine mesh_project(self, points, triangles, places, distances, options, stat, errmsg)
+    class(planish_mesh_t), intent(in) :: self
+    real(c_double), intent(in), contiguous :: points(:, :)
+    integer, intent(inout) :: triangles(:)
+    real(c_double), intent(inout), optional, contiguous :: places(:, :), distances(:)
+    type(planish_project_options), intent(in), optional :: options
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    integer(c_int32_t), allocatable :: found(:)
+    integer(c_size_t) :: count
+    integer(c_int) :: status
+    count = size(points, 2, c_size_t)
+    if (refuse_extent(size(points, 1, c_size_t), 3_c_size_t, "the first extent of points", stat, errmsg)) return
+    if (refuse_short(size(triangles, kind=c_size_t), count, "triangles", stat, errmsg)) return
+    if (present(places)) then
+      if (refuse_extent(size(places, 1, c_size_t), 3_c_size_t, "the first extent of places", stat, errmsg)) return
+      if (refuse_short(size(places, 2, c_size_t), count, "places", stat, errmsg)) return
+    end if
+    if (present(distances)) then
+      if (refuse_short(size(distances, kind=c_size_t), count, "distances", stat, errmsg)) return
+    end if
+    allocate (found(count))
+    status = c_mesh_project(self%get(), points, count, options, found, places, distances)
+    if (status >= 0) triangles(:count) = found + 1
     call conclude(status, stat, errmsg)
   end subroutine
 

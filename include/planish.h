@@ -5360,6 +5360,39 @@ enum planish_status planish_mesh_find_features(const struct planish_mesh *mesh,
                                                size_t *out_count);
 
 /**
+ * Tells how each label of a mesh hangs together. A label that stands for a face of a CAD model is one piece without
+ * handles; one in several pieces or with handles tells that labels are mixed up, or that planish_model_fit() makes
+ * several faces of it.
+ *
+ * Call it once without arrays for the number of labels, then with room for all; there are no more than triangles.
+ *
+ * mesh:                not NULL; stays as it is.
+ * labels:              a number for each triangle.
+ * label_count:         planish_mesh_triangle_count(); 0 for no labels, of which nothing is told.
+ * out_labels:          receives each label once, in increasing order; NULL for none.
+ * out_triangle_counts: receives for each its number of triangles; NULL for none.
+ * out_piece_counts:    receives for each the number of its pieces, which share no edge; NULL for none.
+ * out_handle_counts:   receives for each the handles of all its pieces together; NULL for none.
+ * count:               labels that each of these arrays has room for.
+ * out_count:           receives the number of different labels.
+ * Arrays: labels[label_count], out_labels[count], out_triangle_counts[count], out_piece_counts[count],
+ *   out_handle_counts[count], out_count[1].
+ * Returns PLANISH_STATUS_OK or an error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (label_count),
+ * PLANISH_STATUS_BUFFER_TOO_SMALL (count), PLANISH_STATUS_TOO_LARGE or PLANISH_STATUS_OUT_OF_MEMORY.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_label_parts(const struct planish_mesh *mesh,
+                                             const uint32_t *labels,
+                                             size_t label_count,
+                                             uint32_t *out_labels,
+                                             size_t *out_triangle_counts,
+                                             size_t *out_piece_counts,
+                                             size_t *out_handle_counts,
+                                             size_t count,
+                                             size_t *out_count);
+
+/**
  * Fills options with the defaults.
  *
  * options:     struct_size writable bytes.
@@ -6704,6 +6737,40 @@ enum planish_status planish_surface_deviation(const struct planish_surface *surf
                                               double *out_distances,
                                               size_t count,
                                               struct planish_deviation_report *out_report);
+
+/**
+ * Finds the place on a mesh nearest to each point, and the triangle that it lies on.
+ *
+ * For points of a model this is the way back to the mesh that it was fitted to: evaluate the model where you want to
+ * know, with planish_model_eval(), and ask here for the triangle, and so for the label, that the place came from. That
+ * holds for a face of several labels too, of which planish_face_info tells only one. A place no farther from a line
+ * between labels, or from the other side of a wall, than from its own triangle may get either.
+ *
+ * Each call sorts the triangles before it searches them: ask for many points at once.
+ *
+ * mesh:          not NULL.
+ * points:        count rows of x, y, z.
+ * count:         number of points; with 0 nothing is done.
+ * options:       NULL for the defaults; guesses and out_flags must be NULL, keep_trims 1.
+ * out_triangles: receives the triangle of each, counted from 0, one of them where several are equally near;
+ *                PLANISH_NONE for points farther away than max_distance, or farther than a double can square. NULL for
+ *                none.
+ * out_points:    receives count rows of x, y, z, the nearest places, NaN for such points; NULL for none.
+ * out_distances: receives count distances in model units, NaN for such points; NULL for none.
+ * Arrays: points[count, 3], out_triangles[count], out_points[count, 3], out_distances[count].
+ * Returns PLANISH_STATUS_OK, PLANISH_STATUS_POINTS_OUTSIDE (there are such points), or an error:
+ * PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_NOT_FINITE (the index is the point), PLANISH_STATUS_INVALID_ARGUMENT (an
+ * option), PLANISH_STATUS_TOO_LARGE, PLANISH_STATUS_OUT_OF_MEMORY, PLANISH_STATUS_VERSION or PLANISH_STATUS_CANCELLED.
+ */
+PLANISH_API
+PLANISH_NODISCARD
+enum planish_status planish_mesh_project(const struct planish_mesh *mesh,
+                                         const double *points,
+                                         size_t count,
+                                         const struct planish_project_options *options,
+                                         uint32_t *out_triangles,
+                                         double *out_points,
+                                         double *out_distances);
 
 /**
  * Fills options with the defaults.

@@ -336,6 +336,18 @@ struct parameterized {
   planish_status status;
 };
 
+/// How a label of a mesh hangs together.
+struct label_part {
+  /// The label.
+  std::uint32_t label;
+  /// Its triangles.
+  std::size_t triangle_count;
+  /// Its pieces, which share no edge: a face has one.
+  std::size_t piece_count;
+  /// The handles of all its pieces: a face has none.
+  std::size_t handle_count;
+};
+
 /// What came of a map to the unit sphere.
 struct sphere_map {
   /// x, y, z of each node: a unit vector, or zeros for a node without triangles.
@@ -531,6 +543,43 @@ class mesh {
     detail::checked(planish_mesh_find_features(get(), &options, detail::flat(edges), edges.size(), &count));
     edges.resize(count);
     return edges;
+  }
+
+  /// How each label hangs together, in increasing order; one label for each triangle.
+  std::vector<label_part> label_parts(const values<std::uint32_t> &labels) const {
+    std::size_t count = 0;
+    detail::checked(planish_mesh_label_parts(get(), labels.data(), labels.count(), nullptr, nullptr, nullptr, nullptr, 0,
+                                             &count));
+    std::vector<std::uint32_t> found(count);
+    std::vector<std::size_t> sizes(count), pieces(count), handles(count);
+    detail::checked(planish_mesh_label_parts(get(), labels.data(), labels.count(), found.data(), sizes.data(),
+                                             pieces.data(), handles.data(), count, &count));
+    std::vector<label_part> parts;
+    for (std::size_t k = 0; k < count; ++k) parts.push_back({found[k], sizes[k], pieces[k], handles[k]});
+    return parts;
+  }
+
+  /// The places nearest to points.
+  struct feet {
+    /// Triangles that they lie on; PLANISH_NONE for points farther away than options.max_distance.
+    std::vector<std::uint32_t> triangles;
+    /// The places; NaN for the same points.
+    std::vector<point3> points;
+    /// Their distances; NaN for the same points.
+    std::vector<double> distances;
+  };
+
+  /// Finds them anywhere on the mesh: the way back from places of a model to triangles, and so to labels.
+  feet project(const rows<double, 3> &points,
+               const planish_project_options &options = defaults<planish_project_options>(),
+               const progress &hear = {}) const {
+    const std::size_t count = points.count();
+    feet found{std::vector<std::uint32_t>(count), std::vector<point3>(count), std::vector<double>(count)};
+    detail::heard(options, hear, [&](const planish_project_options *given) {
+      return planish_mesh_project(get(), points.data(), count, given, found.triangles.data(),
+                                  detail::flat(found.points), found.distances.data());
+    });
+    return found;
   }
 
   /// Maps a closed mesh of one component and genus 0 on to the unit sphere, one to one.

@@ -253,8 +253,12 @@ contains
     type(planish_mesh_layout_report) :: report
     real(real64) :: corners(3, 4), uv(2, 4)
     integer(int32) :: quads(4), of_cube(4, 6), edges(6, 12), valences(8)
-    integer(int32), allocatable :: sharp(:, :)
-    integer :: stat
+    integer(int32), allocatable :: sharp(:, :), found(:)
+    integer(c_size_t), allocatable :: triangle_counts(:), piece_counts(:), handle_counts(:)
+    real(real64) :: beside(3, 2), places(3, 2), distances(2)
+    integer :: stat, nearest(2)
+    ! below the first triangle, and beyond the middle of the third
+    beside = reshape([0.2_real64, 0.2_real64, -1.0_real64, 1.0_real64, 1.0_real64, 1.0_real64], [3, 2])
     corners = reshape([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 4])
     call mesh%new(corners, reshape([1, 3, 2, 1, 2, 4, 2, 3, 4, 1, 4, 3], [3, 4]))
     call layout%of_mesh(mesh, report=report)
@@ -273,6 +277,15 @@ contains
     call check(stat == PLANISH_STATUS_INVALID_ARGUMENT, "quads have four corners")
     call mesh%find_features(sharp)
     call check(size(sharp, 2) == 6 .and. minval(sharp) == 1 .and. maxval(sharp) == 4, "find_features")
+    call mesh%label_parts([5, 2, 5, 5], found, triangle_counts, piece_counts, handle_counts)
+    call check(all(found == [2, 5]) .and. all(triangle_counts == [1, 3]), "label_parts")
+    call check(all(piece_counts == 1) .and. all(handle_counts == 0), "pieces and handles")
+    call mesh%label_parts([5, 2], found, stat=stat)
+    call check(stat == PLANISH_STATUS_INVALID_ARGUMENT .and. size(found) == 2, "a label for each triangle")
+    call mesh%project(beside, nearest, places, distances)
+    call check(all(nearest == [1, 3]), "triangles count from 1")
+    call check(all(abs(distances - [1.0_real64, 2 / sqrt(3.0_real64)]) < 1e-14_real64), "project")
+    call check(all(abs(places(:, 2) - 1 / 3.0_real64) < 1e-14_real64), "the nearest place")
   end subroutine
 
   subroutine closed_meshes_become_spheres()

@@ -239,6 +239,39 @@ class Mesh(Handle):
         status = call(*arguments, pointer(edges), len(edges), ctypes.byref(count))
         return edges[: count.value].copy(), Report(report, status)
 
+    def label_parts(self, labels: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """How each label hangs together, of one label for each triangle: a face is one piece without handles.
+
+        The labels in increasing order, and for each the number of its triangles, of its pieces, which share no edge, and
+        of the handles of all its pieces.
+        """
+        labels, count = indices(labels, what="labels").ravel(), ctypes.c_size_t()
+        arguments = ("planish_mesh_label_parts", self, pointer(labels), labels.size)
+        call(*arguments, None, None, None, None, 0, ctypes.byref(count))
+        found = np.empty(count.value, np.uint32)
+        triangles, pieces, handles = (np.empty(count.value, np.uintp) for _ in range(3))
+        outputs = (pointer(found), pointer(triangles), pointer(pieces), pointer(handles))
+        call(*arguments, *outputs, count.value, ctypes.byref(count))
+        return found, triangles, pieces, handles
+
+    def project(
+        self, points: Any, *, progress: ProgressCallback | None = None, **project_options: Any
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The nearest places to points (..., 3): triangles (...), places (..., 3), distances (...).
+
+        The way back from places of a model to the mesh that it was fitted to: ``labels[triangles]`` are the labels that
+        they came from, on faces of several labels too. Points farther away than ``max_distance`` have the triangle
+        4294967295 and NaN.
+        """
+        points = array(points, width=3, what="points")
+        shape = points.shape[:-1]
+        triangles, places, distances = np.empty(shape, np.uint32), np.empty(shape + (3,)), np.empty(shape)
+        long = LongCall(progress)
+        record = options("project_options", project_options, **long.fields("project_options"))
+        outputs = (pointer(triangles), pointer(places), pointer(distances))
+        long("planish_mesh_project", self, pointer(points), distances.size, by_reference(record), *outputs)
+        return triangles, places, distances
+
     def split_components(self) -> list[Mesh]:
         """Each piece as a mesh of its own."""
         handles = (ctypes.c_void_p * self.n_components)()

@@ -159,6 +159,25 @@ def test_features_of_a_box():
     assert len(edges) == 12 and (report.chain_count, report.corner_count) == (12, 8)
 
 
+def test_labels_tell_their_pieces_and_places_their_triangles():
+    points, triangles = ball()
+    mesh = planish.Mesh(points, triangles)
+    middles = points[triangles].mean(axis=1)
+    labels = np.where(np.abs(middles[:, 2]) > 0.5, 9, 4)
+    found, sizes, pieces, handles = mesh.label_parts(labels)
+    assert found.tolist() == [4, 9] and sizes.tolist() == [np.sum(labels == 4), np.sum(labels == 9)]
+    assert pieces.tolist() == [1, 2] and handles.tolist() == [0, 0]
+    nearest, places, distances = mesh.project(middles * 1.01)
+    assert np.array_equal(nearest, np.arange(len(triangles)))
+    assert np.abs(np.linalg.norm(places - middles * 1.01, axis=1) - distances).max() < 1e-15
+    nearest, places, distances = mesh.project([[3, 0, 0]], max_distance=0.5)
+    assert nearest[0] == 0xFFFF_FFFF and np.isnan(places).all() and np.isnan(distances).all()
+    with pytest.raises(planish.InvalidError, match="labels do not fit"):
+        mesh.label_parts(labels[1:])
+    with pytest.raises(ValueError, match="not finite"):
+        mesh.project([0, np.nan, 0])
+
+
 def test_layouts():
     cube = planish.Layout.cube()
     assert cube.corners.shape == (6, 4) and np.array_equal(cube.valences, np.full(8, 3)) and len(cube.edges) == 12

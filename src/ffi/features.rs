@@ -1,7 +1,7 @@
 //! Features of meshes: where they are not smooth.
 
 use super::arguments::{
-    ArgumentError, Record, ReportOut, array_len, deref, flag, options, out, rows_mut, slice,
+    ArgumentError, Record, ReportOut, array_len, deref, flag, options, out, rows_mut, rows_or_none, slice,
     slice_mut_or_none,
 };
 use super::guard::guard;
@@ -158,6 +158,56 @@ pub unsafe extern "C" fn planish_mesh_find_features(
         }
         report.store((&features).into());
         total.write(features.edges.len());
+        Ok(())
+    })
+}
+
+/// Tells how each label of a mesh hangs together. A label that stands for a face of a CAD model is one piece without
+/// handles; one in several pieces or with handles tells that labels are mixed up, or that planish_model_fit() makes
+/// several faces of it.
+///
+/// Call it once without arrays for the number of labels, then with room for all; there are no more than triangles.
+///
+/// mesh:                not NULL; stays as it is.
+/// labels:              a number for each triangle.
+/// label_count:         planish_mesh_triangle_count(); 0 for no labels, of which nothing is told.
+/// out_labels:          receives each label once, in increasing order; NULL for none.
+/// out_triangle_counts: receives for each its number of triangles; NULL for none.
+/// out_piece_counts:    receives for each the number of its pieces, which share no edge; NULL for none.
+/// out_handle_counts:   receives for each the handles of all its pieces together; NULL for none.
+/// count:               labels that each of these arrays has room for.
+/// out_count:           receives the number of different labels.
+/// Arrays: labels[label_count], out_labels[count], out_triangle_counts[count], out_piece_counts[count],
+///   out_handle_counts[count], out_count[1].
+/// Returns PLANISH_STATUS_OK or an error: PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (label_count),
+/// PLANISH_STATUS_BUFFER_TOO_SMALL (count), PLANISH_STATUS_TOO_LARGE or PLANISH_STATUS_OUT_OF_MEMORY.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn planish_mesh_label_parts(
+    mesh: *const planish_mesh,
+    labels: *const u32,
+    label_count: usize,
+    out_labels: *mut u32,
+    out_triangle_counts: *mut usize,
+    out_piece_counts: *mut usize,
+    out_handle_counts: *mut usize,
+    count: usize,
+    out_count: *mut usize,
+) -> planish_status {
+    // SAFETY: the caller's promises.
+    guard(|| unsafe {
+        let mesh = &deref(mesh, "mesh")?.0;
+        let total = out(out_count, "out_count")?;
+        let parts = mesh.label_parts(slice(labels, label_count, "labels")?)?;
+        let labels = rows_or_none(out_labels, count, parts.len(), 1, "out_labels")?;
+        let sizes = rows_or_none(out_triangle_counts, count, parts.len(), 1, "out_triangle_counts")?;
+        let pieces = rows_or_none(out_piece_counts, count, parts.len(), 1, "out_piece_counts")?;
+        let handles = rows_or_none(out_handle_counts, count, parts.len(), 1, "out_handle_counts")?;
+        labels.into_iter().flatten().zip(&parts).for_each(|(to, of)| *to = of.label);
+        sizes.into_iter().flatten().zip(&parts).for_each(|(to, of)| *to = of.triangle_count);
+        pieces.into_iter().flatten().zip(&parts).for_each(|(to, of)| *to = of.pieces);
+        handles.into_iter().flatten().zip(&parts).for_each(|(to, of)| *to = of.handles);
+        total.write(parts.len());
         Ok(())
     })
 }

@@ -153,12 +153,7 @@ impl ModelProjector {
         options: &ProjectOptions,
         pool: &Pool,
     ) -> Result<ModelFeet, ProjectError> {
-        if options.max_distance.is_nan() || options.max_distance < 0.0 {
-            return Err(ProjectError::MaxDistance { value: options.max_distance });
-        }
-        if let Some(index) = points.iter().position(|point| !point.is_finite()) {
-            return Err(ProjectError::NotFinite { index });
-        }
+        options.check(points)?;
         let of_chunk = |chunk: &[DVec3]| -> Result<Vec<ModelFoot>, ProjectError> {
             pool.check()?;
             chunk.iter().map(|&point| self.nearest(point, options.max_distance, pool)).collect()

@@ -16,7 +16,7 @@ from pathlib import Path
 SECTIONS = [
     ("Versions and errors", ("planish_version", "planish_check_version", "planish_status", "planish_error", "planish_stage")),
     ("Layouts and sphere maps", ("planish_layout", "planish_mesh_map_to_sphere", "planish_sphere")),
-    ("Features", ("planish_mesh_find_features", "planish_feature")),
+    ("Features", ("planish_mesh_find_features", "planish_mesh_label_parts", "planish_feature")),
     ("Meshes", ("planish_mesh", "planish_decimate", "planish_parameterize", "planish_sample_rows")),
     ("Models: solids and shells", ("planish_model", "planish_edge", "planish_face")),
     ("Tensor surfaces", ("planish_tensor",)),

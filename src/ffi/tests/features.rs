@@ -95,3 +95,46 @@ fn refusals_leave_outputs_alone() {
     assert_untouched(&edges);
     assert_untouched(&count);
 }
+
+#[test]
+fn labels_in_two_pieces_are_told() {
+    let mesh = closed_mesh();
+    // two facets that meet in a corner alone, and the six others
+    let labels = [9, 4, 9, 4, 4, 4, 4, 4];
+    let (mut found, mut sizes, mut pieces, mut handles) = ([0; 2], [0; 2], [0; 2], [7; 2]);
+    let mut count = 0;
+    // SAFETY: arrays of this test.
+    unsafe {
+        let (at, nowhere) = (labels.as_ptr(), null_mut());
+        let none = null_mut();
+        ok(planish_mesh_label_parts(mesh.0, at, 8, none, nowhere, nowhere, nowhere, 0, &mut count));
+        assert_eq!(count, 2);
+        let (found_at, sizes_at) = (found.as_mut_ptr(), sizes.as_mut_ptr());
+        let (pieces_at, handles_at) = (pieces.as_mut_ptr(), handles.as_mut_ptr());
+        ok(planish_mesh_label_parts(mesh.0, at, 8, found_at, sizes_at, pieces_at, handles_at, 2, &mut count));
+        ok(planish_mesh_label_parts(mesh.0, null(), 0, none, nowhere, nowhere, nowhere, 0, &mut count));
+    }
+    assert_eq!((found, sizes, pieces, handles, count), ([4, 9], [6, 2], [1, 2], [0, 0], 0));
+}
+
+#[test]
+fn label_parts_that_are_refused_leave_outputs_alone() {
+    use planish_status::*;
+    let mesh = closed_mesh();
+    let labels = [1, 1, 1, 1, 2, 2, 2, 2];
+    let mut found: [u32; 2] = canary();
+    let mut count: usize = canary();
+    // SAFETY: arrays of this test; NULL is refused.
+    unsafe {
+        let (from, at, no) = (labels.as_ptr(), found.as_mut_ptr(), null_mut());
+        let status = planish_mesh_label_parts(mesh.0, from, 7, at, no, no, no, 2, &mut count);
+        refused(status, InvalidArgument, -1, &["7 labels do not fit 8 triangles"]);
+        let status = planish_mesh_label_parts(mesh.0, from, 8, at, no, no, no, 1, &mut count);
+        refused(status, BufferTooSmall, -1, &["room for 1, 2 are needed"]);
+        null_refused(planish_mesh_label_parts(null(), from, 8, at, no, no, no, 2, &mut count), "mesh");
+        null_refused(planish_mesh_label_parts(mesh.0, null(), 8, at, no, no, no, 2, &mut count), "labels");
+        null_refused(planish_mesh_label_parts(mesh.0, from, 8, at, no, no, no, 2, no), "out_count");
+    }
+    assert_untouched(&found);
+    assert_untouched(&count);
+}

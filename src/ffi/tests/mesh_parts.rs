@@ -256,3 +256,95 @@ fn paths_are_found_and_cut() {
         assert_untouched(&out);
     }
 }
+
+#[test]
+fn points_find_their_triangles() {
+    let mesh = closed_mesh();
+    // beyond the middles of two facets, and far away
+    let points = [1.0, 1.0, 1.0, -2.0, 2.0, -2.0, 100.0, 90.0, -80.0];
+    let (mut triangles, mut places, mut distances) = ([0; 3], [0.0; 9], [0.0; 3]);
+    let near = planish_project_options { max_distance: 10.0, ..record() };
+    // SAFETY: arrays of this test.
+    unsafe {
+        let at = points.as_ptr();
+        let to = (triangles.as_mut_ptr(), places.as_mut_ptr(), distances.as_mut_ptr());
+        let status = planish_mesh_project(mesh.0, at, 3, &near, to.0, to.1, to.2);
+        assert_eq!(status, planish_status::PointsOutside);
+        assert_eq!(triangles, [0, 5, PLANISH_NONE]);
+        for (found, expected) in distances.iter().zip([2.0, 5.0]) {
+            assert!((found - expected / 3_f64.sqrt()).abs() < 4.0 * f64::EPSILON, "{distances:?}");
+        }
+        for (found, sign) in places.iter().zip([1.0, 1.0, 1.0, -1.0, 1.0, -1.0]) {
+            assert!((found - sign / 3.0).abs() < 1e-15, "{places:?}");
+        }
+        assert!(distances[2].is_nan() && places[6..].iter().all(|x| x.is_nan()));
+        ok(planish_mesh_project(mesh.0, at, 3, null(), to.0, null_mut(), null_mut()));
+        assert_eq!(triangles, [0, 5, 4]);
+        ok(planish_mesh_project(mesh.0, null(), 0, null(), null_mut(), null_mut(), null_mut()));
+    }
+}
+
+#[test]
+fn projections_onto_meshes_that_are_refused_leave_outputs_alone() {
+    use planish_status::*;
+    let mesh = closed_mesh();
+    let points = [1.0, 1.0, 1.0, 0.0, f64::INFINITY, 0.0];
+    let guess = [0.0; 4];
+    let mut triangles: [u32; 2] = canary();
+    let mut flags: [u8; 2] = canary();
+    let stop = 1;
+    let base = || record::<planish_project_options>();
+    let cases = [
+        (base(), NotFinite, 1, "point 1 is not finite"),
+        (
+            planish_project_options { max_distance: -1.0, ..base() },
+            InvalidArgument,
+            -1,
+            "largest distance is -1",
+        ),
+        (
+            planish_project_options { guesses: guess.as_ptr(), ..base() },
+            InvalidArgument,
+            -1,
+            "guesses is not used",
+        ),
+        (planish_project_options { keep_trims: 0, ..base() }, InvalidArgument, -1, "keep_trims is not used"),
+        (
+            planish_project_options { out_flags: flags.as_mut_ptr(), ..base() },
+            InvalidArgument,
+            -1,
+            "out_flags is not",
+        ),
+        (
+            planish_project_options { thread_count: 2000, ..base() },
+            InvalidArgument,
+            -1,
+            "thread_count is 2000",
+        ),
+    ];
+    for (options, status, index, word) in cases {
+        // SAFETY: arrays of this test.
+        let found = unsafe {
+            let (at, to) = (points.as_ptr(), triangles.as_mut_ptr());
+            planish_mesh_project(mesh.0, at, 2, &options, to, null_mut(), null_mut())
+        };
+        refused(found, status, index, &[word]);
+    }
+    for thread_count in [1, 2] {
+        let stopped = planish_project_options { cancel: &stop, thread_count, ..base() };
+        // SAFETY: arrays of this test.
+        let found = unsafe {
+            let (at, to) = (points.as_ptr(), triangles.as_mut_ptr());
+            planish_mesh_project(mesh.0, at, 1, &stopped, to, null_mut(), null_mut())
+        };
+        refused(found, Cancelled, -1, &[]);
+    }
+    // SAFETY: NULL is refused.
+    unsafe {
+        let (at, to, nowhere) = (points.as_ptr(), triangles.as_mut_ptr(), null_mut());
+        null_refused(planish_mesh_project(null(), at, 1, null(), to, nowhere, nowhere), "mesh");
+        null_refused(planish_mesh_project(mesh.0, null(), 1, null(), to, nowhere, nowhere), "points");
+    }
+    assert_untouched(&triangles);
+    assert_untouched(&flags);
+}

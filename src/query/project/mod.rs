@@ -20,6 +20,7 @@ mod foot;
 mod index;
 mod inside;
 mod kernel;
+mod mesh;
 mod search;
 #[cfg(test)]
 mod tests;
@@ -65,6 +66,17 @@ impl<'a> ProjectOptions<'a> {
         with_guesses guesses: Option<&'a [DVec2]>,
         with_max_distance max_distance: f64,
         with_keep_trims keep_trims: bool,
+    }
+
+    /// Refuses points that are not finite, and distances that are none.
+    pub(crate) fn check(&self, points: &[DVec3]) -> Result<(), ProjectError> {
+        if self.max_distance.is_nan() || self.max_distance < 0.0 {
+            return Err(ProjectError::MaxDistance { value: self.max_distance });
+        }
+        match points.iter().position(|point| !point.is_finite()) {
+            Some(index) => Err(ProjectError::NotFinite { index }),
+            None => Ok(()),
+        }
     }
 }
 

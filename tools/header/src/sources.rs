@@ -35,6 +35,7 @@ const ORDER: &[&str] = &[
     "from_patches.rs",
     "transfer.rs",
     "query.rs",
+    "mesh_query.rs",
     "rows.rs",
     "extent.rs",
     "fair.rs",
