@@ -487,8 +487,8 @@ fn over_complex(
     Ok(Component::smooth(made.layout, fit, report))
 }
 
-/// Where a layout folds nodes, so many times as many patches are tried one after the other: over coarse meshes with handles some
-/// numbers have folds and about half of the others have none.
+/// Where a layout folds nodes, so many times as many patches are tried one after the other: over coarse meshes with handles numbers
+/// near the fewest that these need have folds, and most larger ones have none.
 const OTHER_COUNTS: [f64; 7] = [1.25, 1.6, 2.0, 0.85, 2.5, 3.0, 4.0];
 
 /// Nodes a patch: fewer say too little of where it lies.
