@@ -300,6 +300,7 @@ fn json_report(
         "max_back_distance": report.max_back_distance,
         "normal_jump": report.normal_jump,
         "gap": report.gap,
+        "folded_cells": report.folded_cells,
         "volume": report.volume,
         "mesh_volume": report.mesh_volume,
         "labels": arguments.labels.as_ref().map(|_| labels.iter().map(label).collect::<Vec<_>>()),
