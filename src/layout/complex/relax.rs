@@ -3,7 +3,8 @@
 //! Each node takes Newton steps in a picture of the quads around it (`chart`), with the symmetric
 //! Dirichlet energy of its triangles (`parameterize::dirichlet`). Nodes cross edges, and with them
 //! edges and vertices of the layout slide over the mesh until patches are equal and square. Nodes whose triangles are
-//! turned over at the start go first to where the least area is turned over; a node none of whose triangles is turned over stays so.
+//! turned over go to where the least area of these is, which may turn over one of a neighbour's to right larger ones; steps of all
+//! other nodes turn none over.
 
 use super::base::Fine;
 use super::border::Border;
@@ -336,7 +337,7 @@ impl<'a> Map<'a> {
 }
 
 /// The middle of the corners if nothing is turned over there, else the place where the area that is turned over is least, by a
-/// search with shrinking steps. That area is a sum over triangles, so it shrinks for the whole map.
+/// search with shrinking steps. That area is a sum over triangles, so it shrinks for the whole map as far as pictures agree.
 fn unfolded(star: &Star, start: DVec2, accepts: impl Fn(DVec3) -> bool) -> Option<DVec3> {
     let (mut best, mut least) = (start.extend(1.0), star.turned_area(start.extend(1.0)));
     let (count, sum) =
