@@ -52,8 +52,8 @@ def print_head(cells):
 
 
 def print_evaluation(races, times):
-    peers = ["SISL", "OpenCASCADE", "FITPACK"]
-    print_head(["net", "knots", "job", "planish", *peers, "ours / fastest peer", "goal"])
+    names = ["SISL", "OpenCASCADE", "FITPACK"]
+    print_head(["net", "knots", "job", "planish", *names, "ours / fastest peer", "goal"])
     for (net, knots, job), runs in races.items():
         if job not in GOALS:
             continue
@@ -70,7 +70,7 @@ def print_evaluation(races, times):
                     ratios.append(ours[0] / peers[best][0])
         ours, goal = runs[0]["planish"], GOALS[job][NETS.index(net)]
         met = "-" if goal is None else f"{number(goal)}, {'met' if ours[0] >= goal else 'missed'}"
-        key = f"{job}, {net}", "the fastest of " + ", ".join(peers)
+        key = f"{job}, {net}", "the fastest of " + ", ".join(names)
         times[key] = min([times.get(key, ratios[0]), *ratios])
         print_row([net, knots, job, cell(ours), *cells.values(), number(min(ratios)), met])
 

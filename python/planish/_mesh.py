@@ -14,6 +14,20 @@ from ._library import OUT, Handle, InvalidError, array, call, indices, lib, made
 from ._records import Report, by_reference, options, report_record
 
 
+def projected(
+    name: str, handle: Handle, points: Any, width: int, progress: ProgressCallback | None, given: Mapping[str, Any]
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Nearest places in space, by a call that takes `project_options`: of what part, where on it in rows, how far."""
+    points = array(points, width=3, what="points")
+    shape = points.shape[:-1]
+    parts, places, distances = np.empty(shape, np.uint32), np.empty(shape + (width,)), np.empty(shape)
+    long = LongCall(progress)
+    record = options("project_options", given, **long.fields("project_options"))
+    outputs = (pointer(parts), pointer(places), pointer(distances))
+    long(name, handle, pointer(points), distances.size, by_reference(record), *outputs)
+    return parts, places, distances
+
+
 class Mesh(Handle):
     """A triangle mesh with its boundary loops, parameters and fields on the nodes.
 
@@ -263,14 +277,7 @@ class Mesh(Handle):
         they came from, on faces of several labels too. Points farther away than ``max_distance`` have the triangle
         4294967295 and NaN.
         """
-        points = array(points, width=3, what="points")
-        shape = points.shape[:-1]
-        triangles, places, distances = np.empty(shape, np.uint32), np.empty(shape + (3,)), np.empty(shape)
-        long = LongCall(progress)
-        record = options("project_options", project_options, **long.fields("project_options"))
-        outputs = (pointer(triangles), pointer(places), pointer(distances))
-        long("planish_mesh_project", self, pointer(points), distances.size, by_reference(record), *outputs)
-        return triangles, places, distances
+        return projected("planish_mesh_project", self, points, 3, progress, project_options)
 
     def split_components(self) -> list[Mesh]:
         """Each piece as a mesh of its own."""

@@ -13,7 +13,7 @@ from . import _abi, _brep
 from ._calls import LongCall, ProgressCallback
 from ._curve import Curve
 from ._library import OUT, Handle, array, call, indices, lib, made, path_of, pointer, read_only
-from ._mesh import Mesh, read_mesh
+from ._mesh import Mesh, projected, read_mesh
 from ._parts import Edge, Face, Parts, Shell
 from ._records import Report, by_reference, options, report_record
 from ._surface import Curvatures, Surface, _write_report, _write_step, deviation_of
@@ -186,14 +186,7 @@ class Model(Handle):
         self, points: Any, *, progress: ProgressCallback | None = None, **project_options: Any
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """The nearest places to points (..., 3) over all faces: faces (...), parameters (..., 2), distances (...)."""
-        points = array(points, width=3, what="points")
-        shape = points.shape[:-1]
-        faces, uv, distances = np.empty(shape, np.uint32), np.empty(shape + (2,)), np.empty(shape)
-        long = LongCall(progress)
-        record = options("project_options", project_options, **long.fields("project_options"))
-        outputs = (pointer(faces), pointer(uv), pointer(distances))
-        long("planish_model_project", self, pointer(points), distances.size, by_reference(record), *outputs)
-        return faces, uv, distances
+        return projected("planish_model_project", self, points, 2, progress, project_options)
 
     def deviation(
         self, mesh: Mesh, *, progress: ProgressCallback | None = None, **deviation_options: Any

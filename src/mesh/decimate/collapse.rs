@@ -74,17 +74,24 @@ impl Node {
     }
 }
 
-/// A node to collapse another one onto, and what that costs.
+/// A node and what a collapse costs, of it or onto it. In increasing order of cost; ties go to the smaller node.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Target {
+pub(super) struct Priced {
     pub cost: f64,
-    pub to: u32,
+    pub node: u32,
 }
 
-impl Target {
-    /// In increasing order of cost; ties go to the smaller node.
-    pub(super) fn order(&self, other: &Self) -> Ordering {
-        self.cost.total_cmp(&other.cost).then(self.to.cmp(&other.to))
+impl Eq for Priced {}
+
+impl Ord for Priced {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.cost.total_cmp(&other.cost).then(self.node.cmp(&other.node))
+    }
+}
+
+impl PartialOrd for Priced {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
     }
 }
 
@@ -153,9 +160,9 @@ impl<'a> Collapsing<'a> {
 
     /// The nodes that a node may be collapsed onto as far as features have a say. Hubs have none, nor have nodes that are
     /// gone.
-    pub(super) fn targets_of(&self, from: u32, targets: &mut Vec<Target>) {
+    pub(super) fn targets_of(&self, from: u32, targets: &mut Vec<Priced>) {
         targets.clear();
-        let target = |to: u32| Target { cost: self.cost(from, to), to };
+        let target = |node: u32| Priced { cost: self.cost(from, node), node };
         match self.features.roles[from as usize] {
             _ if self.is_hub(from) => {}
             Role::Corner => {}

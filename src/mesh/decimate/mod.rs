@@ -24,10 +24,10 @@ use crate::failure::{Classify, ErrorKind};
 use crate::geometry::{Orientation, orientation};
 use crate::memory::{self, CollectVec};
 use crate::options::with_fields;
-use collapse::{Collapsing, Target};
+use collapse::{Collapsing, Priced};
 use features::Features;
 use glam::{DVec2, DVec3};
-use std::cmp::{Ordering, Reverse};
+use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::f64::consts::{FRAC_PI_4, PI};
 use std::time::Instant;
@@ -245,14 +245,14 @@ fn sharp_edges(collapsing: &Collapsing, piece: &Piece) -> Vec<[u32; 2]> {
 /// turn comes: costs only grow where planes are added up, so that what it cost before is a bound from below.
 struct Queue {
     /// Entries up to the ceiling.
-    heap: BinaryHeap<Reverse<Entry>>,
+    heap: BinaryHeap<Reverse<Priced>>,
     /// Nodes that cost more wait until the heap is empty: one of all nodes would not stay in the processor's cache.
     ceiling: f64,
     nodes: Vec<Queued>,
     /// Entries taken so far.
     taken: usize,
     /// Of the node that is looked at.
-    targets: Vec<Target>,
+    targets: Vec<Priced>,
 }
 
 /// What is known of a node's collapses.
@@ -263,7 +263,7 @@ struct Queued {
     /// No collapse of it costs less, refused or not.
     least: f64,
     /// The dearest collapse refused since something changed beside it; so were its cheaper ones.
-    refused: Option<Target>,
+    refused: Option<Priced>,
 }
 
 /// The heap takes one of so many of the nodes that wait: of a million nodes its entries are a megabyte, which stays in a
@@ -272,27 +272,6 @@ const RISES: usize = 16;
 /// Nodes whose costs say what the cheapest are, at most about. Few would make parts of uneven size, all take time in which
 /// nobody asks whether the call is to end.
 const SAMPLE: usize = 4096;
-
-/// A node in the heap.
-#[derive(PartialEq)]
-struct Entry {
-    cost: f64,
-    from: u32,
-}
-
-impl Eq for Entry {}
-
-impl Ord for Entry {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.cost.total_cmp(&other.cost).then(self.from.cmp(&other.from))
-    }
-}
-
-impl PartialOrd for Entry {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
 
 impl Queue {
     fn of(collapsing: &Collapsing, node_count: u32, watch: &Watch) -> Result<Self, Cancelled> {
@@ -313,13 +292,13 @@ impl Queue {
             node.cost = cost;
             if cost <= self.ceiling {
                 memory::reserve_item(&mut self.heap);
-                self.heap.push(Reverse(Entry { cost, from }));
+                self.heap.push(Reverse(Priced { cost, node: from }));
             }
         }
     }
 
     /// The cheapest entry; when there is none left, the ceiling rises.
-    fn take(&mut self, watch: &Watch) -> Result<Option<Entry>, Cancelled> {
+    fn take(&mut self, watch: &Watch) -> Result<Option<Priced>, Cancelled> {
         if self.heap.is_empty() {
             self.rise(watch)?;
         }
@@ -338,7 +317,7 @@ impl Queue {
         for (node, from) in self.nodes.iter().zip(0..) {
             watch.check_at(from as usize)?;
             if node.cost <= self.ceiling {
-                memory::push(&mut entries, Reverse(Entry { cost: node.cost, from }));
+                memory::push(&mut entries, Reverse(Priced { cost: node.cost, node: from }));
             }
         }
         self.heap = BinaryHeap::from(entries);
@@ -366,7 +345,7 @@ impl Queue {
 
     /// The nodes of the cheapest collapse that keeps the mesh a good one.
     fn pop(&mut self, collapsing: &Collapsing, watch: &Watch) -> Result<Option<[u32; 2]>, Cancelled> {
-        while let Some(Entry { cost, from }) = self.take(watch)? {
+        while let Some(Priced { cost, node: from }) = self.take(watch)? {
             self.taken += 1;
             watch.check_at(self.taken)?;
             let node = &mut self.nodes[from as usize];
@@ -383,8 +362,8 @@ impl Queue {
                     self.push(target.cost, from);
                     break;
                 }
-                if collapsing.may_collapse(from, target.to) {
-                    return Ok(Some([from, target.to]));
+                if collapsing.may_collapse(from, target.node) {
+                    return Ok(Some([from, target.node]));
                 }
                 node.refused = Some(target);
             }
@@ -394,9 +373,9 @@ impl Queue {
 }
 
 /// The cheapest target beyond those refused.
-fn cheapest(targets: &[Target], refused: Option<Target>) -> Option<Target> {
-    let is_left = |target: &&Target| refused.is_none_or(|refused| target.order(&refused).is_gt());
-    targets.iter().filter(is_left).min_by(|a, b| a.order(b)).copied()
+fn cheapest(targets: &[Priced], refused: Option<Priced>) -> Option<Priced> {
+    let is_left = |target: &&Priced| refused.is_none_or(|refused| **target > refused);
+    targets.iter().filter(is_left).min().copied()
 }
 
 /// Collapses between two reports of progress: some milliseconds.
