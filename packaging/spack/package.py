@@ -1,8 +1,11 @@
+from spack_repo.builtin.build_systems.cmake import CMakePackage
+
 from spack.package import *
 
 
 class Planish(CMakePackage):
-    """Smooth spline surfaces from triangle meshes, rows of points and fields, within a stated tolerance."""
+    """Smooth spline surfaces from triangle meshes, rows of points and fields, within a stated
+    tolerance."""
 
     homepage = "@HOMEPAGE@"
     url = "@ARCHIVE@"
