@@ -103,7 +103,11 @@ impl<'a> Collapsing<'a> {
         features: Features,
         watch: &Watch,
     ) -> Result<Self, Cancelled> {
-        let mut nodes = points.iter().map(|&point| Node::at(point)).collect_vec();
+        let mut nodes = memory::with_capacity(points.len());
+        for (number, &point) in points.iter().enumerate() {
+            watch.check_at(number)?;
+            memory::push(&mut nodes, Node::at(point));
+        }
         for (t, triangle) in triangles.iter().enumerate() {
             watch.check_at(t)?;
             let double_area = normal(points, triangle);
@@ -127,7 +131,10 @@ impl<'a> Collapsing<'a> {
                 }
             }
         }
-        nodes.iter_mut().for_each(|node| node.height = node.quadric.at(node.point));
+        for (number, node) in nodes.iter_mut().enumerate() {
+            watch.check_at(number)?;
+            node.height = node.quadric.at(node.point);
+        }
         let triangles = triangles.iter().copied().map(Some).collect_vec();
         Ok(Self { nodes, map, triangles, features })
     }

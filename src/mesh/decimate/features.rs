@@ -8,6 +8,7 @@
 //! ```
 
 use super::{DecimateError, DecimateOptions};
+use crate::control::Watch;
 use crate::memory::{self, CollectVec};
 use crate::mesh::{HalfEdge, Mesh};
 use glam::{DVec2, DVec3};
@@ -32,10 +33,11 @@ pub(super) struct Features {
 }
 
 impl Features {
-    pub(super) fn of(mesh: &Mesh, options: &DecimateOptions) -> Result<Self, DecimateError> {
+    pub(super) fn of(mesh: &Mesh, options: &DecimateOptions, watch: &Watch) -> Result<Self, DecimateError> {
         let is_sharp = sharp_edges(mesh, options)?;
         let mut neighbours = memory::filled(Vec::new(), mesh.points().len());
         for (edge, &is_sharp) in half_edges(mesh).zip(&is_sharp) {
+            watch.check_at(edge.index())?;
             let is_boundary = mesh.topology().twin(edge).is_none();
             let [from, to] = [edge.origin(mesh.triangles()), edge.target(mesh.triangles())];
             if is_boundary || (is_sharp && from < to) {

@@ -191,8 +191,9 @@ impl Mesh {
         let side = side(self.triangles(), uv)?;
         let (safe, _) = self.at_safe_scale();
         control.pool().check()?;
-        let features = Features::of(&safe, options)?;
-        let (points, watch) = (centred(&safe), control.pool().watch());
+        let watch = control.pool().watch();
+        let features = Features::of(&safe, options, watch)?;
+        let points = centred(&safe);
         let mut collapsing = Collapsing::new(&points, self.triangles(), uv.zip(side), features, watch)?;
         let removable = self.used_count.saturating_sub(options.target_count);
         let collapse_count = collapse_all(&mut collapsing, removable, self.points.len() as u32, control)?;

@@ -236,7 +236,8 @@ fn all_sharp_edges_of_a_bracket_stay() {
     let options = to(400).with_sharp_angle(Some(40_f64.to_radians()));
     let coarse = decimate(&mesh, &options);
     assert_same_kind(&mesh, &coarse);
-    let sharp = |mesh: &Mesh, options: &DecimateOptions| Features::of(mesh, options).unwrap();
+    let sharp =
+        |mesh: &Mesh, options: &DecimateOptions| Features::of(mesh, options, &Watch::default()).unwrap();
     let before = sharp(&mesh, &options);
     let after = sharp(&coarse.piece.mesh, &to(400).with_sharp_edges(&coarse.sharp_edges));
     // ends and junctions of chains stay, and the number of chains at each
