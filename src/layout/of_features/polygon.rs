@@ -227,13 +227,29 @@ impl<'a> Search<'a> {
         self.group_valences[group] >= need
     }
 
-    /// Least cost of any filling that goes on from here.
+    /// Least cost of any filling that goes on from here: of the fewest quads, and of the corners that stay on fronts, each of
+    /// which gets one quad more at least.
     fn bound(&self, fronts: &[Vec<u32>], left: &[Vec<u32>]) -> f64 {
         let quads: usize = fronts.iter().chain(left).map(|front| front.len() / 2 - 1).sum();
         if self.quads.len() + quads > self.border_count() / 2 - 1 + MOST_MORE_QUADS {
             return f64::INFINITY;
         }
-        self.cost + QUAD_COST * quads as f64
+        let mut of_groups = self.group_valences.clone();
+        let mut inside = 0.0;
+        for (vertex, &fronts) in self.fronts.iter().enumerate().filter(|(_, fronts)| **fronts > 0) {
+            let least = self.valences[vertex] + fronts;
+            match self.polygon.groups.get(vertex) {
+                Some(&group) => of_groups[group as usize] += least,
+                None if least > MOST_VALENCE => return f64::INFINITY,
+                None => inside += least_corner_cost(4.0, least.max(LEAST_VALENCE)),
+            }
+        }
+        let corners = self.polygon.corners.iter().zip(&of_groups).zip(&self.open_copies);
+        let border: f64 = corners
+            .filter(|(_, copies)| **copies > 0)
+            .map(|((corner, &least), _)| least_corner_cost(corner.angle, least.max(corner.need)))
+            .sum();
+        self.cost + QUAD_COST * quads as f64 + inside + border
     }
 }
 
@@ -246,9 +262,16 @@ fn corner_cost(angle: f64, valence: u32) -> f64 {
     (angle - valence).powi(2) / valence
 }
 
+/// The least of the costs with so many quads or more: they fall up to the angle, and grow beyond it.
+fn least_corner_cost(angle: f64, valence: u32) -> f64 {
+    let best = valence.max(angle as u32);
+    corner_cost(angle, best).min(corner_cost(angle, best + 1))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::samples::Random;
 
     /// Far more than these polygons need.
     const STEPS: usize = 1_000_000;
@@ -310,6 +333,26 @@ mod tests {
         check(&polygon, &filling);
         assert_eq!(filling.quads.len(), 2);
         assert!(filling.quads.iter().all(|quad| quad.contains(&2) && quad.contains(&5)), "{filling:?}");
+    }
+
+    #[test]
+    fn no_filling_costs_less_than_is_said_before() {
+        let mut random = Random::new(5);
+        for count in [4, 6, 8, 10] {
+            for _ in 0..20 {
+                let angles: Vec<f64> = (0..count).map(|_| 1.0 + 1.2 * random.unit()).collect();
+                let polygon = polygon(&angles);
+                let search = Search::new(&polygon, STEPS);
+                let least = search.bound(&[], &[(0..count).collect()]);
+                let Some(filling) = polygon.filled(STEPS) else { continue };
+                check(&polygon, &filling);
+                // sums of about twenty costs of about one
+                assert!(least <= filling.cost + 64.0 * f64::EPSILON, "{angles:?}: {least}, {filling:?}");
+            }
+        }
+        // right angles all around and one quad are all there is to it
+        let square = polygon(&[1.0; 4]);
+        assert_eq!(Search::new(&square, STEPS).bound(&[], &[vec![0, 1, 2, 3]]), QUAD_COST);
     }
 
     #[test]
