@@ -1367,7 +1367,8 @@ module planish_records
     real(c_double) :: smoothing = 1e-4_c_double
     integer(c_size_t) :: max_cells = 200000 !! Most cells of all patches of a component
     integer(c_size_t) :: min_samples = 6 !! A cell with fewer samples is not split, as long as others help
-    !> About how many patches a base complex has; 0.85 to 4 times as many where it would fold nodes
+    !> About how many patches a base complex has; 0.85 to 4 times as many where it would fold nodes, or where the fit
+    !> folds or misses the tolerance by less than twice and another number does better
     integer(c_size_t) :: patches = 40
     !> A planish_tolerance_scale; PLANISH_TOLERANCE_SCALE_RELATIVE (default): to the diagonal of the mesh's box
     integer(c_int32_t) :: tolerance_scale = PLANISH_TOLERANCE_SCALE_RELATIVE

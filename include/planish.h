@@ -3732,7 +3732,8 @@ typedef struct planish_model_options {
      */
     size_t min_samples;
     /**
-     * About how many patches a base complex has; 0.85 to 4 times as many where it would fold nodes. Default 40.
+     * About how many patches a base complex has; 0.85 to 4 times as many where it would fold nodes, or where the fit folds or
+     * misses the tolerance by less than twice and another number does better. Default 40.
      */
     size_t patches;
     /**

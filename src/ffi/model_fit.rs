@@ -72,7 +72,8 @@ record! {
         pub max_cells: usize = core.max_cells,
         /// A cell with fewer samples is not split, as long as others help. Default 6.
         pub min_samples: usize = core.min_samples,
-        /// About how many patches a base complex has; 0.85 to 4 times as many where it would fold nodes. Default 40.
+        /// About how many patches a base complex has; 0.85 to 4 times as many where it would fold nodes, or where the fit folds or
+        /// misses the tolerance by less than twice and another number does better. Default 40.
         pub patches: usize = layout_core.patches,
         /// A planish_tolerance_scale; PLANISH_TOLERANCE_SCALE_RELATIVE (default): to the diagonal of the mesh's box.
         pub tolerance_scale: u32,

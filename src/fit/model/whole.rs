@@ -2,12 +2,13 @@
 //!
 //! ```text
 //! closed, exact       planes and cylinders that explain all of it, without a patch
-//! sharp edges         patches and planes between them; where that fails, as without
+//! sharp edges         patches and planes between them; where that fails, or they are but texture and it serves, as without
 //! closed, genus 0     over the cube; where that misses the tolerance or folds, over a base complex too, and the better is kept
 //! closed, handles     over a base complex
 //! open, exact         shells of planes and cylinders
-//! open                over its features if it has sharp edges or several loops, else, or where that is no good, one chart: a
-//!                     PHT-spline inside its trims; where no features serve and the chart misses, over its borders alone
+//! open                over its features if it has sharp edges or several loops, else, where these are but texture, or where
+//!                     that is no good, one chart: a PHT-spline inside its trims; where no features serve and the chart
+//!                     misses, over its borders alone
 //! ```
 //! Several closed components become several shells, one inside another a void.
 
@@ -35,6 +36,8 @@ use crate::query::crossings::crossings;
 use crate::query::tessellate::TessellateOptions;
 use crate::surface::AnySurface;
 use glam::DVec2;
+use std::cell::Cell;
+use std::cmp::Ordering;
 use std::f64::consts::PI;
 use std::time::Instant;
 
@@ -82,37 +85,34 @@ fn count_crossings(mesh: &Mesh, fit: &mut ModelFit, control: &mut Control) -> Re
 }
 
 /// An open mesh: over its features if it has some inside or several loops, and what comes of it is good; else as one
-/// chart.
+/// chart. The chart comes first where its features are but texture.
 fn open(mesh: &Mesh, options: &MeshModelOptions, control: &mut Control) -> Result<ModelFit, ModelFitError> {
-    let has_features = || -> Result<bool, ModelFitError> {
-        let features = mesh.find_features(&options.features)?;
-        Ok(features.edges.len() > features.border_count || mesh.loops().len() > 1)
-    };
-    let is_few = mesh.component_count() <= bodies::MAX_COMPONENTS;
-    if !is_few || !asks_for_features(options) || !has_features()? {
+    if mesh.component_count() > bodies::MAX_COMPONENTS || !asks_for_features(options) {
+        return chart(mesh, options, control);
+    }
+    let features = mesh.find_features(&options.features)?;
+    if features.edges.len() == features.border_count && mesh.loops().len() == 1 {
         return chart(mesh, options, control);
     }
     options.fit.check(1)?;
-    let is_cancelled = |error: &ModelFitError| error.kind() == ErrorKind::Cancelled;
-    let creased = control.within(0.0, 0.4, |control| shells(mesh, bodies::shells(mesh), options, control));
-    let creased = match creased {
-        Ok(fit) if is_good(&fit.report) => return Ok(fit),
-        Err(error) if is_cancelled(&error) => return Err(error),
-        creased => creased,
+    let has_layout = Cell::new(false);
+    let over_edges = |control: &mut Control| {
+        let fit = shells(mesh, bodies::shells(mesh), options, control);
+        has_layout.set(fit.is_ok());
+        fit.map(Some)
     };
-    let chart = match control.within(0.4, 0.6, |control| chart(mesh, options, control)) {
-        Ok(fit) if is_good(&fit.report) => return Ok(fit),
-        Err(error) if is_cancelled(&error) => return Err(error),
-        chart => chart,
+    let chart = |control: &mut Control| chart(mesh, options, control).map(Some);
+    let over_borders = |control: &mut Control| match has_layout.get() {
+        true => Ok(None),
+        false => over_borders(mesh, options, control),
     };
-    let over_borders = match creased {
-        Ok(_) => None,
-        Err(_) => control.within(0.6, 1.0, |control| over_borders(mesh, options, control))?,
+    let ways: [Way<ModelFit>; 3] = match features.are_texture() {
+        true => [(0.2, &chart), (0.4, &over_edges), (0.4, &over_borders)],
+        false => [(0.4, &over_edges), (0.2, &chart), (0.4, &over_borders)],
     };
-    [creased.ok(), over_borders].into_iter().flatten().fold(chart, |best, fit| match best {
-        Ok(best) if !is_better(&fit.report, &best.report) => Ok(best),
-        _ => Ok(fit),
-    })
+    let better =
+        |made: ModelFit, best: ModelFit| if is_better(&made.report, &best.report) { made } else { best };
+    first_done(&ways, |fit| is_good(&fit.report), better, control)
 }
 
 /// Where borders turn by more they have corners if all their features let no layout be had, one after the other: 57 degrees
@@ -342,7 +342,7 @@ fn of_body(features: &FeatureOptions, body: &Body) -> (Vec<u32>, Vec<[u32; 2]>) 
     (labels, features.sharp_edges.iter().filter_map(both).collect_vec())
 }
 
-/// One component: over its features, or smooth, or the better of both.
+/// One component: over its features or smooth, whichever serves first, or else the better of both.
 fn component(
     body: &Body,
     options: &MeshModelOptions,
@@ -352,47 +352,103 @@ fn component(
     if !is_open && (!asks_for_features(options) || options.layout.kind != LayoutKind::Auto) {
         return smooth(body, options, control);
     }
-    match control.within(0.0, 0.5, |control| creased(body, options, control)) {
-        Ok(None) if is_open => Err(open_body(body)),
-        Ok(Some(made)) if is_open || is_done(&made) => Ok(made),
-        Err(error) if is_open || error.kind() == ErrorKind::Cancelled => Err(error),
-        creased => match (creased, control.within(0.5, 1.0, |control| smooth(body, options, control))) {
-            (Ok(Some(made)), Ok(rounded)) if is_better(&made.report.fit, &rounded.report.fit) => Ok(made),
-            (Ok(Some(made)), Err(error)) if error.kind() != ErrorKind::Cancelled => Ok(made),
-            (creased, rounded) => rounded.map(|mut rounded| {
-                rounded.report.rounds_edges = !matches!(creased, Ok(None));
-                rounded
-            }),
-        },
+    let found = BodyFeatures::find(body, options, control)?;
+    if is_open {
+        return over_found(body, &found, options, control)?.ok_or_else(|| open_body(body));
+    }
+    let rounds_edges = found.all.regions(&body.mesh).regions.len() > 1;
+    let over_edges = |control: &mut Control| over_found(body, &found, options, control);
+    let rounded = |control: &mut Control| {
+        let mut made = smooth(body, options, control)?;
+        made.report.rounds_edges = rounds_edges;
+        Ok(Some(made))
+    };
+    let ways: [Way<Component>; 2] = match found.all.are_texture() {
+        true => [(0.5, &rounded), (0.5, &over_edges)],
+        false => [(0.5, &over_edges), (0.5, &rounded)],
+    };
+    let better = |made: Component, best: Component| {
+        if is_better(&best.report.fit, &made.report.fit) { best } else { made }
+    };
+    first_done(&ways, is_done, better, control)
+}
+
+/// A way to make something, which may have nothing to do, and its share of the time.
+type Way<'a, Made> = (f64, &'a dyn Fn(&mut Control) -> Result<Option<Made>, ModelFitError>);
+
+/// What the first way makes that does all that was asked for, or else the best of all; one at least has something to do.
+fn first_done<Made>(
+    ways: &[Way<Made>],
+    is_done: impl Fn(&Made) -> bool,
+    better: impl Fn(Made, Made) -> Made,
+    control: &mut Control,
+) -> Result<Made, ModelFitError> {
+    let (mut best, mut failure) = (None, None);
+    let mut from = 0.0;
+    for (share, way) in ways {
+        let to = from + share;
+        match control.within(from, to, |control| way(control)) {
+            Ok(Some(made)) if is_done(&made) => return Ok(made),
+            Ok(Some(made)) => {
+                best = Some(match best {
+                    Some(best) => better(made, best),
+                    None => made,
+                })
+            }
+            Ok(None) => {}
+            Err(error) if error.kind() == ErrorKind::Cancelled => return Err(error),
+            Err(error) => failure = Some(error),
+        }
+        from = to;
+    }
+    best.ok_or_else(|| failure.expect("one way has something to do"))
+}
+
+/// What of a body may stay sharp.
+struct BodyFeatures {
+    /// Labels of its triangles, or none.
+    labels: Vec<u32>,
+    /// Edges that are sharp.
+    sharp: Features,
+    /// These and blunt ones.
+    all: Features,
+}
+
+impl BodyFeatures {
+    fn find(body: &Body, options: &MeshModelOptions, control: &mut Control) -> Result<Self, ModelFitError> {
+        let (labels, sharp_edges) = of_body(&options.features, body);
+        let mut find = |find_blunt: bool| {
+            let features =
+                FeatureOptions { labels: &labels, sharp_edges: &sharp_edges, find_blunt, ..options.features };
+            control.watch(|pool, _| body.mesh.find_features_by(body.facets(), &features, pool))
+        };
+        let (sharp, all) = (find(false)??, find(options.features.find_blunt)??);
+        Ok(Self { labels, sharp, all })
     }
 }
 
-/// One component over its features: those that are sharp, and where nothing good comes of them, blunt ones too.
-fn creased(
+/// One component over its features: those that are sharp, and where nothing good comes of them, blunt ones too. None if they
+/// part nothing.
+fn over_found(
     body: &Body,
+    found: &BodyFeatures,
     options: &MeshModelOptions,
     control: &mut Control,
 ) -> Result<Option<Component>, ModelFitError> {
-    let (labels, sharp_edges) = of_body(&options.features, body);
-    let mut find = |find_blunt: bool| {
-        let features =
-            FeatureOptions { labels: &labels, sharp_edges: &sharp_edges, find_blunt, ..options.features };
-        control.watch(|pool, _| body.mesh.find_features_by(body.facets(), &features, pool))
-    };
-    let (sharp, all) = (find(false)??, find(options.features.find_blunt)??);
+    let BodyFeatures { labels, sharp, all } = found;
     let fit = |features: &Features, control: &mut Control| {
-        over_features(body, (features, &labels), options, control)
+        over_features(body, (features, labels), options, control)
     };
     if (&sharp.chains, &sharp.corners) == (&all.chains, &all.corners) {
-        return fit(&sharp, control);
+        return fit(sharp, control);
     }
-    let over_sharp = match control.within(0.0, 0.5, |control| fit(&sharp, control)) {
+    let over_sharp = match control.within(0.0, 0.5, |control| fit(sharp, control)) {
         Ok(Some(made)) if !is_done(&made) => Some(made),
         Err(error) if error.kind() != ErrorKind::Cancelled => None,
         Ok(None) => None,
         done => return done,
     };
-    let over_all = match control.within(0.5, 1.0, |control| fit(&all, control)) {
+    let over_all = match control.within(0.5, 1.0, |control| fit(all, control)) {
         Err(error) if error.kind() != ErrorKind::Cancelled && over_sharp.is_some() => None,
         made => made?,
     };
@@ -462,16 +518,69 @@ fn over_cube(
     Ok(Component::smooth(layout, fit, report))
 }
 
+/// Over a base complex. Where the fit nearly does, a few with other numbers of patches are tried, and the best is kept: what is
+/// left out of reach, or folds, lies at a few places where the patches lie badly.
 fn over_complex(
     body: &Body,
     options: &MeshModelOptions,
     control: &mut Control,
 ) -> Result<Component, ModelFitError> {
-    let made = control.within(0.0, MAP_SHARE, |control| complex(&body.mesh, &options.layout, control))?;
-    let places = NodePlaces::Map(&made.map);
-    let fit = control.within(MAP_SHARE, 1.0, |control| {
-        fit_over_layout(&body.mesh, &made.layout, places, &options.fit, control)
+    let mut others = other_counts(&body.mesh, &options.layout).into_iter();
+    let made = control.within(0.0, MAP_SHARE, |control| {
+        unfolded_complex(&body.mesh, &options.layout, &mut others, control)
     })?;
+    let mut best =
+        control.within(MAP_SHARE, FIRST_FIT, |control| fit_complex(body, made, options, control))?;
+    for rank in 0..MORE_FITS {
+        let Some(other) = others.next().filter(|_| nearly_serves(&best.report)) else { break };
+        let [from, to] =
+            [rank, rank + 1].map(|k| FIRST_FIT + (1.0 - FIRST_FIT) * k as f64 / MORE_FITS as f64);
+        let made = control.within(from, to, |control| -> Result<_, ModelFitError> {
+            let made =
+                control.within(0.0, MAP_SHARE, |control| layout_of_mesh(&body.mesh, &other, control))?;
+            control.within(MAP_SHARE, 1.0, |control| fit_complex(body, made, options, control))
+        });
+        match made {
+            Ok(made) if is_better_component(&made.report, &best.report) => best = made,
+            Err(error) if error.kind() == ErrorKind::Cancelled => return Err(error),
+            // the best so far will do
+            _ => {}
+        }
+    }
+    Ok(best)
+}
+
+/// Whether other patches may make of a fit what was asked for.
+fn nearly_serves(report: &ComponentReport) -> bool {
+    let is_near = report.fit.max_error <= WITHIN_REACH * report.fit.tolerance;
+    is_near && !(is_good(&report.fit) && report.fold_count == 0)
+}
+
+/// Whether one component over a base complex is better than another: by the folds of its map, then by its fit.
+fn is_better_component(report: &ComponentReport, other: &ComponentReport) -> bool {
+    match report.fold_count.cmp(&other.fold_count) {
+        Ordering::Equal => !is_better(&other.fit, &report.fit),
+        order => order == Ordering::Less,
+    }
+}
+
+/// Fits with other numbers of patches, at most.
+const MORE_FITS: usize = 2;
+
+/// So many tolerances may be missed by that other patches are worth their time.
+const WITHIN_REACH: f64 = 2.0;
+
+/// Share of a component's time for the number of patches that is asked for.
+const FIRST_FIT: f64 = 0.5;
+
+/// A fit over a base complex.
+fn fit_complex(
+    body: &Body,
+    made: MeshLayout,
+    options: &MeshModelOptions,
+    control: &mut Control,
+) -> Result<Component, ModelFitError> {
+    let fit = fit_over_layout(&body.mesh, &made.layout, NodePlaces::Map(&made.map), &options.fit, control)?;
     let report = ComponentReport {
         genus: body.mesh.genus(),
         layout: Some(LayoutKind::Complex),
@@ -487,36 +596,39 @@ fn over_complex(
     Ok(Component::smooth(made.layout, fit, report))
 }
 
-/// Where a layout folds nodes, so many times as many patches are tried one after the other: over coarse meshes with handles numbers
-/// near the fewest that these need have folds, and most larger ones have none.
+/// So many times as many patches are tried one after the other: over coarse meshes with handles numbers near the fewest that
+/// these need have folds, and most larger ones have none.
 const OTHER_COUNTS: [f64; 7] = [1.25, 1.6, 2.0, 0.85, 2.5, 3.0, 4.0];
 
 /// Nodes a patch: fewer say too little of where it lies.
 const NODES_PER_PATCH: usize = 8;
 
-/// Share of the time for the number of patches that is asked for.
-const FIRST_COUNT: f64 = 0.5;
+/// Base complexes with other numbers of patches.
+fn other_counts(mesh: &Mesh, options: &MeshLayoutOptions) -> Vec<MeshLayoutOptions> {
+    let most = options.patches.max(mesh.points().len() / NODES_PER_PATCH);
+    let patches = OTHER_COUNTS.into_iter().map(|times| (times * options.patches as f64).round() as usize);
+    patches.filter(|&count| count <= most).map(|count| complex(options).with_patches(count)).collect()
+}
+
+fn complex(options: &MeshLayoutOptions) -> MeshLayoutOptions {
+    options.with_kind(LayoutKind::Complex)
+}
 
 /// A base complex; where it folds nodes, the one of another number of patches that folds fewest.
-fn complex(
+fn unfolded_complex(
     mesh: &Mesh,
     options: &MeshLayoutOptions,
+    others: &mut std::vec::IntoIter<MeshLayoutOptions>,
     control: &mut Control,
 ) -> Result<MeshLayout, MeshLayoutError> {
-    let options = options.with_kind(LayoutKind::Complex);
-    let mut best = control.within(0.0, FIRST_COUNT, |control| layout_of_mesh(mesh, &options, control))?;
-    let most = options.patches.max(mesh.points().len() / NODES_PER_PATCH);
-    for (rank, times) in OTHER_COUNTS.into_iter().enumerate() {
-        let patches = (times * options.patches as f64).round() as usize;
-        if best.report.folded_nodes == 0 {
-            break;
-        }
-        if patches > most {
-            continue;
-        }
-        let other = options.with_patches(patches);
-        let [from, to] = [rank, rank + 1].map(|k| k as f64 / OTHER_COUNTS.len() as f64);
-        let [from, to] = [from, to].map(|share| FIRST_COUNT + (1.0 - FIRST_COUNT) * share);
+    let make = |control: &mut Control| layout_of_mesh(mesh, &complex(options), control);
+    let mut best = control.within(0.0, FIRST_COUNT, make)?;
+    let count = others.len();
+    while best.report.folded_nodes > 0
+        && let Some(other) = others.next()
+    {
+        let rest = others.len();
+        let [from, to] = [rest + 1, rest].map(|left| 1.0 - (1.0 - FIRST_COUNT) * left as f64 / count as f64);
         match control.within(from, to, |control| layout_of_mesh(mesh, &other, control)) {
             Ok(made) if made.report.folded_nodes < best.report.folded_nodes => best = made,
             Err(MeshLayoutError::Cancelled(cancelled)) => return Err(cancelled.into()),
@@ -526,6 +638,9 @@ fn complex(
     }
     Ok(best)
 }
+
+/// Share of a map's time for the number of patches that is asked for.
+const FIRST_COUNT: f64 = 0.5;
 
 /// An open mesh of one piece as one surface inside its trims.
 fn chart(mesh: &Mesh, options: &MeshModelOptions, control: &mut Control) -> Result<ModelFit, ModelFitError> {
@@ -591,6 +706,41 @@ fn of_chart(fit: &FitReport) -> ModelReport {
 mod tests {
     use super::*;
     use glam::DVec3;
+
+    #[test]
+    fn the_first_way_that_serves_is_taken_or_else_the_best() {
+        let made = |value: f64| move |_: &mut Control| Ok(Some(value));
+        let nothing = |_: &mut Control| Ok(None);
+        let fails = |_: &mut Control| Err(ModelFitError::Open { loops: 1, node: 0 });
+        let [one, three, nine] = [made(1.0), made(3.0), made(9.0)];
+        let take = |ways: &[Way<f64>]| first_done(ways, |made| *made > 8.0, f64::min, &mut Control::new(1));
+        assert_eq!(take(&[(0.5, &three), (0.5, &one)]).unwrap(), 1.0);
+        assert_eq!(take(&[(0.3, &three), (0.3, &nine), (0.4, &one)]).unwrap(), 9.0);
+        assert_eq!(take(&[(0.3, &fails), (0.3, &nothing), (0.4, &one)]).unwrap(), 1.0);
+        assert!(take(&[(0.5, &fails), (0.5, &nothing)]).is_err());
+        let cancels = |_: &mut Control| Err(Cancelled.into());
+        assert!(take(&[(0.5, &one), (0.5, &cancels)]).is_err());
+    }
+
+    #[test]
+    fn other_numbers_of_patches_serve_where_the_first_nearly_does() {
+        let (_, mesh) = crate::samples::closed::seeded_block(1).unwrap();
+        let fit = super::super::ModelOptions::default();
+        let options = MeshModelOptions { fit, ..MeshModelOptions::default() };
+        let body = &bodies(&mesh).unwrap()[0];
+        let first = {
+            let made = layout_of_mesh(&body.mesh, &complex(&options.layout), &mut Control::new(2)).unwrap();
+            fit_complex(body, made, &options, &mut Control::new(2)).unwrap().report
+        };
+        assert!(
+            first.fit.max_error > first.fit.tolerance && nearly_serves(&first),
+            "{:?}",
+            first.fit.max_error
+        );
+        let best = over_complex(body, &options, &mut Control::new(2)).unwrap().report;
+        assert!(best.fit.max_error <= best.fit.tolerance, "{:?}", best.fit.max_error);
+        assert_ne!(best.fit.patches.len(), first.fit.patches.len());
+    }
 
     #[test]
     fn ragged_borders_serve_where_features_do_not() {

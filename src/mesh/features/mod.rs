@@ -147,6 +147,14 @@ pub struct Features {
     pub noise: f64,
 }
 
+impl Features {
+    /// Whether more edges had to be dropped or added than there are inside: chains that come and go are texture, as of a scan of
+    /// hair, and no edges of a part.
+    pub fn are_texture(&self) -> bool {
+        self.prolonged_count + self.dropped_count > self.edges.len() - self.border_count
+    }
+}
+
 /// Features cannot be found as asked.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum FeatureError {

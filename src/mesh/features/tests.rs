@@ -123,6 +123,7 @@ fn noise_is_measured_and_hides_no_edge() {
         assert!((features.noise - 0.1).abs() < 0.03, "noise {}", features.noise);
         assert_eq!(features.edges, sides(&clean, size), "seed {seed}");
         assert_eq!(features.corners.len(), 8);
+        assert!(!features.are_texture());
     }
 }
 
@@ -200,6 +201,7 @@ fn chains_go_on_along_weak_edges_and_short_bits_go() {
     let bits = find(&mesh, FeatureOptions { least_length: 0.9, ..options });
     assert_eq!(ridge(&bits), 0);
     assert_eq!(bits.dropped_count, ridge(&long));
+    assert!(bits.are_texture() && !sharp.are_texture());
 }
 
 #[test]
