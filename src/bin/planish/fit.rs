@@ -48,10 +48,11 @@ pub(crate) fn run(arguments: &FitArguments, given: &Given) -> Result<Outcome, Fa
         let fit = model::fit(&mesh, &labels, arguments)?;
         return model::tell(&mesh, &repairs, &labels, &fit, arguments);
     }
-    let fit = with_bar(arguments.threads, |control| fit_by_family(&mesh, arguments, &saved, control))?;
     // what is asked of one grid alone is no matter of a model
     let is_free =
         arguments.family == FamilyName::Auto && check_used(arguments, FamilyName::Model, given).is_ok();
+    let fit =
+        with_bar(arguments.threads, |control| fit_by_family(&mesh, arguments, &saved, is_free, control))?;
     if is_free && let Some(better) = model::better(&mesh, arguments, &fit.report)? {
         // a surface is not asked for where labels are given
         return model::tell(&mesh, &repairs, &[], &better, arguments);
@@ -119,16 +120,28 @@ fn check_used(arguments: &FitArguments, family: FamilyName, given: &Given) -> Re
     given.refuse("level-spread", is_patches, "is used with --step-form patches only")
 }
 
+/// Coefficients of one grid at most where a model may follow: what needs more of them is better served by a surface that is
+/// refined where it has to be, and the way there is long.
+fn most_of_first(mesh: &Mesh) -> usize {
+    const NODES_PER_COEFFICIENT: usize = 16;
+    const LEAST: usize = 96 * 96;
+    (mesh.points().len() / NODES_PER_COEFFICIENT).max(LEAST)
+}
+
 fn fit_by_family(
     mesh: &Mesh,
     arguments: &FitArguments,
     saved: &[(usize, Saved)],
+    may_be_model: bool,
     control: &mut Control,
 ) -> Result<Fit, Error> {
     match arguments.family {
         FamilyName::Auto | FamilyName::Model | FamilyName::Tensor => {
-            let fit =
-                tensor::fit_mesh(mesh, &tensor_options(arguments, mesh).with_sides(sides(saved)), control)?;
+            let mut options = tensor_options(arguments, mesh).with_sides(sides(saved));
+            if may_be_model {
+                options.max_coefficients = options.max_coefficients.min(most_of_first(mesh));
+            }
+            let fit = tensor::fit_mesh(mesh, &options, control)?;
             let (report, parameters, errors) = (fit.report, fit.parameters, fit.errors);
             Ok(Fit { surface: fit.surface.into(), report, parameters, errors })
         }

@@ -24,7 +24,7 @@ pub(crate) fn fit(mesh: &Mesh, labels: &[u32], arguments: &FitArguments) -> Resu
 }
 
 /// A model, where one surface does not serve and a model does better: the tolerance is met first at the nodes, then between
-/// them.
+/// them; where both miss it, the nearer one is better.
 pub(crate) fn better(
     mesh: &Mesh,
     arguments: &FitArguments,
@@ -33,12 +33,14 @@ pub(crate) fn better(
     if outcome(surface.remarks) == Outcome::Done {
         return Ok(None);
     }
-    let misses = |remarks: Remarks| {
-        (remarks.has(Remarks::TOLERANCE_NOT_MET), remarks.has(Remarks::ROUGH_BETWEEN_NODES))
+    let misses = |remarks: Remarks, max_error: f64| {
+        let is_missed = remarks.has(Remarks::TOLERANCE_NOT_MET);
+        (if is_missed { max_error } else { 0.0 }, remarks.has(Remarks::ROUGH_BETWEEN_NODES))
     };
     // a mesh that no model can be made of has its surface
     let fit = fit(mesh, &[], arguments).ok();
-    Ok(fit.filter(|fit| misses(fit.report.remarks) < misses(surface.remarks)))
+    let of_surface = misses(surface.remarks, surface.max_error);
+    Ok(fit.filter(|fit| misses(fit.report.remarks, fit.report.max_error) < of_surface))
 }
 
 /// Writes what is asked for and says how it went.
