@@ -387,8 +387,10 @@ pub fn hat(seed: u64) -> Result<Mesh, MeshError> {
     mesh_over((places, triangles), |uv| (uv.extend(height(uv)), uv))
 }
 
-/// A coarse control mesh of a roof: its halves meet at a ridge of edges at 60 degrees.
+/// A coarse control mesh of a roof: its halves meet at a ridge of edges at 60 degrees, which is not quite straight.
 pub fn roof(seed: u64) -> Result<Mesh, MeshError> {
+    /// Less than half a cell.
+    const SIDEWAYS: f64 = 0.05;
     let fall = (PI / 6.0).tan();
     let half = |side: f64, seed: u64| {
         let (places, triangles) = grid([7, 11], 0.25, seed, |_| true);
@@ -402,7 +404,13 @@ pub fn roof(seed: u64) -> Result<Mesh, MeshError> {
     let number = |node: u32| if node < ridge { node } else { node + shift };
     triangles.extend(mirrored.into_iter().map(|[a, b, c]| [number(a), number(c), number(b)]));
     places.extend(left.into_iter().skip(ridge as usize));
-    let height = |p: DVec2| -fall * p.x.abs() + 0.15 * p.x * p.x * (5.0 * p.y).sin();
+    // knots on one straight line would leave a kink there in every spline over them
+    let mut random = Random::new(seed.wrapping_add(2));
+    places[1..ridge as usize - 1].iter_mut().for_each(|p| p.x += SIDEWAYS * random.signed());
+    let height = |p: DVec2| {
+        let from_ridge = if p.x.abs() <= SIDEWAYS { 0.0 } else { p.x.abs() };
+        -fall * from_ridge + 0.15 * p.x * p.x * (5.0 * p.y).sin()
+    };
     mesh_over((places, triangles), |uv| (uv.extend(height(uv)), uv))
 }
 
