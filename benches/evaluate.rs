@@ -46,8 +46,8 @@ fn rate(points: usize, mut run: impl FnMut()) -> f64 {
 
 fn main() {
     println!(
-        "{:>10} {:>9} {:>8} {:>8} {:>8} {:>8} {:>8}",
-        "net", "knots", "S", "S order", "D1", "D1 order", "grid"
+        "| control points | knots | random | random, with first derivatives | row by row | row by row, with first \
+         derivatives | grid |\n|---|---|---|---|---|---|---|"
     );
     for counts in [[65, 17], [200, 200], [1000, 1000]] {
         for is_uniform in [true, false] {
@@ -74,10 +74,10 @@ fn main() {
             };
             let (u, v) = (line(0), line(1));
             rates.push(rate(POINTS, || surface.eval_grid(&u, &v, &mut out[..3 * POINTS])));
-            let name = format!("{}x{}", counts[0], counts[1]);
+            let name = format!("{} x {}", counts[0], counts[1]);
             let knots = if is_uniform { "uniform" } else { "arbitrary" };
-            let [s, d, s_ordered, d_ordered, grid] = rates[..] else { unreachable!("five rates") };
-            println!("{name:>10} {knots:>9} {s:>8.1} {s_ordered:>8.1} {d:>8.1} {d_ordered:>8.1} {grid:>8.1}");
+            let rates: Vec<String> = rates.iter().map(|rate| format!("{rate:.1}")).collect();
+            println!("| {name} | {knots} | {} |", rates.join(" | "));
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Machine parts as models: what becomes of 200 seeded ones, clean and under noise, and how long the samples take.
 //!
-//! `cargo bench --bench exact_parts [-- count [noise [folder]]]`; the parts and their STEP files go to the folder.
+//! `cargo bench --bench exact_parts [-- count [noise,.. [folder]]]`; the parts and their STEP files go to the folder.
 
 use planish::Control;
 use planish::control::{Pool, Watch};
@@ -25,16 +25,21 @@ fn main() {
     let count: u64 = arguments.first().map_or(200, |count| count.parse().expect("a number of parts"));
     let folder = arguments.get(2).map(Path::new);
     match arguments.get(1) {
-        Some(noise) => crowd(count, noise.parse().expect("a share of the mean edge length"), folder),
+        Some(noises) => {
+            let noise = |noise: &str| noise.parse().expect("a share of the mean edge length");
+            crowds(count, noises.split(',').map(noise), folder);
+        }
         None => {
             samples();
-            [0.0, 0.01, 0.05].into_iter().for_each(|noise| crowd(count, noise, folder));
+            crowds(count, [0.0, 0.01, 0.05].into_iter(), folder);
         }
     }
 }
 
 fn samples() {
-    println!("part           triangles  faces      s   volume off     area off    max error");
+    println!(
+        "| part | triangles | faces | seconds | volume off | area off | max error |\n|---|---|---|---|---|---|---|"
+    );
     for nodes in [1000, 5000, 25_000] {
         for (name, part) in [
             ("cylinder", machine::cylinder(nodes, 1)),
@@ -51,7 +56,7 @@ fn samples() {
             let exact: usize = fit.components.iter().map(|component| component.exact_faces).sum();
             assert_eq!(exact, face_count, "{name}");
             println!(
-                "{name:14} {:9} {exact:6} {:6.3} {:12.1e} {:12.1e} {:12.1e}",
+                "| {name} | {} | {exact} | {:.3} | {:.1e} | {:.1e} | {:.1e} |",
                 mesh.triangles().len(),
                 fit.seconds,
                 measured.volume / volume - 1.0,
@@ -62,8 +67,16 @@ fn samples() {
     }
 }
 
+fn crowds(count: u64, noises: impl Iterator<Item = f64>, output: Option<&Path>) {
+    let rows: Vec<String> = noises.map(|noise| crowd(count, noise, output)).collect();
+    println!(
+        "| noise | exact | planes and patches | smooth | met at the nodes | off | slowest, s | all, s |"
+    );
+    println!("|---|---|---|---|---|---|---|---|\n{}", rows.join("\n"));
+}
+
 /// Parts as users fit them: what becomes of each, and whether the report tells the truth about it.
-fn crowd(count: u64, noise: f64, output: Option<&Path>) {
+fn crowd(count: u64, noise: f64, output: Option<&Path>) -> String {
     let start = Instant::now();
     let (mut exact, mut planes, mut smooth, mut met, mut off, mut slowest) = (0, 0, 0, 0, 0, 0.0_f64);
     for seed in 0..count {
@@ -122,11 +135,10 @@ fn crowd(count: u64, noise: f64, output: Option<&Path>) {
                 .expect("the folder can be written");
         }
     }
-    println!(
-        "{count} parts, noise {noise}: {exact} exact, {planes} planes and patches, {smooth} smooth; {met} met; {off} off; slowest \
-         {slowest:.2} s, {:.1} s in all\n",
-        start.elapsed().as_secs_f64()
-    );
+    let seconds = start.elapsed().as_secs_f64();
+    format!(
+        "| {noise} | {exact} | {planes} | {smooth} | {met} of {count} | {off} | {slowest:.1} | {seconds:.0} |"
+    )
 }
 
 /// What keeps a part from being exact.

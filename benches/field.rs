@@ -27,9 +27,7 @@ fn milliseconds(mut run: impl FnMut()) -> String {
 }
 
 fn main() {
-    println!(
-        "{GRID} x {GRID} knots, 3 components, {THREADS} threads; milliseconds: median (least to largest)"
-    );
+    println!("| nodes | set up and fit | another field | with its report |\n|---|---|---|---|");
     for count in [45_000, 180_000, 1_400_000] {
         let mut random = Random::new(1);
         let uv: Vec<DVec2> = (0..count).map(|_| DVec2::new(random.unit(), random.unit())).collect();
@@ -39,32 +37,22 @@ fn main() {
         let fields = [0.0, 0.1, 0.2].map(field);
         let options = FieldOptions { grid: FieldGrid::Fixed([GRID; 2]), ..FieldOptions::default() };
         let make = || FieldFitter::at(&uv, &options, &mut Control::new(THREADS)).expect("the data fit");
-        println!(
-            "{count:9} nodes  set up and fit  {}",
-            milliseconds(|| {
-                make().fit(&fields[0], 3).expect("the data fit");
-            })
-        );
+        let set_up = milliseconds(|| {
+            make().fit(&fields[0], 3).expect("the data fit");
+        });
         let fitter = make();
         let mut surface = fitter.fit(&fields[0], 3).expect("the data fit");
         let mut step = 0;
-        println!(
-            "{:9}        update          {}",
-            "",
-            milliseconds(|| {
-                step += 1;
-                fitter.update(&mut surface, &fields[step % 3], 3).expect("the data fit");
-            })
-        );
-        println!(
-            "{:9}        with a report   {}",
-            "",
-            milliseconds(|| {
-                step += 1;
-                fitter.update(&mut surface, &fields[step % 3], 3).expect("the data fit");
-                let report = fitter.measure(&surface, &fields[step % 3], 3).expect("the data fit");
-                assert!(report.fit.max_error < 1e-3);
-            })
-        );
+        let another = milliseconds(|| {
+            step += 1;
+            fitter.update(&mut surface, &fields[step % 3], 3).expect("the data fit");
+        });
+        let reported = milliseconds(|| {
+            step += 1;
+            fitter.update(&mut surface, &fields[step % 3], 3).expect("the data fit");
+            let report = fitter.measure(&surface, &fields[step % 3], 3).expect("the data fit");
+            assert!(report.fit.max_error < 1e-3);
+        });
+        println!("| {count} | {set_up} | {another} | {reported} |");
     }
 }

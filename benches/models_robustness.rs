@@ -22,14 +22,17 @@ fn main() {
         Some(tolerance) => vec![tolerance.parse().expect("a tolerance")],
         None => vec![1e-2, 1e-3],
     };
-    for tolerance in tolerances {
-        run(count, tolerance, arguments.get(2).map(Path::new));
-    }
+    let folder = arguments.get(2).map(Path::new);
+    let rows: Vec<String> = tolerances.into_iter().map(|tolerance| run(count, tolerance, folder)).collect();
+    println!(
+        "| tolerance | blocks | nodes | met | missed | refused | with folds of the map | with folded cells | seconds |"
+    );
+    println!("|---|---|---|---|---|---|---|---|---|\n{}", rows.join("\n"));
 }
 
-fn run(count: u64, tolerance: f64, output: Option<&Path>) {
+fn run(count: u64, tolerance: f64, output: Option<&Path>) -> String {
     let start = Instant::now();
-    let (mut met, mut missed, mut refused, mut folded, mut nodes) = (0, 0, 0, 0, 0);
+    let (mut met, mut missed, mut refused, mut folded, mut has_folded_cells, mut nodes) = (0, 0, 0, 0, 0, 0);
     for seed in 0..count {
         let (name, mesh) = seeded_block(seed).expect("a block is a mesh");
         nodes += mesh.points().len();
@@ -49,6 +52,7 @@ fn run(count: u64, tolerance: f64, output: Option<&Path>) {
         assert_eq!(is_missed, fit.report.max_error > fit.report.tolerance, "seed {seed}: the report lies");
         let folds: usize = fit.components.iter().map(|component| component.fold_count).sum();
         folded += usize::from(folds > 0);
+        has_folded_cells += usize::from(fit.report.folded_cells > 0);
         if is_missed || folds + fit.report.folded_cells > 0 || fit.report.normal_jump > 1e-10 {
             println!(
                 "seed {seed} ({name}): {} nodes, {} patches, error {:.2e}, {folds} folds of the map, {} of cells, \
@@ -77,9 +81,8 @@ fn run(count: u64, tolerance: f64, output: Option<&Path>) {
                 .expect("the folder can be written");
         }
     }
-    println!(
-        "{count} meshes, {nodes} nodes at {tolerance:e}: {met} met, {missed} missed and said so, {refused} refused, {folded} with \
-         folds; {:.1} s",
-        start.elapsed().as_secs_f64()
-    );
+    let seconds = start.elapsed().as_secs_f64();
+    format!(
+        "| {tolerance:e} | {count} | {nodes} | {met} | {missed} | {refused} | {folded} | {has_folded_cells} | {seconds:.0} |"
+    )
 }

@@ -77,7 +77,7 @@ fn starts(projector: &Projector, points: &[f64]) -> Vec<DVec2> {
 
 /// What trims cost, on fits of meshes with holes: the nodes, and points at distances up to two diagonals.
 fn trimmed() {
-    println!("{:>28} {:>8} {:>14} {:>14} {:>8}", "fit", "points", "us inside", "us whole", "ratio");
+    println!("| fit | points | us inside | us whole | ratio |\n|---|---|---|---|---|");
     for (name, mesh) in holed() {
         let tolerance = Tolerance { value: 1e-2, ..Tolerance::default() };
         let options = TensorOptions { tolerance, ..TensorOptions::default() };
@@ -96,9 +96,8 @@ fn trimmed() {
                 1e6 * timed(|| run(&projector, &points, &options)).0 / (points.len() / 3) as f64
             };
             let (inside, whole) = (cost(true), cost(false));
-            let label = format!("{name} {kind}");
             println!(
-                "{label:>28} {:>8} {inside:>14.2} {whole:>14.2} {:>8.2}",
+                "| {name}, {kind} | {} | {inside:.2} | {whole:.2} | {:.2} |",
                 points.len() / 3,
                 inside / whole
             );

@@ -36,8 +36,7 @@ fn seconds(mut run: impl FnMut()) -> f64 {
 
 fn main() {
     println!(
-        "{:12} {:9} {:>6} {:>7} {:>7} {:>9} {:>8}",
-        "rows", "options", "points", "control", "passes", "max/tol", "ms"
+        "| rows | options | points | tolerance | control points | passes | error / tolerance | ms |\n|---|---|---|---|---|---|---|---|"
     );
     let mut surface = None;
     for (name, set, value) in [
@@ -60,7 +59,7 @@ fn main() {
             let time = seconds(|| result = fit(&set, &options));
             let report = &result.report;
             println!(
-                "{name:12} {kind:9} {:6} {:7} {:7} {:9.2} {:8.1}",
+                "| {name} | {kind} | {} | {value:e} | {} | {} | {:.2} | {:.1} |",
                 set.points.len() / 3,
                 report.coefficient_count,
                 report.passes,

@@ -56,13 +56,16 @@ fn measure(source: &Mesh, target: &Mesh, grid: FieldGrid, threads: usize) -> Vec
     let forces: Vec<f64> = exact.iter().flat_map(|x| [0.1, *x, x * x]).collect();
     let balance = transfer.balance(&displacements, &forces, glam::DVec3::ZERO).expect("both fit");
     println!(
-        "{} x {} knots, {threads} thread(s): set up {set_up}, apply {apply}, transpose {transpose} ms; error max \
-         {:.2e}, rms {:.2e}; distance max {:.1e}",
-        report.shape.grid_u, report.shape.grid_v, errors.max, errors.rms, report.max_distance
-    );
-    println!(
-        "    forces {:.1e}, work {:.1e}, moments {:.1e} of at most {:.1e}",
-        balance.force_error, balance.work_error, balance.moment_error, balance.moment_bound
+        "| {} x {} | {threads} | {set_up} | {apply} | {transpose} | {:.2e} | {:.2e} | {:.1e} | {:.1e}, {:.1e} | {:.1e} of {:.1e} |",
+        report.shape.grid_u,
+        report.shape.grid_v,
+        errors.max,
+        errors.rms,
+        report.max_distance,
+        balance.force_error,
+        balance.work_error,
+        balance.moment_error,
+        balance.moment_bound
     );
     there
 }
@@ -76,6 +79,10 @@ fn main() {
     let source = cylinder_patch(SOURCE_COUNT, 1).expect("the sample is a mesh");
     let target = cylinder_patch(TARGET_COUNT, 2).expect("the sample is a mesh");
     assert_eq!((source.points().len(), target.points().len()), (SOURCE_COUNT, TARGET_COUNT));
+    println!(
+        "| knots | threads | set up, ms | there, ms | back, ms | largest error | rms | largest distance | forces, work | moments |\n\
+         |---|---|---|---|---|---|---|---|---|---|"
+    );
     let mut carried = Vec::new();
     for grid in [FieldGrid::Auto, FieldGrid::Fixed([97, 97]), FieldGrid::Fixed([129, 129])] {
         for threads in [1, 2] {
