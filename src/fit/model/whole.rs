@@ -106,7 +106,7 @@ fn open(mesh: &Mesh, options: &MeshModelOptions, control: &mut Control) -> Resul
         true => Ok(None),
         false => over_borders(mesh, options, control),
     };
-    let ways: [Way<ModelFit>; 3] = match features.are_texture() {
+    let ways: [Way<ModelFit>; 3] = match are_texture(&features, options) {
         true => [(0.2, &chart), (0.4, &over_edges), (0.4, &over_borders)],
         false => [(0.4, &over_edges), (0.2, &chart), (0.4, &over_borders)],
     };
@@ -146,6 +146,11 @@ fn over_borders(
 fn asks_for_features(options: &MeshModelOptions) -> bool {
     let FeatureOptions { sharp_angle, sharp_edges, labels, label_angle, .. } = options.features;
     sharp_angle.is_some() || !sharp_edges.is_empty() || (!labels.is_empty() && label_angle < PI)
+}
+
+/// Whether edges were found that are none of a part, and none are given.
+fn are_texture(found: &Features, options: &MeshModelOptions) -> bool {
+    found.are_texture() && options.features.sharp_edges.is_empty() && options.features.labels.is_empty()
 }
 
 /// Whether a fit is all that was asked for.
@@ -363,7 +368,7 @@ fn component(
         made.report.rounds_edges = rounds_edges;
         Ok(Some(made))
     };
-    let ways: [Way<Component>; 2] = match found.all.are_texture() {
+    let ways: [Way<Component>; 2] = match are_texture(&found.all, options) {
         true => [(0.5, &rounded), (0.5, &over_edges)],
         false => [(0.5, &over_edges), (0.5, &rounded)],
     };
