@@ -1,7 +1,8 @@
 //! 200 seeded closed meshes of genus 0 to 6, with noise, thin plates and limbs, 500 to 20,000 nodes: all met, or truthfully
 //! reported; no fold, no free edge. Prints the totals.
 //!
-//! `cargo bench --bench models_robustness [-- count [tolerance [folder]]]`; the meshes and their STEP files go to the folder.
+//! `cargo bench --bench models_robustness [-- count|seed,seed.. [tolerance [folder]]]`; the meshes and their STEP files go to the
+//! folder.
 
 use planish::Control;
 use planish::control::Watch;
@@ -17,23 +18,27 @@ use std::time::Instant;
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
-    let count: u64 = arguments.first().map_or(200, |count| count.parse().expect("a number of meshes"));
+    let number = |text: &str| text.parse().expect("a number of meshes, or seeds");
+    let seeds: Vec<u64> = match arguments.first() {
+        Some(list) if list.contains(',') => list.split(',').map(number).collect(),
+        count => (0..count.map_or(200, |count| number(count))).collect(),
+    };
     let tolerances = match arguments.get(1) {
         Some(tolerance) => vec![tolerance.parse().expect("a tolerance")],
         None => vec![1e-2, 1e-3],
     };
     let folder = arguments.get(2).map(Path::new);
-    let rows: Vec<String> = tolerances.into_iter().map(|tolerance| run(count, tolerance, folder)).collect();
+    let rows: Vec<String> = tolerances.into_iter().map(|tolerance| run(&seeds, tolerance, folder)).collect();
     println!(
         "| tolerance | blocks | nodes | met | missed | refused | with folds of the map | with folded cells | seconds |"
     );
     println!("|---|---|---|---|---|---|---|---|---|\n{}", rows.join("\n"));
 }
 
-fn run(count: u64, tolerance: f64, output: Option<&Path>) -> String {
+fn run(seeds: &[u64], tolerance: f64, output: Option<&Path>) -> String {
     let start = Instant::now();
     let (mut met, mut missed, mut refused, mut folded, mut has_folded_cells, mut nodes) = (0, 0, 0, 0, 0, 0);
-    for seed in 0..count {
+    for &seed in seeds {
         let (name, mesh) = seeded_block(seed).expect("a block is a mesh");
         nodes += mesh.points().len();
         let fit =
@@ -83,6 +88,7 @@ fn run(count: u64, tolerance: f64, output: Option<&Path>) -> String {
     }
     let seconds = start.elapsed().as_secs_f64();
     format!(
-        "| {tolerance:e} | {count} | {nodes} | {met} | {missed} | {refused} | {folded} | {has_folded_cells} | {seconds:.0} |"
+        "| {tolerance:e} | {} | {nodes} | {met} | {missed} | {refused} | {folded} | {has_folded_cells} | {seconds:.0} |",
+        seeds.len()
     )
 }

@@ -570,7 +570,7 @@ fn is_better_component(report: &ComponentReport, other: &ComponentReport) -> boo
 }
 
 /// Fits with other numbers of patches, at most.
-const MORE_FITS: usize = 2;
+const MORE_FITS: usize = 3;
 
 /// So many tolerances may be missed by that other patches are worth their time.
 const WITHIN_REACH: f64 = 2.0;
