@@ -9,10 +9,11 @@
 //! ```
 //! Parameters and fields go with their nodes.
 
+use super::priced::Priced;
 use super::{Field, HalfEdge, Mesh, MeshError, Origins};
 use crate::failure::{Classify, ErrorKind};
 use crate::memory::{self, CollectVec};
-use std::cmp::{Ordering, Reverse};
+use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 /// A mesh cannot be cut as asked.
@@ -235,9 +236,9 @@ impl Mesh {
         self.check_node(to)?;
         let mut lengths = memory::filled(f64::INFINITY, self.points.len());
         let mut before = memory::filled(from, self.points.len());
-        let mut heap = BinaryHeap::from([Reverse(Reached { length: 0.0, node: from })]);
+        let mut heap = BinaryHeap::from([Reverse(Priced { cost: 0.0, node: from })]);
         lengths[from as usize] = 0.0;
-        while let Some(Reverse(Reached { length, node })) = heap.pop() {
+        while let Some(Reverse(Priced { cost: length, node })) = heap.pop() {
             if node == to {
                 let back =
                     std::iter::successors(Some(to), |&node| (node != from).then(|| before[node as usize]));
@@ -253,7 +254,7 @@ impl Mesh {
                 if further < lengths[next as usize] {
                     lengths[next as usize] = further;
                     before[next as usize] = node;
-                    heap.push(Reverse(Reached { length: further, node: next }));
+                    heap.push(Reverse(Priced { cost: further, node: next }));
                 }
             }
         }
@@ -330,25 +331,4 @@ fn root(sets: &mut [u32], mut member: u32) -> u32 {
 fn join(sets: &mut [u32], a: u32, b: u32) {
     let [a, b] = [a, b].map(|member| root(sets, member));
     sets[a.max(b) as usize] = a.min(b);
-}
-
-/// A node in the queue of a shortest path.
-#[derive(PartialEq)]
-struct Reached {
-    length: f64,
-    node: u32,
-}
-
-impl Eq for Reached {}
-
-impl Ord for Reached {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.length.total_cmp(&other.length).then(self.node.cmp(&other.node))
-    }
-}
-
-impl PartialOrd for Reached {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
 }

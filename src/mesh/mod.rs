@@ -13,6 +13,7 @@ mod error;
 mod features;
 mod halve;
 mod polygon;
+mod priced;
 mod read;
 mod repair;
 pub(crate) mod rings;

@@ -19,8 +19,8 @@ use super::quadric::Quadric;
 use crate::control::{Cancelled, Watch};
 use crate::geometry::{Orientation, orientation};
 use crate::memory::{self, CollectVec};
+use crate::mesh::priced::Priced;
 use glam::{DVec2, DVec3};
-use std::cmp::Ordering;
 
 /// Cosine of the largest angle by which one collapse may turn a triangle: 60 degrees. Half turns would fold
 /// the mesh, and small angles stop it on round shapes long before it is coarse.
@@ -71,27 +71,6 @@ struct Node {
 impl Node {
     fn at(point: DVec3) -> Self {
         Self { point, height: 0.0, area: 0.0, quadric: Quadric::ZERO, around: Vec::new(), live: 0 }
-    }
-}
-
-/// A node and what a collapse costs, of it or onto it. In increasing order of cost; ties go to the smaller node.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Priced {
-    pub cost: f64,
-    pub node: u32,
-}
-
-impl Eq for Priced {}
-
-impl Ord for Priced {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.cost.total_cmp(&other.cost).then(self.node.cmp(&other.node))
-    }
-}
-
-impl PartialOrd for Priced {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
     }
 }
 

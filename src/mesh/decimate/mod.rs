@@ -18,13 +18,14 @@ mod tests;
 pub(super) use features::{half_edges, normal};
 pub(crate) use quadric::Quadric;
 
+use super::priced::Priced;
 use super::{Mesh, Piece};
 use crate::control::{Cancelled, Control, Stage, Watch};
 use crate::failure::{Classify, ErrorKind};
 use crate::geometry::{Orientation, orientation};
 use crate::memory::{self, CollectVec};
 use crate::options::with_fields;
-use collapse::{Collapsing, Priced};
+use collapse::Collapsing;
 use features::Features;
 use glam::{DVec2, DVec3};
 use std::cmp::Reverse;
