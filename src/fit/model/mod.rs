@@ -12,6 +12,7 @@
 //! ```
 
 mod bodies;
+mod chart;
 mod constraints;
 #[cfg(test)]
 mod crease_tests;
@@ -30,9 +31,11 @@ mod options;
 mod refine;
 mod report;
 mod samples;
+mod smooth;
 #[cfg(test)]
 mod tests;
 mod walls;
+mod ways;
 mod whole;
 
 pub use constraints::{Constraints, PlaneEquation};

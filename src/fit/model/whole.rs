@@ -13,31 +13,26 @@
 //! Several closed components become several shells, one inside another a void.
 
 use super::bodies::{self, Body, bodies};
+use super::chart::chart;
 use super::creased::over_features;
 use super::error::ModelFitError;
 use super::exact::{self, ExactFit, Obstacle};
 use super::mesh_model::{
     Component, ComponentReport, Family, MeshModelOptions, ModelFit, Piece, Spot, origins, together,
 };
-use super::{ModelReport, NodePlaces, fit_over_layout};
+use super::smooth::smooth;
+use super::ways::{Way, first_done, is_better, is_done, is_good};
 use crate::control::{Cancelled, Control};
 use crate::failure::{Classify, ErrorKind};
-use crate::fit::common::report::{FitReport, Remarks, Tolerance, ToleranceScale};
-use crate::fit::pht::{self, PhtOptions};
-use crate::layout::Layout;
-use crate::layout::of_mesh::{LayoutKind, MeshLayout, MeshLayoutError, MeshLayoutOptions, layout_of_mesh};
+use crate::fit::common::report::{Remarks, Tolerance, ToleranceScale};
+use crate::layout::of_mesh::LayoutKind;
 use crate::memory::{self, CollectVec};
 use crate::mesh::{FeatureOptions, Features, Mesh};
-use crate::model::{
-    FaceId, Form, FormOptions, Origin, PatchModel, Patchwork, Role, ShellId, of_patches, of_surface,
-};
-use crate::parameterize::sphere::{SphereOptions, map_to_sphere};
+use crate::model::{FaceId, Origin, PatchModel, Patchwork, Role, ShellId, of_patches};
 use crate::query::crossings::crossings;
 use crate::query::tessellate::TessellateOptions;
-use crate::surface::AnySurface;
 use glam::DVec2;
 use std::cell::Cell;
-use std::cmp::Ordering;
 use std::f64::consts::PI;
 use std::time::Instant;
 
@@ -152,33 +147,6 @@ fn asks_for_features(options: &MeshModelOptions) -> bool {
 fn are_texture(found: &Features, options: &MeshModelOptions) -> bool {
     found.are_texture() && options.features.sharp_edges.is_empty() && options.features.labels.is_empty()
 }
-
-/// Whether a fit is all that was asked for.
-fn is_good(report: &ModelReport) -> bool {
-    !report.remarks.has(Remarks::TOLERANCE_NOT_MET) && report.folded_cells == 0
-}
-
-/// Whether a component is all that was asked for, or that noise lets be had.
-fn is_done(made: &Component) -> bool {
-    made.misses_noise_only || is_good(&made.report.fit)
-}
-
-/// Whether a fit is better than another: without folds, then with fewer where both are near enough, then nearer to the nodes.
-fn is_better(report: &ModelReport, other: &ModelReport) -> bool {
-    let is_near = |report: &ModelReport| report.max_error <= report.tolerance;
-    match (report.folded_cells == 0, other.folded_cells == 0) {
-        (true, false) => report.max_error <= NEARLY * other.max_error,
-        (false, true) => NEARLY * report.max_error < other.max_error,
-        (false, false) if is_near(report) && is_near(other) => report.folded_cells <= other.folded_cells,
-        _ => report.max_error <= other.max_error,
-    }
-}
-
-/// A fit with folds has to be so many times nearer to be preferred.
-const NEARLY: f64 = 4.0;
-
-/// Share of a component's time in which its map is made.
-const MAP_SHARE: f64 = 0.4;
 
 fn patches(
     mesh: &Mesh,
@@ -378,37 +346,6 @@ fn component(
     first_done(&ways, is_done, better, control)
 }
 
-/// A way to make something, which may have nothing to do, and its share of the time.
-type Way<'a, Made> = (f64, &'a dyn Fn(&mut Control) -> Result<Option<Made>, ModelFitError>);
-
-/// What the first way makes that does all that was asked for, or else the best of all; one at least has something to do.
-fn first_done<Made>(
-    ways: &[Way<Made>],
-    is_done: impl Fn(&Made) -> bool,
-    better: impl Fn(Made, Made) -> Made,
-    control: &mut Control,
-) -> Result<Made, ModelFitError> {
-    let (mut best, mut failure) = (None, None);
-    let mut from = 0.0;
-    for (share, way) in ways {
-        let to = from + share;
-        match control.within(from, to, |control| way(control)) {
-            Ok(Some(made)) if is_done(&made) => return Ok(made),
-            Ok(Some(made)) => {
-                best = Some(match best {
-                    Some(best) => better(made, best),
-                    None => made,
-                })
-            }
-            Ok(None) => {}
-            Err(error) if error.kind() == ErrorKind::Cancelled => return Err(error),
-            Err(error) => failure = Some(error),
-        }
-        from = to;
-    }
-    best.ok_or_else(|| failure.expect("one way has something to do"))
-}
-
 /// What of a body may stay sharp.
 struct BodyFeatures {
     /// Labels of its triangles, or none.
@@ -470,282 +407,10 @@ fn open_body(body: &Body) -> ModelFitError {
     ModelFitError::Open { loops: loops.len(), node: loops[0][0] as usize }
 }
 
-/// A body without sharp edges: over the cube, over a base complex, or the better of both.
-fn smooth(
-    body: &Body,
-    options: &MeshModelOptions,
-    control: &mut Control,
-) -> Result<Component, ModelFitError> {
-    let is_simple = body.mesh.genus() == 0;
-    match options.layout.kind {
-        LayoutKind::Cube => over_cube(body, options, control),
-        LayoutKind::Complex => over_complex(body, options, control),
-        LayoutKind::Auto if !is_simple => over_complex(body, options, control),
-        LayoutKind::Auto => {
-            let cube = control.within(0.0, 0.5, |control| over_cube(body, options, control))?;
-            if is_good(&cube.report.fit) {
-                return Ok(cube);
-            }
-            // patches that follow the limbs may do what six cannot
-            match control.within(0.5, 1.0, |control| over_complex(body, options, control)) {
-                Ok(complex) if !is_better(&cube.report.fit, &complex.report.fit) => Ok(complex),
-                Err(error) if error.kind() == ErrorKind::Cancelled => Err(error),
-                _ => Ok(cube),
-            }
-        }
-    }
-}
-
-fn over_cube(
-    body: &Body,
-    options: &MeshModelOptions,
-    control: &mut Control,
-) -> Result<Component, ModelFitError> {
-    let map = |control: &mut Control| map_to_sphere(&body.mesh, &SphereOptions::default(), control);
-    let sphere = control.within(0.0, MAP_SHARE, map)?;
-    let layout = Layout::cube();
-    let places = NodePlaces::Sphere(&sphere.points);
-    let fit = control.within(MAP_SHARE, 1.0, |control| {
-        fit_over_layout(&body.mesh, &layout, places, &options.fit, control)
-    })?;
-    let report = ComponentReport {
-        genus: 0,
-        layout: Some(LayoutKind::Cube),
-        exact_faces: 0,
-        map_energy: sphere.report.energy,
-        fold_count: sphere.report.folded_triangles,
-        void_in: body.void_in,
-        is_turned: body.is_turned,
-        rounds_edges: false,
-        map_seconds: sphere.report.seconds,
-        fit: fit.report.clone(),
-    };
-    Ok(Component::smooth(layout, fit, report))
-}
-
-/// Over a base complex. Where the fit nearly does, a few with other numbers of patches are tried, and the best is kept: what is
-/// left out of reach, or folds, lies at a few places where the patches lie badly.
-fn over_complex(
-    body: &Body,
-    options: &MeshModelOptions,
-    control: &mut Control,
-) -> Result<Component, ModelFitError> {
-    let mut others = other_counts(&body.mesh, &options.layout).into_iter();
-    let made = control.within(0.0, MAP_SHARE, |control| {
-        unfolded_complex(&body.mesh, &options.layout, &mut others, control)
-    })?;
-    let mut best =
-        control.within(MAP_SHARE, FIRST_FIT, |control| fit_complex(body, made, options, control))?;
-    for rank in 0..MORE_FITS {
-        let Some(other) = others.next().filter(|_| nearly_serves(&best.report)) else { break };
-        let [from, to] =
-            [rank, rank + 1].map(|k| FIRST_FIT + (1.0 - FIRST_FIT) * k as f64 / MORE_FITS as f64);
-        let made = control.within(from, to, |control| -> Result<_, ModelFitError> {
-            let made =
-                control.within(0.0, MAP_SHARE, |control| layout_of_mesh(&body.mesh, &other, control))?;
-            control.within(MAP_SHARE, 1.0, |control| fit_complex(body, made, options, control))
-        });
-        match made {
-            Ok(made) if is_better_component(&made.report, &best.report) => best = made,
-            Err(error) if error.kind() == ErrorKind::Cancelled => return Err(error),
-            // the best so far will do
-            _ => {}
-        }
-    }
-    Ok(best)
-}
-
-/// Whether other patches may make of a fit what was asked for.
-fn nearly_serves(report: &ComponentReport) -> bool {
-    let is_near = report.fit.max_error <= WITHIN_REACH * report.fit.tolerance;
-    is_near && !(is_good(&report.fit) && report.fold_count == 0)
-}
-
-/// Whether one component over a base complex is better than another: by the folds of its map, then by its fit.
-fn is_better_component(report: &ComponentReport, other: &ComponentReport) -> bool {
-    match report.fold_count.cmp(&other.fold_count) {
-        Ordering::Equal => !is_better(&other.fit, &report.fit),
-        order => order == Ordering::Less,
-    }
-}
-
-/// Fits with other numbers of patches, at most.
-const MORE_FITS: usize = 3;
-
-/// So many tolerances may be missed by that other patches are worth their time.
-const WITHIN_REACH: f64 = 2.0;
-
-/// Share of a component's time for the number of patches that is asked for.
-const FIRST_FIT: f64 = 0.5;
-
-/// A fit over a base complex.
-fn fit_complex(
-    body: &Body,
-    made: MeshLayout,
-    options: &MeshModelOptions,
-    control: &mut Control,
-) -> Result<Component, ModelFitError> {
-    let fit = fit_over_layout(&body.mesh, &made.layout, NodePlaces::Map(&made.map), &options.fit, control)?;
-    let report = ComponentReport {
-        genus: body.mesh.genus(),
-        layout: Some(LayoutKind::Complex),
-        exact_faces: 0,
-        map_energy: made.report.energy,
-        fold_count: made.report.folded_nodes,
-        void_in: body.void_in,
-        is_turned: body.is_turned,
-        rounds_edges: false,
-        map_seconds: made.report.seconds,
-        fit: fit.report.clone(),
-    };
-    Ok(Component::smooth(made.layout, fit, report))
-}
-
-/// So many times as many patches are tried one after the other: over coarse meshes with handles numbers near the fewest that
-/// these need have folds, and most larger ones have none.
-const OTHER_COUNTS: [f64; 7] = [1.25, 1.6, 2.0, 0.85, 2.5, 3.0, 4.0];
-
-/// Nodes a patch: fewer say too little of where it lies.
-const NODES_PER_PATCH: usize = 8;
-
-/// Base complexes with other numbers of patches.
-fn other_counts(mesh: &Mesh, options: &MeshLayoutOptions) -> Vec<MeshLayoutOptions> {
-    let most = options.patches.max(mesh.points().len() / NODES_PER_PATCH);
-    let patches = OTHER_COUNTS.into_iter().map(|times| (times * options.patches as f64).round() as usize);
-    patches.filter(|&count| count <= most).map(|count| complex(options).with_patches(count)).collect()
-}
-
-fn complex(options: &MeshLayoutOptions) -> MeshLayoutOptions {
-    options.with_kind(LayoutKind::Complex)
-}
-
-/// A base complex; where it folds nodes, the one of another number of patches that folds fewest.
-fn unfolded_complex(
-    mesh: &Mesh,
-    options: &MeshLayoutOptions,
-    others: &mut std::vec::IntoIter<MeshLayoutOptions>,
-    control: &mut Control,
-) -> Result<MeshLayout, MeshLayoutError> {
-    let make = |control: &mut Control| layout_of_mesh(mesh, &complex(options), control);
-    let mut best = control.within(0.0, FIRST_COUNT, make)?;
-    let count = others.len();
-    while best.report.folded_nodes > 0
-        && let Some(other) = others.next()
-    {
-        let rest = others.len();
-        let [from, to] = [rest + 1, rest].map(|left| 1.0 - (1.0 - FIRST_COUNT) * left as f64 / count as f64);
-        match control.within(from, to, |control| layout_of_mesh(mesh, &other, control)) {
-            Ok(made) if made.report.folded_nodes < best.report.folded_nodes => best = made,
-            Err(MeshLayoutError::Cancelled(cancelled)) => return Err(cancelled.into()),
-            // the best so far will do
-            _ => {}
-        }
-    }
-    Ok(best)
-}
-
-/// Share of a map's time for the number of patches that is asked for.
-const FIRST_COUNT: f64 = 0.5;
-
-/// An open mesh of one piece as one surface inside its trims.
-fn chart(mesh: &Mesh, options: &MeshModelOptions, control: &mut Control) -> Result<ModelFit, ModelFitError> {
-    let pht_options = PhtOptions { tolerance: options.fit.tolerance, ..PhtOptions::default() };
-    let fit = pht::fit_mesh(mesh, &pht_options, control)?;
-    let form =
-        FormOptions { form: Form::Patches, level_spread: options.level_spread, ..FormOptions::default() };
-    let surface = AnySurface::Pht(fit.surface);
-    let model = of_surface(&surface, &form, control.pool().watch())?;
-    let face_at = |uv: DVec2| {
-        let holds = |&face: &FaceId| model.carrier(face).domain().is_some_and(|domain| domain.contains(uv));
-        model.face_ids().find(holds)
-    };
-    let places: Vec<Option<(FaceId, DVec2)>> = (0..mesh.points().len() as u32)
-        .zip(&fit.parameters)
-        .map(|(node, &uv)| Some((face_at(uv).filter(|_| mesh.is_used(node))?, uv)))
-        .collect_vec();
-    let report = of_chart(&fit.report);
-    let component = ComponentReport {
-        genus: mesh.genus(),
-        layout: None,
-        exact_faces: 0,
-        map_energy: f64::NAN,
-        fold_count: fit.report.flipped_count,
-        void_in: None,
-        is_turned: false,
-        rounds_edges: false,
-        map_seconds: fit.report.parameterize_seconds,
-        fit: report.clone(),
-    };
-    let components = vec![component];
-    let nodes = origins(&places, &fit.errors);
-    let model = model.with_origin(Origin { nodes, pieces: Vec::new(), patch_of_face: Vec::new() })?;
-    Ok(ModelFit { model, pieces: Vec::new(), places, errors: fit.errors, components, report, seconds: 0.0 })
-}
-
-fn of_chart(fit: &FitReport) -> ModelReport {
-    ModelReport {
-        max_error: fit.max_error,
-        rms_error: fit.rms_error,
-        mean_error: fit.mean_error,
-        worst_node: fit.worst_index,
-        tolerance: fit.tolerance,
-        diagonal: fit.diagonal,
-        max_interior_error: fit.max_interior_error,
-        facet_sagitta: fit.facet_sagitta,
-        max_back_distance: f64::NAN,
-        volume: f64::NAN,
-        mesh_volume: f64::NAN,
-        coefficient_count: fit.coefficient_count,
-        free_count: fit.coefficient_count,
-        cell_count: fit.cell_count,
-        deepest_level: fit.deepest_level,
-        passes: fit.passes,
-        stop: fit.stop,
-        remarks: fit.remarks,
-        fit_seconds: fit.seconds - fit.parameterize_seconds,
-        ..ModelReport::default()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use glam::DVec3;
-
-    #[test]
-    fn the_first_way_that_serves_is_taken_or_else_the_best() {
-        let made = |value: f64| move |_: &mut Control| Ok(Some(value));
-        let nothing = |_: &mut Control| Ok(None);
-        let fails = |_: &mut Control| Err(ModelFitError::Open { loops: 1, node: 0 });
-        let [one, three, nine] = [made(1.0), made(3.0), made(9.0)];
-        let take = |ways: &[Way<f64>]| first_done(ways, |made| *made > 8.0, f64::min, &mut Control::new(1));
-        assert_eq!(take(&[(0.5, &three), (0.5, &one)]).unwrap(), 1.0);
-        assert_eq!(take(&[(0.3, &three), (0.3, &nine), (0.4, &one)]).unwrap(), 9.0);
-        assert_eq!(take(&[(0.3, &fails), (0.3, &nothing), (0.4, &one)]).unwrap(), 1.0);
-        assert!(take(&[(0.5, &fails), (0.5, &nothing)]).is_err());
-        let cancels = |_: &mut Control| Err(Cancelled.into());
-        assert!(take(&[(0.5, &one), (0.5, &cancels)]).is_err());
-    }
-
-    #[test]
-    fn other_numbers_of_patches_serve_where_the_first_nearly_does() {
-        let (_, mesh) = crate::samples::closed::seeded_block(1).unwrap();
-        let fit = super::super::ModelOptions::default();
-        let options = MeshModelOptions { fit, ..MeshModelOptions::default() };
-        let body = &bodies(&mesh).unwrap()[0];
-        let first = {
-            let made = layout_of_mesh(&body.mesh, &complex(&options.layout), &mut Control::new(2)).unwrap();
-            fit_complex(body, made, &options, &mut Control::new(2)).unwrap().report
-        };
-        assert!(
-            first.fit.max_error > first.fit.tolerance && nearly_serves(&first),
-            "{:?}",
-            first.fit.max_error
-        );
-        let best = over_complex(body, &options, &mut Control::new(2)).unwrap().report;
-        assert!(best.fit.max_error <= best.fit.tolerance, "{:?}", best.fit.max_error);
-        assert_ne!(best.fit.patches.len(), first.fit.patches.len());
-    }
 
     #[test]
     fn ragged_borders_serve_where_features_do_not() {
