@@ -7,6 +7,9 @@
 //!
 //! Points in a row have the same u, and many of them the same four control points along v: these are computed once. On a
 //! grid each point takes four loads, products and one store of a whole register, whose last number is that of the next point.
+//!
+//! To look the span of u up only where u changes, and to store a whole register a point here too, gains 8 % row by row beside
+//! the fastest peer and costs a quarter at random places, measured on an EPYC: the next lookups wait for the last.
 
 use super::{Axis, TensorSurface};
 use crate::memory::{self, CollectVec};
