@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Fits the closed meshes of the data folder by default and with --smooth, and writes the rows into docs/measured.md.
 
-Usage: tools/docs/models.py TOOL DATA [PAGE]     TOOL: a release build of planish; without PAGE the rows are printed
+Usage: tools/docs/models.py TOOL DATA     TOOL: a release build of planish
 
 Errors are in parts of the diagonal; seconds are processor time of the whole command, with reading and the STEP file.
 """
@@ -13,7 +13,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-MARKS = "<!-- models of closed meshes -->\n", "<!-- end of models -->\n"
+from measured import put
+
 MESHES = {
     "igea, 44,992 nodes": "igea_closed_45k.ply",
     "igea, 134,345 nodes": "igea_closed_134k.ply",
@@ -56,7 +57,7 @@ def line(cells):
 
 
 def main():
-    tool, data, *page = sys.argv[1:]
+    tool, data = sys.argv[1:]
     lines = [line(HEAD), "|" + "---|" * len(HEAD)]
     with tempfile.TemporaryDirectory() as folder:
         for name, file in MESHES.items():
@@ -65,11 +66,7 @@ def main():
                     made = fit(tool, Path(data, file), ["--tolerance", tolerance, *options], folder)
                     lines.append(line(row(name, tolerance, " ".join(options), made)))
                     print(lines[-1], flush=True)
-    if page:
-        path = Path(page[0])
-        before, rest = path.read_text().split(MARKS[0])
-        after = rest.split(MARKS[1])[1]
-        path.write_text(before + MARKS[0] + "\n".join(lines) + "\n" + MARKS[1] + after)
+    put("closed models", "\n".join(lines) + "\n")
 
 
 if __name__ == "__main__":
