@@ -9,7 +9,7 @@ use glam::DVec3;
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
-/// A closed component, its fronts out of the material: of a solid outwards, of a void inwards.
+/// A component. The fronts of a closed one look out of the material: of a solid outwards, of a void inwards.
 #[derive(Debug, Clone)]
 pub(super) struct Body {
     /// Its triangles, with nodes of its own.

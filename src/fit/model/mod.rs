@@ -23,15 +23,16 @@ pub mod field;
 mod folds;
 mod foot;
 pub mod from_patches;
-mod ground;
 mod least_squares;
 mod locks;
 mod mesh_model;
+mod near;
 mod options;
 mod refine;
 mod report;
 mod samples;
 mod smooth;
+mod split;
 #[cfg(test)]
 mod tests;
 mod walls;
@@ -56,7 +57,7 @@ use crate::mesh::Mesh;
 use crate::surface::g1::uniform;
 use crate::surface::pht::PhtSurface;
 use glam::DVec2;
-use ground::Regions;
+use near::NearMesh;
 use refine::Refinement;
 use samples::{Samples, facet_normals};
 use std::time::Instant;
@@ -116,7 +117,7 @@ pub fn fit_with_creases(
     let samples = Samples::new(mesh, places, layout, &sagittas, &is_corner);
     super::common::checks::check_count(samples.nodes.len())?;
     let of_nodes = samples.nodes.iter().copied().zip(samples.places.iter().copied());
-    let regions = Regions::new(mesh, layout, of_nodes);
+    let near = NearMesh::new(mesh, layout, of_nodes);
     let has_creases = (0..layout.edges().len() as u32).any(|edge| !layout.is_smooth(edge));
     let strictness = match has_creases {
         // a mesh that is cut along creases has walls at all of them
@@ -134,7 +135,7 @@ pub fn fit_with_creases(
         constraints,
         has_creases,
         is_corner,
-        regions,
+        near,
         facet_normals: facet_normals(mesh),
         stiff: Vec::new(),
         sagittas,

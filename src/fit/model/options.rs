@@ -1,5 +1,6 @@
 //! What a fit of a model may be asked for.
 
+use super::split::{DEEPEST_LEVEL, LEAST_SAMPLES};
 use crate::fit::common::FitError;
 use crate::fit::common::checks::{check_option, check_smoothing, check_tolerance};
 use crate::fit::common::report::Tolerance;
@@ -18,7 +19,7 @@ pub struct ModelOptions {
     pub start_level: u32,
     /// Deepest level of a cell.
     pub max_level: u32,
-    /// Most cells of all patches.
+    /// Most cells of all patches, beside those that patches need to meet.
     pub max_cells: usize,
     /// A cell with fewer samples is not split, as long as others help: nodes, centroids of facets, middles of edges.
     pub min_samples: usize,
@@ -38,9 +39,9 @@ impl Default for ModelOptions {
             tolerance: Tolerance::default(),
             smoothing: 1e-4,
             start_level: 0,
-            max_level: 12,
+            max_level: DEEPEST_LEVEL,
             max_cells: 200_000,
-            min_samples: 6,
+            min_samples: LEAST_SAMPLES,
             grade: 1,
             foot_steps: 1,
             guard: true,

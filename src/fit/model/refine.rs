@@ -14,11 +14,12 @@ use super::constraints::{Constraints, Projector};
 use super::error::ModelFitError;
 use super::folds::folded_cells;
 use super::foot::{Ground, foot_points};
-use super::ground::Regions;
 use super::least_squares::{System, Targets};
 use super::locks::Lock;
+use super::near::NearMesh;
 use super::options::ModelOptions;
 use super::samples::{ByCell, CellPlace, Samples, guard_places, quads_of_cells, weight_on_facet};
+use super::split::{SplitLimits, split_cells};
 use crate::control::{Control, Pool, Watch};
 use crate::fit::common::FitError;
 use crate::fit::common::report::StopReason;
@@ -27,9 +28,9 @@ use crate::geometry::Domain;
 use crate::layout::{Layout, Place};
 use crate::memory::CollectVec;
 use crate::surface::Surface;
-use crate::surface::g1::{Space, conform};
+use crate::surface::g1::Space;
 use crate::surface::pht::PhtSurface;
-use crate::tmesh::{MAX_LEVEL, NodeId, TMesh};
+use crate::tmesh::{MAX_LEVEL, TMesh};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -48,7 +49,7 @@ pub(super) struct Refinement<'a> {
     /// By vertex of the layout, whether samples on creases stop there.
     pub is_corner: Vec<bool>,
     /// The mesh under the patches.
-    pub regions: Regions,
+    pub near: NearMesh,
     /// By triangle of the mesh.
     pub facet_normals: Vec<DVec3>,
     /// Parts of patches that folded, with what their energy is multiplied by.
@@ -280,7 +281,7 @@ impl Refinement<'_> {
         watch.check()?;
         let cells = (quads.as_slice(), system.cells());
         let normal_near = |quad: u32, point: DVec3| {
-            let near = self.regions.nearest(quad, point);
+            let near = self.near.nearest(quad, point);
             near.map_or(DVec3::ZERO, |near| self.facet_normals[near.triangle as usize])
         };
         let of_samples = (&self.samples, places.as_slice());
@@ -321,7 +322,7 @@ impl Refinement<'_> {
             let mut row = [0.0; 3];
             self.before[place.quad as usize].eval_rows(&[place.uv], 0, &mut row);
             let point = DVec3::from_array(row);
-            self.regions.nearest(place.quad, point).map_or((point, 0.0), |nearest| {
+            self.near.nearest(place.quad, point).map_or((point, 0.0), |nearest| {
                 let sagitta = self.sagittas[nearest.triangle as usize];
                 (nearest.point, weight_on_facet(sagitta, self.known_on_facets()))
             })
@@ -342,62 +343,29 @@ impl Refinement<'_> {
         error * self.strictness[sample]
     }
 
-    fn rough_cells(&self, round: &Round) -> Vec<Rough> {
+    /// Splits the cells that miss the tolerance, or says why none can be split.
+    fn split(&mut self, round: &Round) -> Result<(), StopReason> {
+        let options = self.options;
+        let mut meshes = std::mem::take(&mut self.meshes);
         let is_rough = |&sample: &u32| {
             let sample = sample as usize;
             !(self.error_at(sample, round.distances[sample]) <= self.tolerance)
         };
-        let cells = (0..round.by_cell.cell_count()).map(|cell| (cell, round.by_cell.of(cell)));
-        cells
-            .filter(|(_, of_cell)| of_cell.iter().any(is_rough))
-            .map(|(cell, of_cell)| Rough { cell, samples: of_cell.len() })
-            .collect_vec()
-    }
-
-    /// Splits the cells that miss the tolerance, or says why none can be split.
-    fn split(&mut self, round: &Round) -> Result<(), StopReason> {
-        let cells = self.rough_cells(round);
-        let (options, mut stop) = (self.options, StopReason::DataExhausted);
-        let before: usize = self.meshes.iter().map(TMesh::leaf_count).sum();
-        let mut count = before;
-        let mut first = 0;
-        let mut numbers = cells.into_iter().peekable();
-        let least_samples = self.least_samples;
-        let has_creases = self.has_creases;
-        for mesh in &mut self.meshes {
-            let leaves: Vec<NodeId> = mesh.leaves().collect_vec();
-            let of_mesh: Vec<Rough> =
-                std::iter::from_fn(|| numbers.next_if(|rough| rough.cell < first + leaves.len()))
-                    .collect_vec();
-            let others = count - mesh.leaf_count();
-            let mut allow = |mesh: &TMesh, leaf: NodeId| {
-                let fits = mesh.cell(leaf).level < options.max_level
-                    && others + mesh.leaf_count() + 3 <= options.max_cells;
-                if fits { Ok(()) } else { Err(StopReason::Limit) }
-            };
-            let grade = if options.grade == 0 { MAX_LEVEL } else { options.grade };
-            for rough in of_mesh {
-                let leaf = leaves[rough.cell - first];
-                // a corner between creases swings when it is left with few samples
-                let is_kept = has_creases && is_at_corner(&mesh.cell_domain(mesh.cell(leaf)));
-                if rough.samples < if is_kept { options.min_samples } else { least_samples } {
-                    continue;
-                }
-                // a neighbour may have split it
-                if mesh.is_leaf(leaf)
-                    && let Err(limit) = mesh.split_graded(leaf, grade, &mut allow)
-                {
-                    stop = limit;
-                }
-            }
-            first += leaves.len();
-            count = others + mesh.leaf_count();
-        }
-        if count == before {
-            return Err(stop);
-        }
-        conform(self.layout, &mut self.meshes);
-        Ok(())
+        let is_to_split = |cell: usize, domain: &Domain| {
+            let samples = round.by_cell.of(cell);
+            // a corner between creases swings when it is left with few samples
+            let is_kept = self.has_creases && is_at_corner(domain);
+            let least = if is_kept { options.min_samples } else { self.least_samples };
+            samples.len() >= least && samples.iter().any(is_rough)
+        };
+        let limits = SplitLimits {
+            max_level: options.max_level,
+            max_cells: options.max_cells,
+            grade: if options.grade == 0 { MAX_LEVEL } else { options.grade },
+        };
+        let done = split_cells(self.layout, &mut meshes, limits, is_to_split);
+        self.meshes = meshes;
+        done
     }
 }
 
@@ -409,10 +377,4 @@ fn domain_of(cell: &CellPlace) -> Domain {
 fn is_at_corner(domain: &Domain) -> bool {
     [domain.min, domain.max].iter().any(|at| at.x == 0.0 || at.x == 1.0)
         && [domain.min, domain.max].iter().any(|at| at.y == 0.0 || at.y == 1.0)
-}
-
-/// A cell that misses the tolerance.
-struct Rough {
-    cell: usize,
-    samples: usize,
 }

@@ -198,7 +198,7 @@ fn back_distance(refinement: &Refinement, quad: u32, surface: &PhtSurface) -> f6
         let mut rows = vec![0.0; 3 * uv.len()];
         surface.eval_rows(&uv, 0, &mut rows);
         let distance = |row| {
-            let near = refinement.regions.nearest(quad, DVec3::from_slice(row));
+            let near = refinement.near.nearest(quad, DVec3::from_slice(row));
             near.map_or(0.0, |near| near.distance)
         };
         rows.chunks_exact(3).map(distance).fold(0.0, f64::max)
@@ -206,8 +206,11 @@ fn back_distance(refinement: &Refinement, quad: u32, surface: &PhtSurface) -> f6
     (0..surface.patch_count()).into_par_iter().with_min_len(16).map(of_cell).reduce(|| 0.0, f64::max)
 }
 
-/// The volume that a closed mesh encloses.
+/// The volume that a mesh encloses; NaN for an open one.
 pub(super) fn mesh_volume(mesh: &Mesh) -> f64 {
+    if !mesh.loops().is_empty() {
+        return f64::NAN;
+    }
     let Some(&origin) = mesh.points().first() else { return 0.0 };
     sum(mesh.triangles().iter().map(|triangle| {
         let [a, b, c] = triangle.map(|node| mesh.points()[node as usize] - origin);

@@ -14,6 +14,7 @@ mod piece;
 mod tests;
 pub mod transfer;
 
+use super::split::{LEAST_SAMPLES, SplitLimits, split_cells};
 use crate::control::{Control, Pool, Stage};
 use crate::fit::common::checks::check_unused;
 use crate::fit::common::errors::summarize;
@@ -21,26 +22,19 @@ use crate::fit::common::report::{FitReport, Goal, Remarks, StopReason, Tolerance
 use crate::fit::common::{FitError, Missing};
 use crate::fit::field::{FieldError, FieldGrid, FieldOptions, FieldReport};
 use crate::fit::found_grid::SampleField;
-use crate::geometry::Bounds;
+use crate::geometry::{Bounds, Domain};
 use crate::layout::{Layout, Place};
 use crate::mesh::Mesh;
 use crate::model::{Model, ModelField, Origin};
 use crate::summary::sum;
 use crate::surface::Surface;
-use crate::surface::g1::conform;
 use crate::surface::pht::PhtSurface;
-use crate::tmesh::{NodeId, TMesh};
+use crate::tmesh::TMesh;
 use piece::PieceFitter;
 use std::time::Instant;
 
 /// Rounds in which cells are split until a sample field keeps the tolerance.
 const MOST_ROUNDS: usize = 12;
-/// Samples of a cell that is split.
-const LEAST_SAMPLES: usize = 6;
-/// Deepest level of a cell.
-const DEEPEST_LEVEL: u32 = 12;
-/// Levels by which neighbours in a patch may differ.
-const GRADE: u32 = 1;
 
 /// Fits fields over the patches of one model, again and again.
 #[derive(Debug)]
@@ -67,7 +61,7 @@ struct Patches<'a> {
 impl ModelFieldFitter {
     /// For fields on the nodes of the mesh that the model was fitted to, over the cells of the model; with a sample, over
     /// cells that are split until it keeps the tolerance or no cell has enough nodes. What the options say of grid,
-    /// buffer, ends, energy and parameters has no meaning here.
+    /// buffer, ends, energy and parameters is not looked at, but a fixed grid is refused.
     pub fn new(
         model: &Model,
         mesh: &Mesh,
@@ -228,22 +222,11 @@ impl ModelFieldFitter {
         let is_rough =
             |&sample: &u32| errors.get(sample as usize).is_some_and(|&error| !(error <= tolerance));
         let mut meshes = piece.meshes.clone();
-        let mut allow = |mesh: &TMesh, leaf: NodeId| {
-            if mesh.cell(leaf).level < DEEPEST_LEVEL { Ok(()) } else { Err(StopReason::Limit) }
+        let is_to_split = |cell: usize, _: &Domain| {
+            let samples = piece.by_cell.of(cell);
+            samples.len() >= LEAST_SAMPLES && samples.iter().any(is_rough)
         };
-        let (mut first, mut is_split) = (0, false);
-        for mesh in &mut meshes {
-            let leaves: Vec<NodeId> = mesh.leaves().collect();
-            for (k, &leaf) in leaves.iter().enumerate() {
-                let samples = piece.by_cell.of(first + k);
-                // a neighbour may have split it
-                if samples.len() >= LEAST_SAMPLES && samples.iter().any(is_rough) && mesh.is_leaf(leaf) {
-                    is_split |= mesh.split_graded(leaf, GRADE, &mut allow).is_ok();
-                }
-            }
-            first += leaves.len();
-        }
-        conform(&piece.layout, &mut meshes);
+        let is_split = split_cells(&piece.layout, &mut meshes, SplitLimits::default(), is_to_split).is_ok();
         Ok(is_split.then_some(meshes))
     }
 }

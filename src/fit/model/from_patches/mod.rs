@@ -14,22 +14,23 @@ use super::foot::{Ground, foot_points};
 use super::least_squares::{System, Targets};
 use super::locks::Lock;
 use super::samples::ByCell;
+use super::split::{LEAST_SAMPLES, SplitLimits, split_cells};
 use crate::control::{Cancelled, Control, Pool, Watch};
 use crate::failure::{Classify, ErrorKind};
 use crate::fit::common::FitError;
 use crate::fit::common::checks::{check_option, check_smoothing, check_tolerance};
 use crate::fit::common::report::{Remarks, StopReason, Tolerance};
 use crate::fit::common::rounds::{Next, Rounds, Standing, run};
-use crate::geometry::Bounds;
+use crate::geometry::{Bounds, Domain};
 use crate::layout::{Layout, LayoutError, Place};
 use crate::model::{Model, ModelError, Origin, PatchPiece, Patchwork, of_patches};
 use crate::options::with_fields;
 use crate::summary::summarize;
-use crate::surface::g1::{Space, SpaceError, conform, enclosed_volume, normal_jump, uniform};
+use crate::surface::g1::{Space, SpaceError, enclosed_volume, normal_jump, uniform};
 use crate::surface::pht::PhtSurface;
 use crate::surface::tensor::TensorSurface;
 use crate::surface::{Patches, Surface};
-use crate::tmesh::{NodeId, TMesh, TMeshError};
+use crate::tmesh::{TMesh, TMeshError};
 use glam::{DVec2, DVec3};
 use join::{Given, Joined, join};
 use std::time::Instant;
@@ -43,7 +44,7 @@ pub struct FromPatchesOptions {
     pub join_tolerance: Tolerance,
     /// Weight of the plate energy of each cell, mapped to the unit cell. Default 1e-6.
     pub smoothing: f64,
-    /// Most cells of all patches of a piece. Default 200000.
+    /// Most cells of all patches of a piece, beside those that patches need to meet. Default 200000.
     pub max_cells: usize,
     /// Most rounds. Default 12.
     pub max_rounds: usize,
@@ -242,16 +243,10 @@ impl Classify for FromPatchesError {
 
 /// Level of the cells to start from: vertices of four patches ask for two segments an edge.
 const START_LEVEL: u32 = 2;
-/// Deepest level of a cell.
-const DEEPEST_LEVEL: u32 = 10;
-/// Levels by which neighbours in a patch may differ.
-const GRADE: u32 = 1;
 /// Samples along each direction of a patch for each of its spans.
 const PER_SPAN: usize = 6;
 /// Samples along each direction of a patch, at least and at most.
 const SAMPLES: [usize; 2] = [32, 128];
-/// Samples of a cell that is split.
-const LEAST_SAMPLES: usize = 6;
 /// Rounds in a row that gain nothing before a fit ends.
 const MOST_IDLE: usize = 3;
 
@@ -419,32 +414,15 @@ impl<'a> PieceFit<'a> {
         Ok(Round { surfaces, distances, by_cell, places })
     }
 
-    /// Splits the cells in which a sample misses the tolerance; whether there was one to split.
-    fn split(&mut self, round: &Round) -> bool {
+    /// Splits the cells in which a sample misses the tolerance. Where none can be split the samples slide once more.
+    fn split(&mut self, round: &Round) {
         let is_rough = |&sample: &u32| !(round.distances[sample as usize] <= self.tolerance);
-        let total: usize = self.meshes.iter().map(TMesh::leaf_count).sum();
-        let (mut first, mut is_split) = (0, false);
-        let mut room = self.options.max_cells - total;
-        for mesh in &mut self.meshes {
-            let leaves: Vec<NodeId> = mesh.leaves().collect();
-            let mut allow = |mesh: &TMesh, leaf: NodeId| {
-                if mesh.cell(leaf).level >= DEEPEST_LEVEL || room < 3 {
-                    return Err(StopReason::Limit);
-                }
-                room -= 3;
-                Ok(())
-            };
-            for (k, &leaf) in leaves.iter().enumerate() {
-                let samples = round.by_cell.of(first + k);
-                // a neighbour may have split it
-                if samples.len() >= LEAST_SAMPLES && samples.iter().any(is_rough) && mesh.is_leaf(leaf) {
-                    is_split |= mesh.split_graded(leaf, GRADE, &mut allow).is_ok();
-                }
-            }
-            first += leaves.len();
-        }
-        conform(self.layout, &mut self.meshes);
-        is_split
+        let is_to_split = |cell: usize, _: &Domain| {
+            let samples = round.by_cell.of(cell);
+            samples.len() >= LEAST_SAMPLES && samples.iter().any(is_rough)
+        };
+        let limits = SplitLimits { max_cells: self.options.max_cells, ..SplitLimits::default() };
+        let _ = split_cells(self.layout, &mut self.meshes, limits, is_to_split);
     }
 }
 
@@ -478,7 +456,6 @@ impl Rounds for PieceFit<'_> {
         if standing.idle >= MOST_IDLE {
             return Next::Stop(StopReason::Stagnated);
         }
-        // where no cell is to be split the samples slide once more
         self.split(round);
         Next::Round
     }

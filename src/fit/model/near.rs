@@ -21,13 +21,13 @@ pub(super) struct Near {
 }
 
 /// The pieces of a mesh cut along creases, by the quads that lie over them.
-pub(super) struct Regions {
+pub(super) struct NearMesh {
     regions: Vec<Region>,
     /// By quad, its region; those of a piece of the layout without nodes search them all.
     of_quads: Vec<Option<u32>>,
 }
 
-impl Regions {
+impl NearMesh {
     /// The components of a mesh whose nodes have places on a layout. A layout in one smooth piece lies over all of them.
     pub(super) fn new(mesh: &Mesh, layout: &Layout, places: impl Iterator<Item = (u32, Place)>) -> Self {
         let piece_of = layout.smooth_pieces();
