@@ -328,17 +328,19 @@ module planish_records
   integer(c_int32_t), parameter, public :: PLANISH_EDGE_SHAPE_ELLIPSE = 3
 
   !> Which way a mesh becomes a model.
-  !> One chart for a mesh with a boundary, patches for a closed one
+  !> Exact faces where planes and cylinders explain the mesh, else patches that keep sharp edges where that serves;
+  !> one chart for a mesh with one border loop and no features inside, and for other open ones where it does better
   integer(c_int32_t), parameter, public :: PLANISH_MODEL_FAMILY_AUTO = 0
   integer(c_int32_t), parameter, public :: PLANISH_MODEL_FAMILY_CHART = 1 !! One chart: a PHT-spline inside its trims
   integer(c_int32_t), parameter, public :: PLANISH_MODEL_FAMILY_PATCHES = 2 !! Patches over a layout of quadrilaterals
 
   !> Which layout the patches have.
-  !> The cube for genus 0, a base complex with handles, or where the cube misses the tolerance and the complex does
-  !> better
+  !> Over its features, if it has some; else the cube for genus 0, a base complex with handles, or where the cube
+  !> misses the tolerance and the complex does better
   integer(c_int32_t), parameter, public :: PLANISH_MODEL_LAYOUT_AUTO = 0
-  integer(c_int32_t), parameter, public :: PLANISH_MODEL_LAYOUT_CUBE = 1 !! The six faces of a cube; genus 0 only
-  !> A base complex: patches that follow the shape
+  !> The six faces of a cube, which round sharp edges off; genus 0 only
+  integer(c_int32_t), parameter, public :: PLANISH_MODEL_LAYOUT_CUBE = 1
+  !> Over its features, if it has some; else a base complex: patches that follow the shape
   integer(c_int32_t), parameter, public :: PLANISH_MODEL_LAYOUT_COMPLEX = 2
 
   !> Which knots the control curves of a skin get.
@@ -1365,10 +1367,12 @@ module planish_records
     real(c_double) :: tolerance = 1e-3_c_double !! Largest error allowed at the nodes
     !> Weight of the plate energy of each cell of a patch, mapped to the unit cell
     real(c_double) :: smoothing = 1e-4_c_double
-    integer(c_size_t) :: max_cells = 200000 !! Most cells of all patches of a component
+    !> Most cells of all patches of a component, beside those that patches need to meet
+    integer(c_size_t) :: max_cells = 200000
     integer(c_size_t) :: min_samples = 6 !! A cell with fewer samples is not split, as long as others help
-    !> About how many patches a base complex has; 0.85 to 4 times as many where it would fold nodes, or where the fit
-    !> folds or misses the tolerance by less than twice and another number does better
+    !> About how many patches a base complex has, or the regions between features that few do not fill; a base complex
+    !> takes 0.85 to 4 times as many where it would fold nodes, or where the fit folds or misses the tolerance by less
+    !> than twice and another number does better
     integer(c_size_t) :: patches = 40
     !> A planish_tolerance_scale; PLANISH_TOLERANCE_SCALE_RELATIVE (default): to the diagonal of the mesh's box
     integer(c_int32_t) :: tolerance_scale = PLANISH_TOLERANCE_SCALE_RELATIVE
@@ -1403,7 +1407,7 @@ module planish_records
 
   !> What a fit of a model did and how good it is, of all components together.
   type, bind(c), public :: planish_model_report
-    integer(c_size_t) :: struct_size = 15 * word + 152
+    integer(c_size_t) :: struct_size = 16 * word + 152
     !> Largest distance between a node and the model at the node's place: what the tolerance bounds
     real(c_double) :: max_error = 0
     real(c_double) :: rms_error = 0 !! Square root of the mean of its square
@@ -1419,8 +1423,8 @@ module planish_records
     real(c_double) :: max_back_distance = 0
     real(c_double) :: normal_jump = 0 !! Largest difference of unit normals across edges of patches
     real(c_double) :: gap = 0 !! Largest distance between the two sides of an edge
-    real(c_double) :: volume = 0 !! Volume that the model encloses; NaN for a chart
-    real(c_double) :: mesh_volume = 0 !! Volume that the mesh encloses; NaN for a chart
+    real(c_double) :: volume = 0 !! Volume that the model encloses; NaN for an open one
+    real(c_double) :: mesh_volume = 0 !! Volume that the mesh encloses; NaN for an open one
     !> Largest symmetric Dirichlet energy of a component's map, by area: 4 if all lengths are kept; NaN for a chart
     real(c_double) :: map_energy = 0
     real(c_double) :: map_seconds = 0 !! Seconds for layouts and maps
@@ -1447,6 +1451,9 @@ module planish_records
     !> than that, or folds
     integer(c_size_t) :: crossing_count = 0
     integer(c_size_t) :: exact_face_count = 0 !! Faces on planes and cylinders
+    !> Components whose sharp edges were found and are rounded off, because what keeps them was no better or the cube
+    !> was asked for
+    integer(c_size_t) :: rounded_count = 0
   end type
 
   !> Options of curve fits.

@@ -690,7 +690,8 @@ FOLLOWS(planish_model_report, stop_reason, is_chart);
 FOLLOWS(planish_model_report, is_chart, mesh_crossing_count);
 FOLLOWS(planish_model_report, mesh_crossing_count, crossing_count);
 FOLLOWS(planish_model_report, crossing_count, exact_face_count);
-LAST(planish_model_report, exact_face_count);
+FOLLOWS(planish_model_report, exact_face_count, rounded_count);
+LAST(planish_model_report, rounded_count);
 
 FIRST(planish_curve_options);
 FOLLOWS(planish_curve_options, struct_size, tolerance);

@@ -871,7 +871,8 @@ typedef enum planish_edge_shape {
  */
 typedef enum planish_model_family {
     /**
-     * One chart for a mesh with a boundary, patches for a closed one.
+     * Exact faces where planes and cylinders explain the mesh, else patches that keep sharp edges where that serves; one
+     * chart for a mesh with one border loop and no features inside, and for other open ones where it does better.
      */
     PLANISH_MODEL_FAMILY_AUTO = 0,
     /**
@@ -889,16 +890,16 @@ typedef enum planish_model_family {
  */
 typedef enum planish_model_layout {
     /**
-     * The cube for genus 0, a base complex with handles, or where the cube misses the tolerance and the complex does
-     * better.
+     * Over its features, if it has some; else the cube for genus 0, a base complex with handles, or where the cube misses
+     * the tolerance and the complex does better.
      */
     PLANISH_MODEL_LAYOUT_AUTO = 0,
     /**
-     * The six faces of a cube; genus 0 only.
+     * The six faces of a cube, which round sharp edges off; genus 0 only.
      */
     PLANISH_MODEL_LAYOUT_CUBE = 1,
     /**
-     * A base complex: patches that follow the shape.
+     * Over its features, if it has some; else a base complex: patches that follow the shape.
      */
     PLANISH_MODEL_LAYOUT_COMPLEX = 2,
 } planish_model_layout;
@@ -3724,7 +3725,7 @@ typedef struct planish_model_options {
      */
     double smoothing;
     /**
-     * Most cells of all patches of a component. Default 200000.
+     * Most cells of all patches of a component, beside those that patches need to meet. Default 200000.
      */
     size_t max_cells;
     /**
@@ -3732,8 +3733,9 @@ typedef struct planish_model_options {
      */
     size_t min_samples;
     /**
-     * About how many patches a base complex has; 0.85 to 4 times as many where it would fold nodes, or where the fit folds or
-     * misses the tolerance by less than twice and another number does better. Default 40.
+     * About how many patches a base complex has, or the regions between features that few do not fill; a base complex
+     * takes 0.85 to 4 times as many where it would fold nodes, or where the fit folds or misses the tolerance by less
+     * than twice and another number does better. Default 40.
      */
     size_t patches;
     /**
@@ -3870,11 +3872,11 @@ typedef struct planish_model_report {
      */
     double gap;
     /**
-     * Volume that the model encloses; NaN for a chart.
+     * Volume that the model encloses; NaN for an open one.
      */
     double volume;
     /**
-     * Volume that the mesh encloses; NaN for a chart.
+     * Volume that the mesh encloses; NaN for an open one.
      */
     double mesh_volume;
     /**
@@ -3970,6 +3972,11 @@ typedef struct planish_model_report {
      * Faces on planes and cylinders.
      */
     size_t exact_face_count;
+    /**
+     * Components whose sharp edges were found and are rounded off, because what keeps them was no better or the cube was
+     * asked for.
+     */
+    size_t rounded_count;
 } planish_model_report;
 
 /**
@@ -7471,10 +7478,11 @@ enum planish_status planish_model_options_init(struct planish_model_options *opt
 
 /**
  * Makes a model of any mesh within a tolerance. A mesh of planes and cylinders between sharp edges becomes exact faces
- * that meet in lines, circles and ellipses; any other closed mesh becomes smooth patches that share position and
- * tangent plane along all their edges to rounding: a solid of B-spline faces. One inside another becomes its void,
- * several components several shells. A mesh with a boundary that is not exact becomes one PHT-spline inside its trims.
- * Components that are inside out are turned.
+ * that meet in lines, circles and ellipses. Any other closed mesh becomes a solid of B-spline faces that share position and
+ * tangent plane to rounding, but for sharp edges, which stay sharp where that serves, with one plane face for each flat
+ * region between them. One inside another becomes its void, several components several shells. An open mesh becomes such a
+ * shell over its features and borders, or one PHT-spline inside its trims where it has one border loop and no features
+ * inside, or where that does better. Components that are inside out are turned.
  *
  * mesh:       not NULL; stays as it is.
  * options:    NULL for the defaults.

@@ -1437,6 +1437,7 @@ class planish_model_report(Structure):
         ("mesh_crossing_count", c_size_t),
         ("crossing_count", c_size_t),
         ("exact_face_count", c_size_t),
+        ("rounded_count", c_size_t),
     ]
     choices = {
         "stop_reason": "planish_stop_reason",
@@ -1824,7 +1825,7 @@ SIZES = {
     planish_shell_info: 24,
     planish_measure_report: 144,
     planish_model_options: 192,
-    planish_model_report: 272,
+    planish_model_report: 280,
     planish_curve_options: 104,
     planish_interpolate_options: 24,
     planish_skin_report: 112,
@@ -2336,6 +2337,7 @@ class ReportFields:
     rms_shape_error: float
     rms_vertex_distance: float
     rough_cell_count: int
+    rounded_count: int
     seconds: float
     sharp_edge_count: int
     smallest_angle: float

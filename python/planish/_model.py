@@ -306,8 +306,8 @@ def model(
 
     tolerance: the largest distance allowed between a node and the model, as a fraction of the diagonal of the mesh's box,
         or in its units if `absolute`.
-    family: "auto" takes one chart where one serves, exact faces of planes and cylinders where they explain a closed mesh,
-        else patches with one tangent plane along their edges.
+    family: "auto" takes exact faces of planes and cylinders where they explain the mesh, else patches with one tangent plane
+        along their edges but for sharp ones, or one chart where an open mesh has no features inside or that does better.
     labels: a number for each triangle: edges between different ones are features, and exact faces have it as `label`.
     model_options: those of `planish_model_options`, such as ``patches``.
 

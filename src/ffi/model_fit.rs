@@ -21,7 +21,8 @@ use std::ffi::c_void;
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum planish_model_family {
-    /// One chart for a mesh with a boundary, patches for a closed one.
+    /// Exact faces where planes and cylinders explain the mesh, else patches that keep sharp edges where that serves; one
+    /// chart for a mesh with one border loop and no features inside, and for other open ones where it does better.
     Auto = 0,
     /// One chart: a PHT-spline inside its trims.
     Chart = 1,
@@ -33,12 +34,12 @@ pub enum planish_model_family {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum planish_model_layout {
-    /// The cube for genus 0, a base complex with handles, or where the cube misses the tolerance and the complex does
-    /// better.
+    /// Over its features, if it has some; else the cube for genus 0, a base complex with handles, or where the cube misses
+    /// the tolerance and the complex does better.
     Auto = 0,
-    /// The six faces of a cube; genus 0 only.
+    /// The six faces of a cube, which round sharp edges off; genus 0 only.
     Cube = 1,
-    /// A base complex: patches that follow the shape.
+    /// Over its features, if it has some; else a base complex: patches that follow the shape.
     Complex = 2,
 }
 
@@ -68,12 +69,13 @@ record! {
         pub tolerance: f64 = core.tolerance.value,
         /// Weight of the plate energy of each cell of a patch, mapped to the unit cell. Default 1e-4.
         pub smoothing: f64 = core.smoothing,
-        /// Most cells of all patches of a component. Default 200000.
+        /// Most cells of all patches of a component, beside those that patches need to meet. Default 200000.
         pub max_cells: usize = core.max_cells,
         /// A cell with fewer samples is not split, as long as others help. Default 6.
         pub min_samples: usize = core.min_samples,
-        /// About how many patches a base complex has; 0.85 to 4 times as many where it would fold nodes, or where the fit folds or
-        /// misses the tolerance by less than twice and another number does better. Default 40.
+        /// About how many patches a base complex has, or the regions between features that few do not fill; a base complex
+        /// takes 0.85 to 4 times as many where it would fold nodes, or where the fit folds or misses the tolerance by less
+        /// than twice and another number does better. Default 40.
         pub patches: usize = layout_core.patches,
         /// A planish_tolerance_scale; PLANISH_TOLERANCE_SCALE_RELATIVE (default): to the diagonal of the mesh's box.
         pub tolerance_scale: u32,
@@ -148,9 +150,9 @@ record! {
         pub normal_jump: f64,
         /// Largest distance between the two sides of an edge.
         pub gap: f64,
-        /// Volume that the model encloses; NaN for a chart.
+        /// Volume that the model encloses; NaN for an open one.
         pub volume: f64,
-        /// Volume that the mesh encloses; NaN for a chart.
+        /// Volume that the mesh encloses; NaN for an open one.
         pub mesh_volume: f64,
         /// Largest symmetric Dirichlet energy of a component's map, by area: 4 if all lengths are kept; NaN for a chart.
         pub map_energy: f64,
@@ -199,6 +201,9 @@ record! {
         pub crossing_count: usize,
         /// Faces on planes and cylinders.
         pub exact_face_count: usize,
+        /// Components whose sharp edges were found and are rounded off, because what keeps them was no better or the cube was
+        /// asked for.
+        pub rounded_count: usize,
     }
 }
 
@@ -242,6 +247,7 @@ impl planish_model_report {
             mesh_crossing_count: report.mesh_crossings,
             crossing_count: report.crossings.unwrap_or(usize::MAX),
             exact_face_count: components.iter().map(|component| component.exact_faces).sum(),
+            rounded_count: components.iter().filter(|component| component.rounds_edges).count(),
         }
     }
 
@@ -290,10 +296,11 @@ impl planish_model_options {
 }
 
 /// Makes a model of any mesh within a tolerance. A mesh of planes and cylinders between sharp edges becomes exact faces
-/// that meet in lines, circles and ellipses; any other closed mesh becomes smooth patches that share position and
-/// tangent plane along all their edges to rounding: a solid of B-spline faces. One inside another becomes its void,
-/// several components several shells. A mesh with a boundary that is not exact becomes one PHT-spline inside its trims.
-/// Components that are inside out are turned.
+/// that meet in lines, circles and ellipses. Any other closed mesh becomes a solid of B-spline faces that share position and
+/// tangent plane to rounding, but for sharp edges, which stay sharp where that serves, with one plane face for each flat
+/// region between them. One inside another becomes its void, several components several shells. An open mesh becomes such a
+/// shell over its features and borders, or one PHT-spline inside its trims where it has one border loop and no features
+/// inside, or where that does better. Components that are inside out are turned.
 ///
 /// mesh:       not NULL; stays as it is.
 /// options:    NULL for the defaults.

@@ -3,6 +3,7 @@
 use super::tests::*;
 use super::*;
 use crate::fit::common::report::Remarks;
+use crate::layout::of_mesh::{LayoutKind, MeshLayoutOptions};
 use crate::layout::{CUBE_FACES, Creases, HalfEdge, Side};
 use crate::mesh::FeatureOptions;
 use crate::model::{Frame, Patchwork, Plane, PlaneFace, Planes, Rim, Role, of_patches};
@@ -362,6 +363,18 @@ fn parts_become_patches_between_planes() {
     check_part("holed plate", &holed_plate(), [6, 1], [12.0 - disk, 2.0 * (12.0 - disk) + sides], 0);
     let shaft = [1.36 * PI, (2.0 + 2.0 + 1.2) * PI];
     check_part("stepped shaft", &stepped_shaft(), [3, 2], shaft, 2);
+}
+
+#[test]
+fn patches_that_are_asked_for_keep_sharp_edges_and_the_cube_says_that_it_does_not() {
+    let fit = |kind: LayoutKind| {
+        let layout = MeshLayoutOptions::default().with_kind(kind);
+        let options = MeshModelOptions { exact: false, layout, ..MeshModelOptions::default() };
+        fit_mesh(&cylinder(), &options, &mut Control::new(1)).unwrap().components.remove(0)
+    };
+    let (complex, cube) = (fit(LayoutKind::Complex), fit(LayoutKind::Cube));
+    assert!(complex.exact_faces == 2 && !complex.rounds_edges, "{complex:?}");
+    assert!(cube.layout == Some(LayoutKind::Cube) && cube.rounds_edges, "{cube:?}");
 }
 
 #[test]

@@ -66,9 +66,9 @@ pub(super) fn over_features(
     let planes: Vec<Option<PlaneEquation>> =
         regions.regions.iter().map(|region| plane_of(mesh, region, PLANE_SHARE * tolerance)).collect();
     let part = Part { mesh, features, regions: &regions, labels };
+    let layout = FeatureLayoutOptions { patches: options.layout.patches, sweeps: options.layout.sweeps };
     let fit = |planes, fit_options: &ModelOptions, control: &mut Control| {
-        let (allowed, _) = fit_options.tolerance.absolute(&mesh.bounds());
-        let component = part.fit(planes, (fit_options, allowed), control)?.component(body, &part, tolerance);
+        let component = part.fit(planes, (fit_options, &layout), control)?.component(body, &part, tolerance);
         check_shell(&component.piece, mesh.loops().is_empty(), options.level_spread)?;
         Ok::<Component, ModelFitError>(component)
     };
@@ -239,15 +239,15 @@ impl Part<'_> {
     fn fit(
         &self,
         mut planes: Vec<Option<PlaneEquation>>,
-        (options, tolerance): (&ModelOptions, f64),
+        (options, layout): (&ModelOptions, &FeatureLayoutOptions),
         control: &mut Control,
     ) -> Result<CreasedFit, ModelFitError> {
         let Self { mesh, features, regions, .. } = *self;
+        let (tolerance, _) = options.tolerance.absolute(&mesh.bounds());
         self.keep_bounded(&mut planes, tolerance);
         let has_patches: Vec<bool> = planes.iter().map(Option::is_none).collect();
         let made = control.within(0.0, LAYOUT_SHARE, |control| {
-            let options = FeatureLayoutOptions::default();
-            layout_of_features(mesh, features, regions, &has_patches, &options, control)
+            layout_of_features(mesh, features, regions, &has_patches, layout, control)
         })?;
         let constraints = self.constraints(&made, &planes);
         let options = options.with_smoothing(options.smoothing.max(SMOOTHING));

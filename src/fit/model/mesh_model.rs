@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 /// Which way a mesh becomes a model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Family {
-    /// What serves: one chart for an open mesh, patches for a closed one.
+    /// What serves: exact faces, patches that keep sharp edges, smooth ones or a chart ([`fit_mesh`](super::fit_mesh)).
     #[default]
     Auto,
     /// One chart.

@@ -322,7 +322,7 @@ fn component(
     control: &mut Control,
 ) -> Result<Component, ModelFitError> {
     let is_open = !body.mesh.loops().is_empty();
-    if !is_open && (!asks_for_features(options) || options.layout.kind != LayoutKind::Auto) {
+    if !is_open && !asks_for_features(options) {
         return smooth(body, options, control);
     }
     let found = BodyFeatures::find(body, options, control)?;
@@ -336,9 +336,12 @@ fn component(
         made.report.rounds_edges = rounds_edges;
         Ok(Some(made))
     };
-    let ways: [Way<Component>; 2] = match are_texture(&found.all, options) {
-        true => [(0.5, &rounded), (0.5, &over_edges)],
-        false => [(0.5, &over_edges), (0.5, &rounded)],
+    let none = |_: &mut Control| Ok(None);
+    let ways: [Way<Component>; 2] = match options.layout.kind {
+        // the cube's edges lie anywhere
+        LayoutKind::Cube => [(0.0, &none), (1.0, &rounded)],
+        _ if are_texture(&found.all, options) => [(0.5, &rounded), (0.5, &over_edges)],
+        _ => [(0.5, &over_edges), (0.5, &rounded)],
     };
     let better = |made: Component, best: Component| {
         if is_better(&best.report.fit, &made.report.fit) { best } else { made }
@@ -428,6 +431,9 @@ mod tests {
         let options = MeshModelOptions { fit, ..MeshModelOptions::default() };
         let made = over_borders(&mesh, &options, &mut Control::new(2)).unwrap().unwrap();
         assert!(made.components[0].rounds_edges && made.components[0].fold_count == 0);
+        let finer = MeshModelOptions { layout: options.layout.with_patches(80), ..options };
+        let finer = over_borders(&mesh, &finer, &mut Control::new(2)).unwrap().unwrap();
+        assert!(finer.report.patches.len() > made.report.patches.len());
         let tolerance = made.report.tolerance;
         assert!(tolerance > 0.0 && made.errors.iter().all(|error| !(*error > tolerance)));
     }
