@@ -6,6 +6,7 @@
 //! replaced; a device or a FIFO is written to.
 
 use crate::failure::{Classify, ErrorKind};
+use crate::memory;
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
@@ -69,7 +70,7 @@ pub fn read(path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
     let mut bytes = Vec::new();
     // a file may grow while it is read, and a pipe does not know its size
     let size = usize::try_from(metadata.len()).unwrap_or(usize::MAX).saturating_add(1);
-    bytes.try_reserve_exact(size).map_err(|_| refuse("there is no memory for it"))?;
+    memory::reserve(&mut bytes, size);
     file.take(limit.saturating_add(1)).read_to_end(&mut bytes).map_err(fail)?;
     if bytes.len() as u64 > limit {
         return Err(FileError::TooLarge { path: name(), limit });

@@ -1,7 +1,8 @@
 //! How much memory there is to be had, and what happens where it cannot be had.
 //!
 //! Rust's own vectors end the process when the system has no memory left. The vectors made here end the call instead:
-//! they ask first, and a refusal unwinds with [`OutOfMemory`] to [`catch`], which every entry point of the C ABI runs in.
+//! they ask first, and a refusal unwinds with [`OutOfMemory`] to [`catch`], in which a program runs its calls; every entry point
+//! of the C ABI has a guard that does the same.
 //! It unwinds, as allocation errors of std will (`-Z oom=panic`), because any function that makes an array would have to
 //! return a `Result` otherwise, and because it passes through rayon's threads as panics do. No panic hook is told.
 //!

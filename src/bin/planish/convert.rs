@@ -47,7 +47,7 @@ pub(crate) fn run(arguments: &ConvertArguments, given: &Given) -> Result<Outcome
     }
     let mut table = Table::default();
     let source = read(arguments, given, &mut table)?;
-    check_used(arguments, given)?;
+    check_used(arguments, &source, given)?;
     let stem = arguments.file.file_stem().unwrap_or_default().to_string_lossy();
     let label = match &source {
         Source::Surface(surface) => surface.as_surface().region().label.clone(),
@@ -83,9 +83,7 @@ fn read(arguments: &ConvertArguments, given: &Given, table: &mut Table) -> Resul
         output::repair_rows(table, &repairs);
         return Ok(Source::Mesh(mesh));
     }
-    for option in MeshInput::OPTIONS {
-        given.refuse(option, false, "is not used: the file is no mesh")?;
-    }
+    MeshInput::refuse(given)?;
     match load_any_file(&arguments.file)? {
         Saved::Surface(surface) => Ok(Source::Surface(surface)),
         Saved::Model(model) => Ok(Source::Model(model)),
@@ -96,22 +94,28 @@ fn read(arguments: &ConvertArguments, given: &Given, table: &mut Table) -> Resul
 }
 
 /// Refuses what no file that is asked for would show.
-fn check_used(arguments: &ConvertArguments, given: &Given) -> Result<(), Failure> {
-    StepArguments::check_used(given, output::writes_step(&arguments.out))?;
-    let is_exact = |path: &PathBuf| output::is_step(path) || output::is_saved(path);
-    for option in ["chord", "max-edge"] {
-        given.refuse(option, !arguments.out.iter().all(is_exact), "is not used: no triangles are written")?;
-    }
-    Ok(())
-}
-
-fn write_mesh(mesh: &Mesh, path: &Path) -> Result<(), Failure> {
-    if output::is_step(path) || output::is_saved(path) {
+fn check_used(arguments: &ConvertArguments, source: &Source, given: &Given) -> Result<(), Failure> {
+    if let (Source::Mesh(_), Some(path)) = (source, arguments.out.iter().find(|path| output::is_exact(path)))
+    {
         let name = path.display();
         return Err(Failure::new(format!(
             "a mesh is no surface: make '{name}' by planish fit MESH --out '{name}'"
         )));
     }
+    StepArguments::check_used(given, output::writes_step(&arguments.out))?;
+    let has_forms = matches!(source, Source::Surface(AnySurface::Pht(_) | AnySurface::TSpline(_)));
+    for option in ["step-form", "level-spread"] {
+        given.refuse(option, has_forms, "is not used: only a PHT-spline or T-spline has several forms")?;
+    }
+    given.refuse("level-spread", arguments.step.is_patches(), "is used with --step-form patches only")?;
+    let has_triangles = !arguments.out.iter().all(|path| output::is_exact(path));
+    for option in ["chord", "max-edge"] {
+        given.refuse(option, has_triangles, "is not used: no triangles are written")?;
+    }
+    Ok(())
+}
+
+fn write_mesh(mesh: &Mesh, path: &Path) -> Result<(), Failure> {
     if !output::is_vtk(path) {
         return output::write_mesh(mesh, path);
     }

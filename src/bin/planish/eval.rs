@@ -4,6 +4,7 @@ use crate::{Failure, Outcome, output};
 use clap::Args;
 use planish::Control;
 use planish::export::native;
+use planish::memory;
 use planish::surface::Domain;
 use planish::surface::evaluate::{Output, OutsideRule, Points, Quantity, evaluate};
 use std::io::Read;
@@ -21,8 +22,8 @@ pub(crate) struct EvalArguments {
     #[arg(long, value_name = "UxV")]
     grid: Option<String>,
     /// Derivatives up to this order: S, Su, Sv, Suu, Suv, Svv.
-    #[arg(long, default_value_t = 0, value_name = "N")]
-    derivatives: usize,
+    #[arg(long, default_value_t = 0, value_name = "N", value_parser = clap::value_parser!(u8).range(..=2))]
+    derivatives: u8,
     /// Continue the surface beyond its domain instead of refusing.
     #[arg(long)]
     extrapolate: bool,
@@ -39,13 +40,13 @@ pub(crate) fn run(arguments: &EvalArguments) -> Result<Outcome, Failure> {
         (None, None) => return Err(Failure::new("give --uv FILE or --grid UxV")),
     };
     let count = uv.len() / 2;
-    let quantity = Quantity::Derivatives(arguments.derivatives);
+    let quantity = Quantity::Derivatives(usize::from(arguments.derivatives));
     let width = quantity.width(surface.dim());
     let rule = if arguments.extrapolate { OutsideRule::Extrapolate } else { OutsideRule::Fail };
-    let mut values = vec![0.0; count * width];
+    let mut values = memory::filled(0.0, count.saturating_mul(width));
     let control = Control::default();
     let points = Points::new(&uv, 2, count);
-    let mut flags = vec![0; if arguments.grid.is_some() { count } else { 0 }];
+    let mut flags = memory::filled(0, if arguments.grid.is_some() { count } else { 0 });
     let output = Output { rows: &mut values, stride: width, flags: &mut flags };
     evaluate(surface, quantity, points, rule, output, control.pool())?;
     let mut text = String::new();
@@ -94,7 +95,7 @@ fn grid_pairs(grid: &str, domain: &Domain) -> Result<Vec<f64>, Failure> {
         let share = k as f64 / (count - 1) as f64;
         from * (1.0 - share) + to * share
     };
-    let mut pairs = Vec::new();
+    let mut pairs = memory::with_capacity(count_u.saturating_mul(count_v).saturating_mul(2));
     for i in 0..count_u {
         for j in 0..count_v {
             pairs.push(place(i, count_u, domain.min.x, domain.max.x));

@@ -2,7 +2,8 @@
 
 use crate::bar::with_bar;
 use crate::fit_options::{
-    FamilyName, FitArguments, check_fields, d1rc_options, pht_options, saved_sides, sides, tensor_options,
+    FamilyName, FitArguments, LayoutName, check_fields, d1rc_options, pht_options, saved_sides, sides,
+    tensor_options,
 };
 use crate::model;
 use crate::output::{self, Fit, Table};
@@ -44,7 +45,7 @@ pub(crate) fn run(arguments: &FitArguments, given: &Given) -> Result<Outcome, Fa
     check_fields(arguments, &mesh)?;
     let saved = saved_sides(arguments)?;
     if is_model {
-        let labels = model::labels(&mesh, arguments)?;
+        let labels = model::labels(&mesh, &repairs, arguments)?;
         let fit = model::fit(&mesh, &labels, arguments)?;
         return model::tell(&mesh, &repairs, &labels, &fit, arguments);
     }
@@ -108,7 +109,14 @@ fn check_used(arguments: &FitArguments, family: FamilyName, given: &Given) -> Re
     for option in ["fixed", "tolerances", "outlier-share", "outlier-scale", "symmetry", "side"] {
         given.refuse(option, is_free, "is used by --family tensor and --family pht only")?;
     }
-    given.refuse("weights", family != FamilyName::Model, "is not used by --family model")?;
+    for option in ["weights", "border"] {
+        given.refuse(option, family != FamilyName::Model, "is not used by --family model")?;
+    }
+    given.refuse(
+        "patches",
+        arguments.layout != LayoutName::Cube,
+        "is not used with --layout cube: it has six",
+    )?;
     given.refuse("free-ends", !arguments.ferguson, "is not used with --ferguson")?;
     StepArguments::check_used(given, output::writes_step(&arguments.out))?;
     given.refuse(
@@ -117,7 +125,7 @@ fn check_used(arguments: &FitArguments, family: FamilyName, given: &Given) -> Re
         "is not used: only a PHT-spline has several forms",
     )?;
     let is_patches = family == FamilyName::Model || arguments.step.is_patches();
-    given.refuse("level-spread", is_patches, "is used with --step-form patches only")
+    given.refuse("level-spread", is_patches, "is used by --family model and with --step-form patches only")
 }
 
 /// Coefficients of one grid at most where a model may follow: what needs more of them is better served by a surface that is
@@ -223,6 +231,7 @@ fn json_report(
         "nodes": mesh.points().len(),
         "triangles": mesh.triangles().len(),
         "tolerance_met": !report.remarks.has(Remarks::TOLERANCE_NOT_MET),
+        "met_between_nodes": !report.remarks.has(Remarks::ROUGH_BETWEEN_NODES),
         "tolerance": report.tolerance,
         "diagonal": report.diagonal,
         "max_error": report.max_error,

@@ -65,7 +65,7 @@ pub(crate) struct FitArguments {
     /// derivatives (pht).
     #[arg(long, value_enum, default_value_t = CoarseningName::Auto)]
     pub coarsening: CoarseningName,
-    /// Weight of the bending energy; 0 finds one.
+    /// Weight of the bending energy; 0 finds one for a tensor surface and takes the default of the other families.
     #[arg(long, default_value_t = 0.0, value_name = "MU", allow_negative_numbers = true)]
     pub smoothing: f64,
     /// Leave the ends of the knots free instead of straight.
@@ -303,7 +303,7 @@ pub(crate) fn pht_options<'a>(arguments: &'a FitArguments, mesh: &'a Mesh) -> Ph
             CoarseningName::On => Coarsening::On,
             CoarseningName::Off => Coarsening::Off,
         },
-        smoothing: if arguments.smoothing > 0.0 { arguments.smoothing } else { defaults.smoothing },
+        smoothing: if arguments.smoothing == 0.0 { defaults.smoothing } else { arguments.smoothing },
         correction_sweeps: arguments.sweeps.unwrap_or(defaults.correction_sweeps),
         parameterize: is_asked.then(|| ParameterizeOptions::PHT.with_border(border(arguments))),
         weights: named(mesh, &arguments.weights),
@@ -319,7 +319,7 @@ pub(crate) fn d1rc_options<'a>(arguments: &FitArguments, mesh: &'a Mesh) -> D1rc
         if is_asked { defaults.parameterize.with_border(border(arguments)) } else { defaults.parameterize };
     D1rcFitOptions {
         tolerance: tolerance(arguments),
-        smoothing: if arguments.smoothing > 0.0 { arguments.smoothing } else { defaults.smoothing },
+        smoothing: if arguments.smoothing == 0.0 { defaults.smoothing } else { arguments.smoothing },
         sharp_angle: arguments.sharp_angle.map(f64::to_radians),
         control_count: arguments.control.unwrap_or(defaults.control_count),
         correction_sweeps: arguments.sweeps.unwrap_or(defaults.correction_sweeps),

@@ -2,7 +2,7 @@
 
 use crate::input::MeshInput;
 use crate::output::{self, Table};
-use crate::{Failure, Outcome};
+use crate::{Failure, Given, Outcome};
 use clap::Args;
 use planish::curve::Curve;
 use planish::export::native::{Saved, load_any_file};
@@ -22,9 +22,9 @@ pub(crate) struct InfoArguments {
     input: MeshInput,
 }
 
-pub(crate) fn run(arguments: &InfoArguments) -> Result<Outcome, Failure> {
-    let is_saved = arguments.file.extension().is_some_and(|extension| extension == "planish");
-    let table = if is_saved {
+pub(crate) fn run(arguments: &InfoArguments, given: &Given) -> Result<Outcome, Failure> {
+    let table = if output::is_saved(&arguments.file) {
+        MeshInput::refuse(given)?;
         match load_any_file(&arguments.file)? {
             Saved::Surface(surface) => surface_table(&arguments.file, &surface),
             Saved::Model(model) => model_table(&arguments.file, &model),

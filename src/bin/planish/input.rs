@@ -1,6 +1,6 @@
 //! How mesh files are read: what all commands that take one have in common.
 
-use crate::Failure;
+use crate::{Failure, Given};
 use clap::{Args, ValueEnum};
 use planish::mesh::{Components, Mesh, MeshOptions, MeshRepairs, Repair, read};
 use std::path::Path;
@@ -24,7 +24,7 @@ pub(crate) struct MeshInput {
     component: Option<Components>,
     /// Most bytes of a file that are read; 0 for three quarters of the memory.
     #[arg(long, default_value_t = 0, value_name = "BYTES")]
-    max_memory: u64,
+    pub max_memory: u64,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -65,8 +65,14 @@ fn component(text: &str) -> Result<Components, String> {
 
 impl MeshInput {
     /// The names of its options.
-    pub(crate) const OPTIONS: [&str; 6] =
-        ["weld", "repair", "no-repair", "orient", "component", "max-memory"];
+    const OPTIONS: [&str; 6] = ["weld", "repair", "no-repair", "orient", "component", "max-memory"];
+
+    /// Refuses them where no mesh is read.
+    pub(crate) fn refuse(given: &Given) -> Result<(), Failure> {
+        Self::OPTIONS
+            .iter()
+            .try_for_each(|option| given.refuse(option, false, "is not used: the file is no mesh"))
+    }
 
     pub(crate) fn options(&self) -> MeshOptions {
         let base = if self.no_repair { Repair::NONE } else { Repair::SAFE };

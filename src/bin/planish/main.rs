@@ -1,6 +1,6 @@
 //! `planish`: fits, measures and converts from the command line; a thin client of the library.
 //!
-//! Exit code 0: done, and the tolerance met; 2: done, but the tolerance not met; 1: any error.
+//! Exit code 0: done, and the tolerance met at the nodes and between them; 2: done, but the tolerance not met; 1: any error.
 
 mod bar;
 mod convert;
@@ -29,6 +29,7 @@ mod verdict;
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
+use planish::memory;
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -42,7 +43,8 @@ struct Arguments {
 
 /// What every help ends with.
 const EXIT_CODES: &str = "\
-Exit codes: 0 done, and the tolerance met; 2 done and written, but the tolerance not met; 1 any error, told in one line.
+Exit codes: 0 done, and the tolerance met at the nodes and between them; 2 done and written, but the tolerance not met;
+1 any error, told in one line.
 More by subject: planish help topics";
 
 #[derive(Debug, Subcommand)]
@@ -133,27 +135,31 @@ fn main() -> ExitCode {
         Err(error) => return fail(&usage(&error.to_string())),
     };
     let given = Given(matches.subcommand().map(|(_, matches)| matches));
-    let outcome = match arguments.command {
-        Command::Fit(arguments) => fit::run(&arguments, &given),
-        Command::Skin(arguments) => skin::run(&arguments, &given),
-        Command::Decimate(arguments) => decimate::run(&arguments, &given),
-        Command::D1rc(arguments) => d1rc::run(&arguments, &given),
-        Command::Convert(arguments) => convert::run(&arguments, &given),
-        Command::Info(arguments) => info::run(&arguments),
-        Command::Eval(arguments) => eval::run(&arguments),
-        Command::Fair(arguments) => fair::run(&arguments, &given),
-        Command::Trim(arguments) => trim::run(&arguments, &given),
-        Command::Morph(arguments) => morph::run(&arguments),
-        Command::Render(arguments) => render::run(&arguments, &given),
-        Command::Sample(arguments) => sample::run(&arguments, &given),
-        Command::Topics(arguments) => topics::run(&arguments),
-        Command::Completions(arguments) => manual::complete(&arguments),
-        Command::Manual(arguments) => manual::write(&arguments),
-    };
-    match outcome {
+    let outcome = memory::catch(|| run(&arguments.command, &given));
+    match outcome.unwrap_or_else(|error| Err(error.into())) {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
         Ok(Outcome::ToleranceNotMet) => ExitCode::from(2),
         Err(Failure(sentence)) => fail(&sentence),
+    }
+}
+
+fn run(command: &Command, given: &Given) -> Result<Outcome, Failure> {
+    match command {
+        Command::Fit(arguments) => fit::run(arguments, given),
+        Command::Skin(arguments) => skin::run(arguments, given),
+        Command::Decimate(arguments) => decimate::run(arguments, given),
+        Command::D1rc(arguments) => d1rc::run(arguments, given),
+        Command::Convert(arguments) => convert::run(arguments, given),
+        Command::Info(arguments) => info::run(arguments, given),
+        Command::Eval(arguments) => eval::run(arguments),
+        Command::Fair(arguments) => fair::run(arguments, given),
+        Command::Trim(arguments) => trim::run(arguments, given),
+        Command::Morph(arguments) => morph::run(arguments),
+        Command::Render(arguments) => render::run(arguments, given),
+        Command::Sample(arguments) => sample::run(arguments, given),
+        Command::Topics(arguments) => topics::run(arguments),
+        Command::Completions(arguments) => manual::complete(arguments),
+        Command::Manual(arguments) => manual::write(arguments),
     }
 }
 

@@ -79,7 +79,11 @@ pub(crate) fn tell(
 }
 
 /// The label of each triangle; none without `--labels`.
-pub(crate) fn labels(mesh: &Mesh, arguments: &FitArguments) -> Result<Vec<u32>, Failure> {
+pub(crate) fn labels(
+    mesh: &Mesh,
+    repairs: &MeshRepairs,
+    arguments: &FitArguments,
+) -> Result<Vec<u32>, Failure> {
     let Some(name) = &arguments.labels else { return Ok(Vec::new()) };
     let path = Path::new(name);
     let (of_faces, told): (Vec<f64>, String) = if path.is_file() {
@@ -91,7 +95,7 @@ pub(crate) fn labels(mesh: &Mesh, arguments: &FitArguments) -> Result<Vec<u32>, 
         let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
         (lines.map(number).collect::<Result<_, _>>()?, format!("the file {name}"))
     } else {
-        (read_face_property(&arguments.mesh, name, 0)?, format!("'{name}'"))
+        (read_face_property(&arguments.mesh, name, arguments.input.max_memory)?, format!("'{name}'"))
     };
     let label = |face: u32| {
         let Some(&number) = of_faces.get(face as usize) else {
@@ -103,12 +107,20 @@ pub(crate) fn labels(mesh: &Mesh, arguments: &FitArguments) -> Result<Vec<u32>, 
             || Failure::new(format!("label {number} of face {face} is no whole number from 0 to 4294967295"));
         if is_label { Ok(number as u32) } else { Err(wrong()) }
     };
+    let faces = mesh.triangle_origins().max().map_or(0, |last| last as usize + 1);
+    let left_out = repairs.dropped_triangles + repairs.duplicate_triangles + repairs.excluded_triangles;
+    if of_faces.len() > faces && left_out == 0 {
+        let count = of_faces.len();
+        return Err(Failure::new(format!(
+            "{told} has {count} labels for {faces} faces: it takes one for each"
+        )));
+    }
     mesh.triangle_origins().map(label).collect()
 }
 
 fn options<'a>(arguments: &FitArguments, labels: &'a [u32]) -> MeshModelOptions<'a> {
     let mut fit = ModelOptions::default().with_tolerance(tolerance(arguments));
-    if arguments.smoothing > 0.0 {
+    if arguments.smoothing != 0.0 {
         fit.smoothing = arguments.smoothing;
     }
     if let Some(steps) = arguments.sweeps {
@@ -238,6 +250,8 @@ fn table(
     if !fit.is_chart() {
         table.row("model to mesh", both(report.max_back_distance));
         table.row("normal jump, gap", format!("{:.1e}, {:.1e}", report.normal_jump, report.gap));
+    }
+    if report.volume.is_finite() {
         table.row("volume", format!("{:.6e}, of the mesh {:.6e}", report.volume, report.mesh_volume));
     }
     let crossings = report.crossings.unwrap_or(0);
@@ -291,6 +305,7 @@ fn json_report(
         "nodes": mesh.points().len(),
         "triangles": mesh.triangles().len(),
         "tolerance_met": !report.remarks.has(Remarks::TOLERANCE_NOT_MET),
+        "met_between_nodes": !report.remarks.has(Remarks::ROUGH_BETWEEN_NODES),
         "tolerance": report.tolerance,
         "diagonal": report.diagonal,
         "max_error": report.max_error,

@@ -104,13 +104,23 @@ pub(crate) fn check_names(paths: &[impl AsRef<Path>]) -> Result<(), Failure> {
     paths.iter().try_for_each(|path| check_name(path.as_ref(), SURFACES))
 }
 
-/// Refuses a name that does not end in one of these.
+/// Refuses a name that does not end in one of these, or where no file can be.
 pub(crate) fn check_name(path: &Path, known: &[&str]) -> Result<(), Failure> {
-    if known.contains(&extension(path).as_str()) {
-        return Ok(());
-    }
     let name = path.display();
-    Err(Failure::new(format!("cannot tell the format of '{name}', known are .{}", known.join(", ."))))
+    if !known.contains(&extension(path).as_str()) {
+        let known = known.join(", .");
+        return Err(Failure::new(format!("cannot tell the format of '{name}', known are .{known}")));
+    }
+    if path.is_dir() {
+        return Err(Failure::new(format!("cannot write '{name}': it is a folder")));
+    }
+    match path.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()) {
+        Some(folder) => {
+            let folder = folder.display();
+            Err(Failure::new(format!("cannot write '{name}': there is no folder '{folder}', make it first")))
+        }
+        None => Ok(()),
+    }
 }
 
 fn extension(path: &Path) -> String {
@@ -130,6 +140,11 @@ pub(crate) fn writes_step(paths: &[PathBuf]) -> bool {
 /// Whether a name asks for a file of this program's own.
 pub(crate) fn is_saved(path: &Path) -> bool {
     extension(path) == "planish"
+}
+
+/// Whether a name asks for a file of surfaces, not of triangles.
+pub(crate) fn is_exact(path: &Path) -> bool {
+    is_step(path) || is_saved(path)
 }
 
 /// Whether a name asks for a file for ParaView.

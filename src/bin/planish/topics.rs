@@ -96,9 +96,10 @@ remark         what is worth knowing, one line each
             Self::ExitCodes => {
                 "\
 EXIT CODES
-0  done, and the tolerance met
-2  done and written, but the tolerance not met, at the nodes or between them
-1  any error: one line on standard error says what and where; no file is touched
+0  done, and the tolerance met at the nodes and between them
+2  done and written, but the tolerance not met
+1  any error: one line on standard error says what and where; names and options are looked at before any work, and a file
+   that cannot be written leaves those written before it
 "
             }
         }

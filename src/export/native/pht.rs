@@ -124,8 +124,9 @@ pub(super) fn read(reader: &mut Reader) -> Result<PhtSurface, LoadError> {
     let width = dim.saturating_add(usize::from(is_rational));
     let jets = reader.doubles(vertex_count.saturating_mul(4).saturating_mul(width))?;
     // the vertices have been read, so a grid that has no more of them is no larger than the file
-    if line_counts[0].saturating_mul(line_counts[1]) > vertex_count {
-        return Err(reader.wrong(format!("{vertex_count} vertices are too few for the initial grid")));
+    if dim == 0 || line_counts[0].saturating_mul(line_counts[1]) > vertex_count {
+        return Err(reader
+            .wrong(format!("{vertex_count} vertices of dimension {dim} are too few for the initial grid")));
     }
     let surface = || -> Result<PhtSurface, PhtError> {
         let mut mesh = TMesh::new(&breaks_u, &breaks_v)?;
