@@ -230,7 +230,7 @@ impl Layout {
         &self.sectors
     }
 
-    /// The sectors of a vertex; none for a number that no quad has.
+    /// The sectors of a vertex, below [`vertex_count`](Self::vertex_count); none where no quad has it.
     pub fn sectors_of(&self, vertex: u32) -> &[Sector] {
         let [from, to] = [0, 1].map(|k| self.sector_starts[vertex as usize + k] as usize);
         &self.sectors[from..to]

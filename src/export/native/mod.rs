@@ -43,7 +43,7 @@ pub enum LoadError {
     #[error(transparent)]
     File(#[from] FileError),
     /// The bytes are not what they claim to be.
-    #[error("not a saved surface, curve or model: byte {byte}: {problem}")]
+    #[error("not a saved surface, curve, model or field: byte {byte}: {problem}")]
     Format {
         /// Where.
         byte: usize,
