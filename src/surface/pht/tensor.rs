@@ -29,15 +29,15 @@ impl Block {
         self.levels[1] - self.levels[0]
     }
 
-    /// Both together, if they share a whole side and the levels differ by at most `sigma`.
-    fn joined(&self, next: &Self, axis: Axis, sigma: u32) -> Option<Self> {
+    /// Both together, if they share a whole side and the levels differ by at most `level_spread`.
+    fn joined(&self, next: &Self, axis: Axis, level_spread: u32) -> Option<Self> {
         let shares_side = match axis {
             Axis::U => self.max.i == next.min.i && self.min.j == next.min.j && self.max.j == next.max.j,
             Axis::V => self.max.j == next.min.j && self.min.i == next.min.i && self.max.i == next.max.i,
         };
         let levels = [self.levels[0].min(next.levels[0]), self.levels[1].max(next.levels[1])];
         let joined = Self { min: self.min, max: next.max, levels };
-        (shares_side && joined.spread() <= sigma).then_some(joined)
+        (shares_side && joined.spread() <= level_spread).then_some(joined)
     }
 }
 
@@ -66,19 +66,19 @@ impl PhtSurface {
     }
 
     /// The same surface in tensor patches that meet with equal parameters, each over cells whose levels differ
-    /// by at most `sigma`: the largest quadtree nodes that allow it, joined where whole sides meet. Each has its
+    /// by at most `level_spread`: the largest quadtree nodes that allow it, joined where whole sides meet. Each has its
     /// part of the trims.
-    pub fn to_tensor_patches(&self, sigma: u32) -> Result<Vec<TensorSurface>, ConvertError> {
-        self.to_tensor_patches_watched(sigma, &Watch::default())
+    pub fn to_tensor_patches(&self, level_spread: u32) -> Result<Vec<TensorSurface>, ConvertError> {
+        self.to_tensor_patches_watched(level_spread, &Watch::default())
     }
 
     /// The same, for a call that may be cancelled.
     pub fn to_tensor_patches_watched(
         &self,
-        sigma: u32,
+        level_spread: u32,
         watch: &Watch,
     ) -> Result<Vec<TensorSurface>, ConvertError> {
-        let blocks = blocks(&self.mesh, sigma);
+        let blocks = blocks(&self.mesh, level_spread);
         watch.check()?;
         let leaves = self.leaves_by_block(&blocks, watch)?;
         let patch = |(block, leaves)| {
@@ -200,21 +200,21 @@ fn split_weights(net: &[f64], dim: usize, is_rational: bool) -> (Vec<f64>, Optio
     (points, Some(rows.map(|row| row[dim]).collect_vec()))
 }
 
-/// Rectangles of leaves whose levels differ by at most `sigma`, sorted by their first vertex.
-fn blocks(mesh: &TMesh, sigma: u32) -> Vec<Block> {
+/// Rectangles of leaves whose levels differ by at most `level_spread`, sorted by their first vertex.
+fn blocks(mesh: &TMesh, level_spread: u32) -> Vec<Block> {
     let mut blocks = Vec::new();
     let [count_u, count_v] = mesh.grid_size();
     for i in 0..count_u {
         for j in 0..count_v {
             let root = mesh.find(Cell { level: 0, i, j }).expect("a cell of the grid");
-            collect_blocks(mesh, root, sigma, &mut blocks);
+            collect_blocks(mesh, root, level_spread, &mut blocks);
         }
     }
     // joining along one direction may make sides fit along the other
     loop {
         let before = blocks.len();
-        join(&mut blocks, Axis::U, sigma);
-        join(&mut blocks, Axis::V, sigma);
+        join(&mut blocks, Axis::U, level_spread);
+        join(&mut blocks, Axis::V, level_spread);
         if blocks.len() == before {
             blocks.sort_unstable_by_key(|block| block.min);
             return blocks;
@@ -223,30 +223,30 @@ fn blocks(mesh: &TMesh, sigma: u32) -> Vec<Block> {
 }
 
 /// Adds the largest nodes below `node` with an admissible spread; returns the levels of its leaves.
-fn collect_blocks(mesh: &TMesh, node: NodeId, sigma: u32, blocks: &mut Vec<Block>) -> [u32; 2] {
+fn collect_blocks(mesh: &TMesh, node: NodeId, level_spread: u32, blocks: &mut Vec<Block>) -> [u32; 2] {
     let cell = mesh.cell(node);
     let [min, _, _, max] = cell.corners();
     let first = blocks.len();
     let mut levels = [cell.level; 2];
     if let Some(children) = mesh.children(node) {
-        let below = children.map(|child| collect_blocks(mesh, child, sigma, blocks));
+        let below = children.map(|child| collect_blocks(mesh, child, level_spread, blocks));
         levels = below.into_iter().fold([u32::MAX, 0], |[low, high], [a, b]| [low.min(a), high.max(b)]);
     }
-    if levels[1] - levels[0] <= sigma {
+    if levels[1] - levels[0] <= level_spread {
         blocks.truncate(first);
         blocks.push(Block { min, max, levels });
     }
     levels
 }
 
-fn join(blocks: &mut Vec<Block>, axis: Axis, sigma: u32) {
+fn join(blocks: &mut Vec<Block>, axis: Axis, level_spread: u32) {
     blocks.sort_unstable_by_key(|block| match axis {
         Axis::U => (block.min.j, block.max.j, block.min.i),
         Axis::V => (block.min.i, block.max.i, block.min.j),
     });
     let mut joined: Vec<Block> = memory::with_capacity(blocks.len());
     for block in blocks.iter() {
-        match joined.last_mut().and_then(|last| Some((last.joined(block, axis, sigma)?, last))) {
+        match joined.last_mut().and_then(|last| Some((last.joined(block, axis, level_spread)?, last))) {
             Some((both, last)) => *last = both,
             None => joined.push(*block),
         }

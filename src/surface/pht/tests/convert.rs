@@ -11,8 +11,8 @@ fn tensor_surfaces_of_the_parts_and_of_the_whole_are_exact() {
         let count = whole.coefficient_count();
         assert!(matches!(surface.to_tensor(count - 1), Err(ConvertError::TooLarge { .. })));
         let mut counts = Vec::new();
-        for sigma in 0..7 {
-            let patches = surface.to_tensor_patches(sigma).unwrap();
+        for level_spread in 0..7 {
+            let patches = surface.to_tensor_patches(level_spread).unwrap();
             let area: f64 = patches.iter().map(|patch| patch.domain().size().element_product()).sum();
             let exact = surface.domain().size().element_product();
             assert!((area - exact).abs() <= 64.0 * f64::EPSILON * exact);
@@ -21,7 +21,10 @@ fn tensor_surfaces_of_the_parts_and_of_the_whole_are_exact() {
                 let (mut a, mut b) = ([0.0; 3], [0.0; 3]);
                 surface.eval_rows(&[uv], 0, &mut a);
                 patch.eval_rows(&[uv], 0, &mut b);
-                assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 256.0 * f64::EPSILON), "{sigma} {uv}");
+                assert!(
+                    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 256.0 * f64::EPSILON),
+                    "{level_spread} {uv}"
+                );
             }
             counts.push(patches.len());
         }
