@@ -326,7 +326,9 @@ impl Model {
             }
             points
         };
-        of_face.bounds.iter().enumerate().map(polyline).collect()
+        let mut polylines: Vec<Vec<glam::DVec2>> = of_face.bounds.iter().enumerate().map(polyline).collect();
+        self.carrier(face).align_holes(&mut polylines, |uv| uv);
+        polylines
     }
 
     /// The part of the parameter plane that a face on a spline takes; none for a face on another surface, or one whose

@@ -211,6 +211,27 @@ impl Carrier {
         }
     }
 
+    /// Turns holes on a cylinder by whole turns, so that they lie between the ends of the loop around them, the first.
+    /// ```text
+    ///   0         tau        3 tau / 2
+    ///   |     ------------------         the loop around, from where its seam is
+    ///   ( )       ( )                    a hole where its angle says, and a turn on
+    /// ```
+    pub(super) fn align_holes<T>(&self, loops: &mut [Vec<T>], place: impl Fn(&mut T) -> &mut DVec2) {
+        let (Self::Cylinder(_), Some((outer, holes))) = (self, loops.split_first_mut()) else { return };
+        let middle = |of: &mut Vec<T>| {
+            let angles = of.iter_mut().map(|corner| place(corner).x);
+            let (low, high) =
+                angles.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), u| (low.min(u), high.max(u)));
+            0.5 * (low + high)
+        };
+        let around = middle(outer);
+        for hole in holes {
+            let turns = ((around - middle(hole)) / TAU).round();
+            hole.iter_mut().for_each(|corner| place(corner).x += turns * TAU);
+        }
+    }
+
     /// The rectangle of parameters on which a spline is defined.
     pub fn domain(&self) -> Option<Domain> {
         self.spline().map(Surface::domain)

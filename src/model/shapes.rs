@@ -114,6 +114,40 @@ pub(crate) fn hollow_cube(is_flat: bool) -> Model {
 pub(crate) const PIPE_RADIUS: f64 = 2.0;
 pub(crate) const PIPE_HEIGHT: f64 = 3.0;
 
+/// A sheet of a cylinder of radius 1 over angles `from` to `from + 5` and heights 0 to 2, with a hole of 0.4 by 1 around the
+/// angle `middle`.
+pub(crate) fn pierced_sheet(from: f64, middle: f64) -> Model {
+    let mut builder = Builder::default();
+    let frame = Frame::new(DVec3::ZERO, DVec3::Z, DVec3::X).unwrap();
+    let wall = builder.surface(Cylinder::new(frame, 1.0).unwrap());
+    let mut rectangle = |angles: [f64; 2], heights: [f64; 2], is_hole: bool| -> Loop {
+        let place = |k: usize, j: usize| DVec3::new(angles[k].cos(), angles[k].sin(), heights[j]);
+        let vertices = [0, 1].map(|k| [0, 1].map(|j| builder.vertex(place(k, j))));
+        let mut arc = |j: usize| {
+            let at = Frame::new(heights[j] * DVec3::Z, DVec3::Z, DVec3::X).unwrap();
+            builder.edge(Arc::new(at, [1.0; 2], angles).unwrap(), [vertices[0][j], vertices[1][j]])
+        };
+        let arcs = [0, 1].map(&mut arc);
+        let line = |k: usize| builder.edge(EdgeCurve::line([place(k, 0), place(k, 1)]).unwrap(), vertices[k]);
+        let lines = [0, 1].map(line);
+        let coedges = [(arcs[0], true), (lines[1], true), (arcs[1], false), (lines[0], false)];
+        let mut bound: Loop = coedges
+            .map(|(edge, is_forward)| Coedge { edge, is_forward: is_forward != is_hole, pcurve: None })
+            .to_vec();
+        if is_hole {
+            bound.reverse();
+        }
+        bound
+    };
+    let bounds = vec![
+        rectangle([from, from + 5.0], [0.0, 2.0], false),
+        rectangle([middle - 0.2, middle + 0.2], [0.5, 1.5], true),
+    ];
+    let face = builder.face(wall, bounds);
+    builder.shell(vec![face], Role::Open);
+    builder.finish().unwrap()
+}
+
 /// How far the cubics of its circles are off: 2.8e-4 of the radius for a quarter, by the sixth power of the angle.
 pub(crate) const PIPE_OFF: f64 = 2.8e-4 * PIPE_RADIUS / 4096.0;
 

@@ -169,9 +169,11 @@ impl ModelTessellation {
 mod tests {
     use super::super::of_parts;
     use super::super::shapes::{
-        PIPE_HEIGHT, PIPE_RADIUS, circle, hollow_cube, pipe, rectangle, torus_piece, trimmed, wave,
+        PIPE_HEIGHT, PIPE_RADIUS, circle, hollow_cube, pierced_sheet, pipe, rectangle, torus_piece, trimmed,
+        wave,
     };
     use super::*;
+    use crate::surface::Surface;
     use std::f64::consts::PI;
 
     fn area_and_volume(mesh: &Mesh) -> (f64, f64) {
@@ -205,6 +207,23 @@ mod tests {
             let least = exact * (1.0 - 2.0 * chord_tolerance / PIPE_RADIUS);
             assert!(volume < exact && volume > least, "{volume} {exact}");
             assert_eq!(result.faces.len(), result.mesh.triangles().len());
+        }
+    }
+
+    #[test]
+    fn holes_in_cylinders_lie_where_they_are_wherever_angles_begin() {
+        let options = TessellateOptions { chord_tolerance: 1e-3, ..TessellateOptions::default() };
+        for from in [-4.0, -2.0, 0.0, 2.5] {
+            for middle in [0.5, 1.5, 2.5, 3.5, 4.5] {
+                let model = pierced_sheet(from, from + middle);
+                let mesh = model.tessellate(&options).unwrap().mesh;
+                assert_eq!((mesh.loops().len(), mesh.component_count()), (2, 1), "{from} {middle}");
+                let (area, _) = area_and_volume(&mesh);
+                // chords of a circle of radius 1 are shorter by less than their sagitta's part
+                assert!(area < 9.6 && area > 9.6 * (1.0 - 2e-3), "{from} {middle}: {area}");
+                let surface = model.face_surface(FaceId(0)).unwrap();
+                assert_eq!(surface.region().trims.loops().len(), 2);
+            }
         }
     }
 

@@ -36,6 +36,7 @@ pub(super) fn polygons(model: &Model, face: FaceId, nodes: &Nodes) -> Vec<Polygo
     } else {
         closed.extend(open);
     }
+    carrier.align_holes(&mut closed, |(uv, _)| uv);
     for polygon in &mut closed {
         while polygon.len() > 1 && is_same(&polygon[0], &polygon[polygon.len() - 1]) {
             polygon.pop();
