@@ -459,7 +459,7 @@ fn smooth_patches_have_the_labels_that_most_of_them_comes_from() {
 fn planes_under_noise_stay_planes() {
     use crate::samples::machine::{any_part, roughened};
     const NOISE: f64 = 0.01;
-    for seed in [17, 196] {
+    for seed in [17, 181] {
         let clean = any_part(seed).unwrap().mesh;
         let mesh = roughened(&clean, NOISE, seed).unwrap();
         let fit = fit_mesh(&mesh, &MeshModelOptions::default(), &mut Control::new(1)).unwrap();

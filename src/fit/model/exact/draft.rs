@@ -6,7 +6,9 @@ use super::evidence::gradient;
 use super::recognize::Recognized;
 use super::rim::rim;
 use crate::mesh::{Chain, Features, Mesh, Regions};
-use crate::model::{Builder, Carrier, Coedge, Edge, EdgeCurve, EdgeId, FaceId, ModelError, VertexId};
+use crate::model::{
+    Builder, Carrier, Coedge, Cylinder, Edge, EdgeCurve, EdgeId, FaceId, Frame, ModelError, Plane, VertexId,
+};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
@@ -229,6 +231,28 @@ impl Draft {
         let [outer] = outer[..] else { return Err(refuse) };
         self.faces[face].loops.swap(0, outer);
         Ok(())
+    }
+
+    /// The same elsewhere.
+    pub(crate) fn moved(mut self, by: DVec3) -> Option<Self> {
+        let moved = |frame: &Frame| Frame::from_axes(frame.origin() + by, frame.z(), frame.x());
+        self.vertices.iter_mut().for_each(|place| *place += by);
+        for edge in &mut self.edges {
+            match &mut edge.shape {
+                Shape::Line { origin, .. } => *origin += by,
+                Shape::Conic { frame, .. } => *frame = moved(frame)?,
+            }
+        }
+        for face in &mut self.faces {
+            face.carrier = match &face.carrier {
+                Carrier::Plane(Plane(frame)) => Plane(moved(frame)?).into(),
+                Carrier::Cylinder(cylinder) => {
+                    Cylinder::new(moved(cylinder.frame())?, cylinder.radius())?.into()
+                }
+                Carrier::Spline(_) => return None,
+            };
+        }
+        Some(self)
     }
 
     /// The loops of all faces with edges of a model.

@@ -124,7 +124,12 @@ impl Evidence {
     pub fn accepts(&self, carrier: &Carrier, limits: &Limits) -> bool {
         let towards = self.facets.iter().map(|&[at, facet]| facet.dot(gradient(carrier, at)));
         let whole: f64 = self.facets.iter().map(|[_, facet]| facet.length()).sum();
-        towards.sum::<f64>().abs() >= LEAST_AGREEMENT * whole && limits.hold(self.distances(carrier))
+        towards.sum::<f64>().abs() >= LEAST_AGREEMENT * whole && self.holds(carrier, limits)
+    }
+
+    /// Whether the nodes lie on a carrier, whichever way the facets look.
+    pub fn holds(&self, carrier: &Carrier, limits: &Limits) -> bool {
+        limits.hold(self.distances(carrier))
     }
 
     /// Whether the facets look away from the axis of a cylinder, or along the normal of a plane.

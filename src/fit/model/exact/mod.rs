@@ -24,7 +24,7 @@ pub use recognize::{Recognized, recognize};
 
 use super::ModelReport;
 use crate::control::{Cancelled, Pool, Watch};
-use crate::memory;
+use crate::memory::{self, CollectVec};
 use crate::mesh::{FacetNormals, FeatureOptions, Features, Mesh, Region, Regions};
 use crate::model::{Builder, Carrier, FaceId, Model, ModelError, Role};
 use draft::{Draft, Scale};
@@ -87,6 +87,16 @@ pub struct ExactFit {
     pub report: ModelReport,
 }
 
+impl ExactFit {
+    /// The fit of a mesh that lies elsewhere.
+    fn moved(self, mesh: &Mesh, by: DVec3) -> Result<Self, Obstacle> {
+        let draft = self.draft.moved(by).ok_or(Obstacle::Shape)?;
+        let role = if mesh.loops().is_empty() { Role::Solid } else { Role::Open };
+        let model = joined(&[&draft], &[role]).map_err(Obstacle::Model)?;
+        Ok(Self { draft, model, ..self })
+    }
+}
+
 /// Makes a model of exact faces of a mesh in one piece, within a tolerance in model units: a solid, or a shell if the mesh
 /// has a border.
 pub fn fit_exact(
@@ -105,13 +115,20 @@ pub(super) fn fit_exact_by(
     features: &FeatureOptions,
     pool: &Pool,
 ) -> Result<ExactFit, Obstacle> {
+    if let Some(centre) = far_centre(mesh) {
+        let mut near = mesh.clone();
+        let points = mesh.points().iter().map(|&point| point - centre).collect_vec();
+        near.set_points(points).map_err(|_| Obstacle::Shape)?;
+        return fit_exact_by((&near, facets), tolerance, features, pool)?.moved(mesh, centre);
+    }
     let start = Instant::now();
     let found = mesh.find_features_by(facets, features, pool).map_err(Obstacle::Features)?;
     let scale = Scale { tolerance, noise: 0.0, diagonal: mesh.diagonal() };
     let fit_at = |scale: &Scale| fit_segments((mesh, facets), &found, scale, features, pool);
     let mut fit = fit_at(&scale);
     // on coarse round walls the estimate finds noise where there is none, and over all nodes also beside edges
-    let estimates = [found.regions(mesh).noise(mesh), found.noise].map(|noise| noise * mean_edge(mesh));
+    let estimates =
+        [found.regions(mesh).noise(mesh), found.noise].map(|noise| noise.min(MOST_NOISE) * mean_edge(mesh));
     for noise in estimates.into_iter().filter(|noise| *noise > 0.0) {
         if matches!(&fit, Ok(_) | Err(Obstacle::Cancelled(_))) {
             break;
@@ -121,6 +138,18 @@ pub(super) fn fit_exact_by(
     let mut fit = fit?;
     fit.report.fit_seconds = start.elapsed().as_secs_f64();
     Ok(fit)
+}
+
+/// The most that is taken for noise, by the mean length of edges: what is off by more has another shape.
+pub(super) const MOST_NOISE: f64 = 0.1;
+
+/// Where a mesh lies that is so far from the origin that rounding of its places is no longer that of its lengths.
+fn far_centre(mesh: &Mesh) -> Option<DVec3> {
+    /// So many diagonals away rounding takes three of the sixteen digits.
+    const FAR: f64 = 1e3;
+    let bounds = mesh.bounds();
+    let centre = 0.5 * (DVec3::from_slice(&bounds.min) + DVec3::from_slice(&bounds.max));
+    (centre.length() > FAR * bounds.diagonal()).then_some(centre)
 }
 
 /// With noise of the given size.
@@ -179,7 +208,7 @@ fn segment(
     let limits = Limits::new(scale.tolerance, scale.noise);
     let normals = facets.get(mesh, scale.noise > 0.0, pool);
     let parts = parts(mesh, normals, &features.regions(mesh), &limits, pool.watch())?;
-    let mut parts = merge(mesh, parts, &limits);
+    let mut parts = merge(mesh, parts, &limits, scale.tolerance);
     relations::align(&mut parts, scale.diagonal);
     let mut part_of = memory::filled(0, mesh.triangles().len());
     for (number, part) in (0..).zip(&parts) {
@@ -231,8 +260,9 @@ fn parts(
     Ok(parts)
 }
 
-/// Parts that lie on one carrier and hang together as one: halves of a cylinder, planes that labels or noise divide.
-fn merge(mesh: &Mesh, mut parts: Vec<Part>, limits: &Limits) -> Vec<Part> {
+/// Parts that lie on one carrier and hang together as one: halves of a cylinder, planes that labels or noise divide, and
+/// slivers narrower than the tolerance.
+fn merge(mesh: &Mesh, mut parts: Vec<Part>, limits: &Limits, tolerance: f64) -> Vec<Part> {
     let mut part_of = memory::filled(0, mesh.triangles().len());
     for (number, part) in parts.iter().enumerate() {
         part.triangles.iter().for_each(|&triangle| part_of[triangle as usize] = number);
@@ -257,7 +287,7 @@ fn merge(mesh: &Mesh, mut parts: Vec<Part>, limits: &Limits) -> Vec<Part> {
     };
     for pair in pairs {
         let [a, b] = pair.map(|part| whole(&root, part));
-        if a == b || !may_be_one(&parts[a].found, &parts[b].found, limits) {
+        if a == b || !may_be_one(&parts[a].found, &parts[b].found, limits, tolerance) {
             continue;
         }
         let mut triangles = [&parts[a].triangles[..], &parts[b].triangles[..]].concat();
@@ -270,16 +300,26 @@ fn merge(mesh: &Mesh, mut parts: Vec<Part>, limits: &Limits) -> Vec<Part> {
     (0..).zip(parts).filter(|(number, _)| root[*number] == *number).map(|(_, part)| part).collect()
 }
 
-/// Whether each of two parts lies nearly on the carrier of the other.
-fn may_be_one(a: &Recognized, b: &Recognized, limits: &Limits) -> bool {
+/// Whether each of two parts lies nearly on the carrier of the other, or one is a sliver on it.
+fn may_be_one(a: &Recognized, b: &Recognized, limits: &Limits, tolerance: f64) -> bool {
     /// A carrier of a small part is off by more than the limits at the far end of a large one.
     const SLACK: f64 = 10.0;
     let loose = limits.scaled(SLACK);
+    if is_sliver_on(a, &b.carrier, tolerance) || is_sliver_on(b, &a.carrier, tolerance) {
+        return true;
+    }
     let is_same_kind = matches!(
         (&a.carrier, &b.carrier),
         (Carrier::Plane(_), Carrier::Plane(_)) | (Carrier::Cylinder(_), Carrier::Cylinder(_))
     );
     is_same_kind && (a.evidence.accepts(&b.carrier, &loose) || b.evidence.accepts(&a.carrier, &loose))
+}
+
+/// Whether a part is so narrow that its facets do not tell which way they look, and lies on the carrier beside it: on a rim a
+/// triangle between three nodes of a wall lies in the end plane.
+fn is_sliver_on(part: &Recognized, carrier: &Carrier, tolerance: f64) -> bool {
+    let evidence = &part.evidence;
+    evidence.area() <= tolerance * evidence.extent() && evidence.holds(carrier, &Limits::new(tolerance, 0.0))
 }
 
 /// Sine of the angle below which faces are meant to be tangent along their edge: five degrees.

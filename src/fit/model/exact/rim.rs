@@ -23,6 +23,9 @@ pub(super) fn rim(carrier: &Carrier, places: &[DVec3], reach: f64) -> Option<Car
     candidates.into_iter().flatten().find(is_on)
 }
 
+/// Chords of a circle are no longer than this part of its radius: they turn by less than sharp edges, 40 degrees.
+const LONGEST_CHORD: f64 = 0.68;
+
 fn middle(places: &[DVec3]) -> DVec3 {
     places.iter().sum::<DVec3>() / places.len().max(1) as f64
 }
@@ -53,6 +56,11 @@ fn upright_cylinder(frame: &Frame, places: &[DVec3]) -> Option<Carrier> {
         .collect();
     let extent = flat.iter().map(|p| p.length()).fold(0.0, f64::max);
     let (at, radius) = circle(&flat, &[], extent)?;
+    // any three corners lie on a circle
+    let is_round = flat.windows(2).all(|pair| pair[0].distance(pair[1]) <= LONGEST_CHORD * radius);
+    if !is_round {
+        return None;
+    }
     let origin = centre + at.x * frame.x() + at.y * frame.y();
     Some(Cylinder::new(Frame::new(origin, frame.z(), frame.x())?, radius)?.into())
 }

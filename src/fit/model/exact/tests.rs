@@ -188,3 +188,66 @@ fn open_parts_become_shells_with_exact_borders() {
     assert_eq!(measured.free_edge_count, 5);
     assert!(fit.report.volume.is_nan() && fit.report.max_error < 1e-11);
 }
+
+#[test]
+fn parts_far_from_the_origin_are_what_they_are_there() {
+    const FAR: f64 = 1e6;
+    for (name, Part { mesh, face_count, volume, area }) in parts() {
+        let places = mesh.points().iter().map(|&place| place + DVec3::splat(FAR)).collect();
+        let far = Mesh::new(places, mesh.triangles().to_vec()).unwrap();
+        let fit = fit(&far, 1e-3).unwrap_or_else(|obstacle| panic!("{name}: {obstacle:?}"));
+        assert_eq!(fit.model.faces().len(), face_count, "{name}");
+        // places are rounded, and so is each of the vertices of a face
+        let moved = 16.0 * f64::EPSILON * FAR * area;
+        let off = (fit.report.volume - volume).abs();
+        assert!(off <= moved, "{name}: {off:e}, {moved:e}");
+        for ((place, &error), &point) in fit.places.iter().zip(&fit.errors).zip(far.points()) {
+            let (face, uv) = place.unwrap();
+            let distance = fit.model.carrier(face).points(&[uv])[0].distance(point);
+            assert!(distance <= error + 8.0 * f64::EPSILON * FAR, "{name}: {distance:e} {error:e}");
+        }
+    }
+}
+
+#[test]
+fn a_triangle_between_three_nodes_of_a_rim_is_no_face() {
+    // a wall between two rings and disks; at the first node of the upper ring's three it is turned over:
+    //   b2---b1---b0        b2---b1---b0
+    //     \   |   /    ->     \ ------ /     of which b2 b1 b0 lies in the plane of the disk
+    //      \  |  /             \      /
+    //         a1                  a1
+    const COUNT: u32 = 96;
+    let ring = |height: f64| {
+        (0..COUNT).map(move |k| {
+            let (sin, cos) = (2.0 * PI * f64::from(k) / f64::from(COUNT)).sin_cos();
+            DVec3::new(cos, sin, height)
+        })
+    };
+    let points: Vec<DVec3> = ring(0.0).chain(ring(2.0)).chain([DVec3::ZERO, 2.0 * DVec3::Z]).collect();
+    let low = |k: u32| k % COUNT;
+    let high = |k: u32| COUNT + k % COUNT;
+    let mut triangles = vec![[low(0), low(1), high(0)], [low(1), high(2), high(0)]];
+    triangles.extend([[high(2), high(1), high(0)], [low(1), low(2), high(2)]]);
+    triangles
+        .extend((2..COUNT).flat_map(|k| [[low(k), low(k + 1), high(k + 1)], [low(k), high(k + 1), high(k)]]));
+    triangles.extend(
+        (0..COUNT).flat_map(|k| [[2 * COUNT, low(k + 1), low(k)], [2 * COUNT + 1, high(k), high(k + 1)]]),
+    );
+    let mesh = Mesh::new(points, triangles).unwrap();
+    let fit = fit(&mesh, 1e-3).unwrap_or_else(|obstacle| panic!("{obstacle:?}"));
+    assert_eq!(fit.model.faces().len(), 3);
+}
+
+#[test]
+fn corners_of_a_border_are_no_circle() {
+    let frame = crate::model::Frame::new(DVec3::ZERO, DVec3::Z, DVec3::X).unwrap();
+    let plane = Carrier::Plane(crate::model::Plane(frame));
+    let arc = |count: u32, turn: f64| -> Vec<DVec3> {
+        let angle = |k: u32| turn * f64::from(k) / f64::from(count - 1);
+        (0..count).map(|k| DVec3::new(angle(k).cos(), angle(k).sin(), 0.0)).collect()
+    };
+    // two sides of a hexagon, and a third of a circle in chords of six degrees
+    assert!(rim::rim(&plane, &arc(3, 2.0 * PI / 3.0), 1e-9).is_none());
+    let round = rim::rim(&plane, &arc(21, 2.0 * PI / 3.0), 1e-9);
+    assert!(matches!(round, Some(Carrier::Cylinder(_))), "{round:?}");
+}
