@@ -311,7 +311,7 @@ impl planish_model_options {
 /// PLANISH_STATUS_NULL_POINTER, PLANISH_STATUS_INVALID_ARGUMENT (an option; a start_level that the layout does not
 /// allow; labels that are not as many as the triangles), PLANISH_STATUS_TOPOLOGY (patches for a mesh with a boundary, one of whose nodes is the index; a cube for a mesh
 /// with handles; a node where the surface touches itself), PLANISH_STATUS_DEGENERATE (a component encloses no volume, one
-/// of its nodes is the index; no layout), PLANISH_STATUS_TOO_LARGE (more than 1000 components), PLANISH_STATUS_SINGULAR,
+/// of its nodes is the index; no layout), PLANISH_STATUS_TOO_LARGE (more than 1000 components; coordinates beyond 1e50, or all below 1e-50), PLANISH_STATUS_SINGULAR,
 /// PLANISH_STATUS_VERSION, PLANISH_STATUS_CANCELLED, or for a chart what planish_pht_fit() and
 /// planish_model_from_surface() return.
 #[must_use]

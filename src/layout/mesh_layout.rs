@@ -97,13 +97,15 @@ pub enum MeshLayoutError {
         /// Number of triangles.
         count: usize,
     },
-    /// Too few patches were asked for.
-    #[error("patches is {given}, a layout needs at least {least}")]
+    /// Too few patches were asked for, or more than the mesh can tell.
+    #[error("patches is {given}, it must be from {least} to {most} for this mesh")]
     Patches {
         /// How many were asked for.
         given: usize,
         /// The least.
         least: usize,
+        /// The most.
+        most: usize,
     },
     /// The triangles cannot be paired to quads that make a layout.
     #[error("{triangles} triangles of the coarse mesh make no layout; ask for another number of patches")]

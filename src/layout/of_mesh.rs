@@ -34,6 +34,18 @@ pub fn layout_of_mesh(
 /// Fewest patches that a base complex may have.
 const LEAST_PATCHES: usize = 6;
 
+/// So many patches any mesh may be asked for: where it has fewer triangles they are halved first.
+const ANY_PATCHES: usize = 1000;
+
+/// Refuses a number of patches that no layout of a mesh has.
+pub(crate) fn check_patches(mesh: &Mesh, given: usize) -> Result<(), MeshLayoutError> {
+    let (least, most) = (LEAST_PATCHES, mesh.triangles().len().max(ANY_PATCHES));
+    match (least..=most).contains(&given) {
+        true => Ok(()),
+        false => Err(MeshLayoutError::Patches { given, least, most }),
+    }
+}
+
 fn check(mesh: &Mesh, options: &MeshLayoutOptions) -> Result<(), MeshLayoutError> {
     if mesh.component_count() != 1 {
         return Err(MeshLayoutError::Components { count: mesh.component_count() });
@@ -41,9 +53,7 @@ fn check(mesh: &Mesh, options: &MeshLayoutOptions) -> Result<(), MeshLayoutError
     if let Some(&node) = mesh.pinched_nodes().first() {
         return Err(MeshLayoutError::Pinched { node: node as usize });
     }
-    if options.patches < LEAST_PATCHES {
-        return Err(MeshLayoutError::Patches { given: options.patches, least: LEAST_PATCHES });
-    }
+    check_patches(mesh, options.patches)?;
     let has_area = |t: &[u32; 3]| {
         let [a, b, c] = t.map(|node| mesh.points()[node as usize]);
         (b - a).cross(c - a).length() > 0.0

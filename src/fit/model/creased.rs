@@ -17,7 +17,7 @@ use super::bodies::Body;
 use super::constraints::{Constraints, PlaneEquation, nearest_in};
 use super::error::ModelFitError;
 use super::exact::evidence::Evidence;
-use super::exact::{Limits, mean_edge};
+use super::exact::{Limits, MOST_NOISE, mean_edge};
 use super::mesh_model::{Component, ComponentReport, MeshModelOptions, Piece, Spot};
 use super::options::ModelOptions;
 use super::report::mesh_volume;
@@ -63,8 +63,11 @@ pub(super) fn over_features(
     if !is_parted {
         return Ok(None);
     }
-    let planes: Vec<Option<PlaneEquation>> =
+    let mut planes: Vec<Option<PlaneEquation>> =
         regions.regions.iter().map(|region| plane_of(mesh, region, PLANE_SHARE * tolerance)).collect();
+    if planes.iter().all(Option::is_some) {
+        planes[simplest(&regions)] = None;
+    }
     let part = Part { mesh, features, regions: &regions, labels };
     let layout = FeatureLayoutOptions { patches: options.layout.patches, sweeps: options.layout.sweeps };
     let fit = |planes, fit_options: &ModelOptions, control: &mut Control| {
@@ -72,7 +75,7 @@ pub(super) fn over_features(
         check_shell(&component.piece, mesh.loops().is_empty(), options.level_spread)?;
         Ok::<Component, ModelFitError>(component)
     };
-    let noise = regions.noise(mesh) * mean_edge(mesh);
+    let noise = regions.noise(mesh).min(MOST_NOISE) * mean_edge(mesh);
     let Some((more_planes, rms)) = part.planes_under_noise(&planes, &Limits::new(tolerance, noise)) else {
         return fit(planes, &options.fit, control).map(Some);
     };
@@ -86,6 +89,15 @@ pub(super) fn over_features(
         Err(ModelFitError::Regions(error @ FeatureLayoutError::NoLayout { .. })) => Err(error.into()),
         _ => control.within(0.5, 1.0, |control| fit(planes, &options.fit, control)).map(Some),
     }
+}
+
+/// The region that is most like a quadrilateral: where all are flat that one becomes a patch, as a layout has one at least.
+fn simplest(regions: &Regions) -> usize {
+    let sides = |region: &usize| {
+        let loops = &regions.regions[*region].loops;
+        (loops.len(), loops.iter().flatten().count().abs_diff(4))
+    };
+    (0..regions.regions.len()).min_by_key(sides).unwrap_or(0)
 }
 
 /// Refuses patches and planes that do not make one shell, closed where the mesh is.

@@ -43,6 +43,12 @@ pub enum ModelFitError {
         /// Most that are possible.
         limit: usize,
     },
+    /// Products of its lengths are no numbers.
+    #[error("coordinates reach {largest:e}: take a unit in which they are between 1e-50 and 1e50")]
+    Size {
+        /// The largest coordinate.
+        largest: f64,
+    },
     /// A component encloses nothing.
     #[error("the component of node {node} encloses no volume")]
     ZeroVolume {
@@ -85,7 +91,7 @@ impl Classify for ModelFitError {
             Self::Space(error) => error.kind(),
             Self::TMesh(error) => error.kind(),
             Self::Open { .. } => ErrorKind::Topology,
-            Self::Components { .. } => ErrorKind::TooLarge,
+            Self::Components { .. } | Self::Size { .. } => ErrorKind::TooLarge,
             Self::ZeroVolume { .. } => ErrorKind::Degenerate,
             Self::Features(error) => error.kind(),
             Self::Sphere(error) => error.kind(),
@@ -107,7 +113,7 @@ impl Classify for ModelFitError {
             Self::Layout(error) => error.index(),
             Self::Regions(error) => error.index(),
             Self::Model(error) => error.index(),
-            Self::Components { .. } => None,
+            Self::Components { .. } | Self::Size { .. } => None,
             Self::Open { node, .. } | Self::ZeroVolume { node } | Self::Place { node } => Some(*node),
         }
     }

@@ -216,6 +216,7 @@ pub(super) fn together(mesh: &Mesh, components: &[ComponentReport], errors: &[f6
         max_interior_error,
         facet_sagitta: max_interior_error - largest(|fit| fit.max_interior_error - fit.facet_sagitta),
         max_back_distance: largest(|fit| fit.max_back_distance),
+        max_back_excess: largest(|fit| fit.max_back_excess),
         normal_jump: largest(|fit| fit.normal_jump),
         gap: largest(|fit| fit.gap),
         crease_error: largest(|fit| fit.crease_error),

@@ -51,6 +51,8 @@ pub struct ModelReport {
     pub facet_sagitta: f64,
     /// Largest distance from places all over the surface to the mesh.
     pub max_back_distance: f64,
+    /// The largest of these beyond what the facet there explains; 0 for charts and exact faces.
+    pub max_back_excess: f64,
     /// Largest difference of unit normals across edges of patches.
     pub normal_jump: f64,
     /// Largest distance between the sides of an edge.
@@ -89,6 +91,9 @@ pub struct ModelReport {
     pub fit_seconds: f64,
 }
 
+/// A model may leave the facets by so many tolerances, beside what they explain: between the nodes it swings.
+pub(super) const BACK_SLACK: f64 = 2.5;
+
 /// Places along a side of a cell at which the distance to the mesh is measured.
 const BACK_PLACES: usize = 5;
 
@@ -103,8 +108,8 @@ pub(super) fn measure(
     let nodes = refinement.samples.nodes.len();
     let errors = summarize(round.distances[..nodes].to_vec());
     let jump = normal_jump(refinement.layout, &round.surfaces)?;
-    let back = control.watch(|pool, watch| -> Result<f64, ModelFitError> {
-        let mut largest: f64 = 0.0;
+    let back = control.watch(|pool, watch| -> Result<Back, ModelFitError> {
+        let mut largest = Back::default();
         for (quad, surface) in (0..).zip(&round.surfaces) {
             watch.check()?;
             largest = largest.max(pool.run(|| back_distance(refinement, quad, surface)));
@@ -131,7 +136,8 @@ pub(super) fn measure(
     let max_interior_error = largest(&round.distances[nodes..]);
     let unexplained = round.distances[nodes..].iter().zip(&refinement.samples.allowances[nodes..]);
     let excess = unexplained.map(|(distance, allowance)| distance - allowance).fold(0.0, f64::max);
-    remarks.add_if(excess > tolerance, Remarks::ROUGH_BETWEEN_NODES);
+    let is_far = back.excess > BACK_SLACK * tolerance;
+    remarks.add_if(excess > tolerance || is_far, Remarks::ROUGH_BETWEEN_NODES);
     Ok(ModelReport {
         max_error: errors.max,
         rms_error: errors.rms,
@@ -141,7 +147,8 @@ pub(super) fn measure(
         diagonal: mesh.diagonal(),
         max_interior_error,
         facet_sagitta: max_interior_error - excess,
-        max_back_distance: back,
+        max_back_distance: back.distance,
+        max_back_excess: back.excess,
         normal_jump: jump.normal,
         gap: jump.gap,
         crease_error: largest(&on_creases),
@@ -186,8 +193,21 @@ fn patches(refinement: &Refinement, round: &Round) -> Vec<PatchReport> {
     patches
 }
 
-/// Largest distance from places on a patch to the mesh.
-fn back_distance(refinement: &Refinement, quad: u32, surface: &PhtSurface) -> f64 {
+/// How far places of a model are from the mesh, and by how much more than the facet there explains.
+#[derive(Debug, Clone, Copy, Default)]
+struct Back {
+    distance: f64,
+    excess: f64,
+}
+
+impl Back {
+    fn max(self, other: Self) -> Self {
+        Self { distance: self.distance.max(other.distance), excess: self.excess.max(other.excess) }
+    }
+}
+
+/// The largest of places on a patch.
+fn back_distance(refinement: &Refinement, quad: u32, surface: &PhtSurface) -> Back {
     let of_cell = |cell: usize| {
         let domain = surface.patch(cell).domain;
         let place = |k: usize| {
@@ -197,13 +217,16 @@ fn back_distance(refinement: &Refinement, quad: u32, surface: &PhtSurface) -> f6
         let uv: Vec<DVec2> = (0..BACK_PLACES * BACK_PLACES).map(place).collect();
         let mut rows = vec![0.0; 3 * uv.len()];
         surface.eval_rows(&uv, 0, &mut rows);
-        let distance = |row| {
+        let back = |row| {
             let near = refinement.near.nearest(quad, DVec3::from_slice(row));
-            near.map_or(0.0, |near| near.distance)
+            near.map_or_else(Back::default, |near| Back {
+                distance: near.distance,
+                excess: near.distance - refinement.sagittas[near.triangle as usize],
+            })
         };
-        rows.chunks_exact(3).map(distance).fold(0.0, f64::max)
+        rows.chunks_exact(3).map(back).fold(Back::default(), Back::max)
     };
-    (0..surface.patch_count()).into_par_iter().with_min_len(16).map(of_cell).reduce(|| 0.0, f64::max)
+    (0..surface.patch_count()).into_par_iter().with_min_len(16).map(of_cell).reduce(Back::default, Back::max)
 }
 
 /// The volume that a mesh encloses; NaN for an open one.

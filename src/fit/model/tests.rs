@@ -345,6 +345,42 @@ fn components_become_shells_and_voids_whatever_way_they_are_turned() {
     }
 }
 
+/// A box of twelve triangles.
+fn coarse_box(half: f64) -> Mesh {
+    let layout = Layout::cube();
+    let mut points = vec![DVec3::ZERO; 8];
+    let mut triangles = Vec::new();
+    for (face, quad) in crate::layout::CUBE_FACES.iter().zip(layout.quads()) {
+        for (uv, &vertex) in [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].into_iter().zip(quad) {
+            points[vertex as usize] = half * face.point(uv);
+        }
+        let &[a, b, c, d] = quad;
+        triangles.extend([[a, b, c], [a, c, d]]);
+    }
+    Mesh::new(points, triangles).unwrap()
+}
+
+#[test]
+fn a_box_keeps_its_edges_beside_what_is_not_exact() {
+    let (ball, _) = star_shape(8, |d| 0.6 * d);
+    let mesh = joined(&[&coarse_box(1.0), &ball]);
+    let fit = model_of(&mesh, 1e-3);
+    assert!(fit.components.iter().all(|component| !component.rounds_edges), "{:?}", fit.components);
+    assert_eq!(fit.report.remarks.0, 0);
+    let off = (fit.report.volume / fit.report.mesh_volume - 1.0).abs();
+    assert!(off <= 5e-3, "{off:e}");
+}
+
+#[test]
+fn a_model_that_leaves_large_facets_is_told() {
+    // eight nodes say nothing of what lies between them
+    let features = crate::mesh::FeatureOptions::default().with_sharp_angle(None);
+    let options = MeshModelOptions { exact: false, features, ..Default::default() };
+    let report = fit_mesh(&coarse_box(1.0), &options, &mut Control::new(1)).unwrap().report;
+    assert!(report.max_back_excess > report::BACK_SLACK * report.tolerance, "{report:?}");
+    assert!(report.remarks.has(crate::fit::report::Remarks::ROUGH_BETWEEN_NODES), "{:?}", report.remarks);
+}
+
 #[test]
 fn what_has_no_model_is_named() {
     let (ball, _) = star_shape(4, |d| d);
@@ -357,6 +393,12 @@ fn what_has_no_model_is_named() {
         Mesh::new(ball.points().iter().map(|p| p.with_z(0.0)).collect(), ball.triangles().to_vec()).unwrap();
     let refused = refuse(&flat, &patches);
     assert_eq!(refused.kind(), crate::failure::ErrorKind::Degenerate, "{refused}");
+    let huge =
+        Mesh::new(ball.points().iter().map(|p| 1e60 * p).collect(), ball.triangles().to_vec()).unwrap();
+    assert!(matches!(refuse(&huge, &patches), ModelFitError::Size { .. }));
+    let layout = crate::layout::of_mesh::MeshLayoutOptions::default().with_patches(1_000_000);
+    let refused = refuse(&ball, &MeshModelOptions { layout, ..patches });
+    assert!(refused.to_string().starts_with("patches is 1000000, it must be from 6 to"), "{refused}");
     let too_deep = MeshModelOptions { fit: ModelOptions::default().with_max_level(30), ..patches };
     assert_eq!(refuse(&ball, &too_deep).kind(), crate::failure::ErrorKind::InvalidArgument);
     // one chart serves an open mesh

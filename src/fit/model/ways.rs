@@ -3,6 +3,7 @@
 use super::ModelReport;
 use super::error::ModelFitError;
 use super::mesh_model::Component;
+use super::report::BACK_SLACK;
 use crate::control::Control;
 use crate::failure::{Classify, ErrorKind};
 use crate::fit::common::report::Remarks;
@@ -38,24 +39,42 @@ pub(super) fn first_done<Made>(
     best.ok_or_else(|| failure.expect("one way has something to do"))
 }
 
-/// Whether a fit is all that was asked for.
+/// Whether a fit is all that was asked for at the nodes.
 pub(super) fn is_good(report: &ModelReport) -> bool {
     !report.remarks.has(Remarks::TOLERANCE_NOT_MET) && report.folded_cells == 0
 }
 
+/// Whether it is that, and the model leaves no facet by much: few nodes tell little of large facets.
+pub(super) fn is_good_both_ways(report: &ModelReport) -> bool {
+    is_good(report) && report.max_back_excess <= BACK_SLACK * report.tolerance
+}
+
+fn error_both_ways(report: &ModelReport) -> f64 {
+    report.max_error.max(report.max_back_excess / BACK_SLACK)
+}
+
 /// Whether a component is all that was asked for, or that noise lets be had.
 pub(super) fn is_done(made: &Component) -> bool {
-    made.misses_noise_only || is_good(&made.report.fit)
+    made.misses_noise_only || is_good_both_ways(&made.report.fit)
 }
 
 /// Whether a fit is better than another: without folds, then with fewer where both are near enough, then nearer to the nodes.
 pub(super) fn is_better(report: &ModelReport, other: &ModelReport) -> bool {
-    let is_near = |report: &ModelReport| report.max_error <= report.tolerance;
+    is_better_by(|report| report.max_error, report, other)
+}
+
+/// The same with the distance of the model from the facets beside that of the nodes.
+pub(super) fn is_better_both_ways(report: &ModelReport, other: &ModelReport) -> bool {
+    is_better_by(error_both_ways, report, other)
+}
+
+fn is_better_by(error: impl Fn(&ModelReport) -> f64, report: &ModelReport, other: &ModelReport) -> bool {
+    let is_near = |report: &ModelReport| error(report) <= report.tolerance;
     match (report.folded_cells == 0, other.folded_cells == 0) {
-        (true, false) => report.max_error <= NEARLY * other.max_error,
-        (false, true) => NEARLY * report.max_error < other.max_error,
+        (true, false) => error(report) <= NEARLY * error(other),
+        (false, true) => NEARLY * error(report) < error(other),
         (false, false) if is_near(report) && is_near(other) => report.folded_cells <= other.folded_cells,
-        _ => report.max_error <= other.max_error,
+        _ => error(report) <= error(other),
     }
 }
 

@@ -21,11 +21,12 @@ use super::mesh_model::{
     Component, ComponentReport, Family, MeshModelOptions, ModelFit, Piece, Spot, origins, together,
 };
 use super::smooth::smooth;
-use super::ways::{Way, first_done, is_better, is_done, is_good};
+use super::ways::{Way, first_done, is_better_both_ways, is_done, is_good_both_ways};
 use crate::control::{Cancelled, Control};
 use crate::failure::{Classify, ErrorKind};
 use crate::fit::common::report::{Remarks, Tolerance, ToleranceScale};
-use crate::layout::of_mesh::LayoutKind;
+use crate::geometry::safe_scale;
+use crate::layout::of_mesh::{LayoutKind, check_patches};
 use crate::memory::{self, CollectVec};
 use crate::mesh::{FeatureOptions, Features, Mesh};
 use crate::model::{FaceId, Origin, PatchModel, Patchwork, Role, ShellId, of_patches};
@@ -42,6 +43,7 @@ pub fn fit_mesh(
     options: &MeshModelOptions,
     control: &mut Control,
 ) -> Result<ModelFit, ModelFitError> {
+    check(mesh, options)?;
     let is_chart = match options.family {
         Family::Auto => !mesh.loops().is_empty(),
         Family::Chart => true,
@@ -57,8 +59,19 @@ pub fn fit_mesh(
         false => patches(mesh, options, control)?,
     };
     count_crossings(mesh, &mut fit, control)?;
+    let (_, is_raised) = options.fit.tolerance.absolute(&mesh.bounds());
+    fit.report.remarks.add_if(is_raised, Remarks::TOLERANCE_RAISED);
     fit.seconds = start.elapsed().as_secs_f64();
     Ok(fit)
+}
+
+/// Refuses what no way can do.
+fn check(mesh: &Mesh, options: &MeshModelOptions) -> Result<(), ModelFitError> {
+    let largest = mesh.points().iter().map(|point| point.abs().max_element()).fold(0.0, f64::max);
+    if safe_scale(largest) != 1.0 {
+        return Err(ModelFitError::Size { largest });
+    }
+    Ok(check_patches(mesh, options.layout.patches)?)
 }
 
 /// Counts the triangles that cross in the mesh and in the model, triangulated as finely as the tolerance.
@@ -82,11 +95,12 @@ fn count_crossings(mesh: &Mesh, fit: &mut ModelFit, control: &mut Control) -> Re
 /// An open mesh: over its features if it has some inside or several loops, and what comes of it is good; else as one
 /// chart. The chart comes first where its features are but texture.
 fn open(mesh: &Mesh, options: &MeshModelOptions, control: &mut Control) -> Result<ModelFit, ModelFitError> {
-    if mesh.component_count() > bodies::MAX_COMPONENTS || !asks_for_features(options) {
+    let may_be_chart = mesh.genus() == 0;
+    if mesh.component_count() > bodies::MAX_COMPONENTS || (!asks_for_features(options) && may_be_chart) {
         return chart(mesh, options, control);
     }
     let features = mesh.find_features(&options.features)?;
-    if features.edges.len() == features.border_count && mesh.loops().len() == 1 {
+    if features.edges.len() == features.border_count && mesh.loops().len() == 1 && may_be_chart {
         return chart(mesh, options, control);
     }
     options.fit.check(1)?;
@@ -105,9 +119,10 @@ fn open(mesh: &Mesh, options: &MeshModelOptions, control: &mut Control) -> Resul
         true => [(0.2, &chart), (0.4, &over_edges), (0.4, &over_borders)],
         false => [(0.4, &over_edges), (0.2, &chart), (0.4, &over_borders)],
     };
-    let better =
-        |made: ModelFit, best: ModelFit| if is_better(&made.report, &best.report) { made } else { best };
-    first_done(&ways, |fit| is_good(&fit.report), better, control)
+    let better = |made: ModelFit, best: ModelFit| {
+        if is_better_both_ways(&made.report, &best.report) { made } else { best }
+    };
+    first_done(&ways, |fit| is_good_both_ways(&fit.report), better, control)
 }
 
 /// Where borders turn by more they have corners if all their features let no layout be had, one after the other: 57 degrees
@@ -344,7 +359,7 @@ fn component(
         _ => [(0.5, &over_edges), (0.5, &rounded)],
     };
     let better = |made: Component, best: Component| {
-        if is_better(&best.report.fit, &made.report.fit) { best } else { made }
+        if is_better_both_ways(&best.report.fit, &made.report.fit) { best } else { made }
     };
     first_done(&ways, is_done, better, control)
 }
@@ -398,7 +413,9 @@ fn over_found(
         made => made?,
     };
     Ok(match (over_sharp, over_all) {
-        (Some(sharp), Some(all)) if !is_done(&all) && !is_better(&all.report.fit, &sharp.report.fit) => {
+        (Some(sharp), Some(all))
+            if !is_done(&all) && !is_better_both_ways(&all.report.fit, &sharp.report.fit) =>
+        {
             Some(sharp)
         }
         (sharp, all) => all.or(sharp),
