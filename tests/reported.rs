@@ -427,6 +427,10 @@ fn byte_order_marks_are_white_space() {
 fn texts_of_stl_are_taken_as_they_come() {
     let (mesh, repairs) = reported("no_endsolid.stl");
     assert_eq!((mesh.triangles().len(), repairs.missing_end), (1, true));
+    let strict = MeshOptions { repair: Repair::NONE, ..MeshOptions::default() };
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reported/no_endsolid.stl");
+    let refused = read(&path, &strict).unwrap_err();
+    assert!(refused.to_string().contains("without 'endsolid'"), "{refused}");
     variants(9, |random| {
         let shape = Shape::sheet(random);
         let whole = shape.text(Format::Stl);

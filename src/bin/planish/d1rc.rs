@@ -1,6 +1,6 @@
 //! `planish d1rc`.
 
-use crate::input::{MeshInput, threads};
+use crate::input::{MeshInput, degrees, threads};
 use crate::output::{self, Table};
 use crate::step::Step;
 use crate::{Failure, Given, Outcome};
@@ -20,7 +20,7 @@ pub(crate) struct D1rcArguments {
     #[arg(long, default_value_t = 3)]
     degree: usize,
     /// Edges whose faces meet at more than this many degrees stay sharp.
-    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEGREES", value_parser = degrees, allow_negative_numbers = true)]
     sharp_angle: Option<f64>,
     /// Which functions there are.
     #[arg(long, value_enum, default_value_t = ModeName::Reproducing)]

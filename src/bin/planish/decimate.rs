@@ -1,6 +1,6 @@
 //! `planish decimate`.
 
-use crate::input::MeshInput;
+use crate::input::{MeshInput, degrees};
 use crate::output::{self, Table};
 use crate::{Failure, Given, Outcome};
 use clap::Args;
@@ -18,7 +18,7 @@ pub(crate) struct DecimateArguments {
     #[arg(long, value_name = "N")]
     vertices: usize,
     /// Edges whose triangles turn by more than this stay edges.
-    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEGREES", value_parser = degrees, allow_negative_numbers = true)]
     sharp_angle: Option<f64>,
     /// Ignore parameters that the file has.
     #[arg(long)]

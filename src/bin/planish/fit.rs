@@ -12,6 +12,7 @@ use crate::verdict::{between_nodes, outcome, remarks, verdict, written};
 use crate::{Failure, Given, Outcome};
 use clap::ValueEnum;
 use planish::export::native::Saved;
+use planish::failure::{Classify, ErrorKind};
 use planish::fit::common::Plane;
 use planish::fit::d1rc;
 use planish::fit::pht;
@@ -53,7 +54,15 @@ pub(crate) fn run(arguments: &FitArguments, given: &Given) -> Result<Outcome, Fa
     let is_free =
         arguments.family == FamilyName::Auto && check_used(arguments, FamilyName::Model, given).is_ok();
     let fit =
-        with_bar(arguments.threads, |control| fit_by_family(&mesh, arguments, &saved, is_free, control))?;
+        with_bar(arguments.threads, |control| fit_by_family(&mesh, arguments, &saved, is_free, control));
+    let fit = match fit {
+        // handles and several parts are no matter of one surface
+        Err(error) if is_free && error.kind() == ErrorKind::Topology => {
+            let fit = model::fit(&mesh, &[], arguments)?;
+            return model::tell(&mesh, &repairs, &[], &fit, arguments);
+        }
+        fit => fit?,
+    };
     if is_free && let Some(better) = model::better(&mesh, arguments, &fit.report)? {
         // a surface is not asked for where labels are given
         return model::tell(&mesh, &repairs, &[], &better, arguments);

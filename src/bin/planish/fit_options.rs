@@ -1,7 +1,7 @@
 //! What `planish fit` is asked for, and the options that this means to each family.
 
 use crate::Failure;
-use crate::input::{MeshInput, threads};
+use crate::input::{MeshInput, degrees, threads};
 use crate::step::StepArguments;
 use clap::{Args, ValueEnum};
 use planish::export::native::{Saved, load_any_file};
@@ -75,7 +75,7 @@ pub(crate) struct FitArguments {
     #[arg(long)]
     pub ferguson: bool,
     /// Edges whose triangles turn by more than this stay sharp (d1rc, model; 40 for a model if it is left out).
-    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEGREES", value_parser = degrees, allow_negative_numbers = true)]
     pub sharp_angle: Option<f64>,
     /// A number for each triangle, edges between different ones stay: a number of the faces of a PLY file by its name, or
     /// a text file with one a line (model).
@@ -83,7 +83,7 @@ pub(crate) struct FitArguments {
     pub labels: Option<String>,
     /// Labels are one where the triangles turn by no more than this along all edges between them (model; 0 if it is left
     /// out: all edges between labels stay).
-    #[arg(long, value_name = "DEGREES", requires = "labels", allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEGREES", value_parser = degrees, requires = "labels", allow_negative_numbers = true)]
     pub label_angle: Option<f64>,
     /// Make patches of planes and cylinders too (model).
     #[arg(long)]

@@ -67,6 +67,7 @@ fn mesh_table(arguments: &InfoArguments) -> Result<Table, Failure> {
         }
     }
     output::repair_rows(&mut table, &repairs);
+    output::loose_row(&mut table, &mesh);
     Ok(table)
 }
 

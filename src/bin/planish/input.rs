@@ -108,6 +108,12 @@ impl MeshInput {
     }
 }
 
+/// An angle between two triangles.
+pub(crate) fn degrees(text: &str) -> Result<f64, String> {
+    let angle = text.parse().ok().filter(|angle| (0.0..=180.0).contains(angle));
+    angle.ok_or_else(|| "it is a number of degrees from 0 to 180".to_owned())
+}
+
 /// A number of threads.
 pub(crate) fn threads(text: &str) -> Result<usize, String> {
     const MOST: usize = 1024;

@@ -206,6 +206,7 @@ fn table(
     table.row("mesh", format!("{}", arguments.mesh.display()));
     table.row("nodes, triangles", format!("{points}, {triangles}, {} boundary loops", mesh.loops().len()));
     output::repair_rows(&mut table, repairs);
+    output::loose_row(&mut table, mesh);
     if arguments.labels.is_some() {
         table.row("labels", told_labels(labels));
     }

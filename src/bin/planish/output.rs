@@ -90,6 +90,23 @@ pub(crate) fn repair_rows(table: &mut Table, made: &MeshRepairs) {
     }
 }
 
+/// Tells components that would hang together if nodes at one place were one, and how to join them.
+pub(crate) fn loose_row(table: &mut Table, mesh: &Mesh) {
+    let count = mesh.component_count();
+    if count < 2 {
+        return;
+    }
+    let mut places: Vec<[u64; 3]> = mesh.points().iter().map(|p| p.to_array().map(f64::to_bits)).collect();
+    places.sort_unstable();
+    let twins = places.windows(2).filter(|pair| pair[0] == pair[1]).count();
+    if twins > 0 {
+        let distance = 1e-9 * mesh.diagonal();
+        let told =
+            format!("{count} components, {twins} nodes lie on others: --weld {distance:.0e} joins them");
+        table.row("loose", told);
+    }
+}
+
 /// The formats of surfaces, by the ends of names.
 pub(crate) const SURFACES: &[&str] = &["step", "stp", "vtu", "obj", "off", "ply", "stl", "glb", "planish"];
 /// Those of meshes.

@@ -13,7 +13,7 @@ mod stl;
 mod tests;
 mod unpack;
 
-use super::{Faces, Field, Mesh, MeshError, MeshOptions, MeshRepairs};
+use super::{Faces, Field, Mesh, MeshError, MeshOptions, MeshRepairs, Repair};
 use crate::failure::{Classify, ErrorKind};
 use crate::file::{self, FileError};
 use crate::memory::{self, CollectVec};
@@ -53,6 +53,11 @@ pub enum ReadError {
         /// Most bytes.
         limit: u64,
     },
+    /// The text ends too early and no repair is allowed.
+    #[error(
+        "the file ends without 'endsolid', and facets may be missing: allow repairs to take those that are there"
+    )]
+    MissingEnd,
     /// A fault in a text.
     #[error("line {line}: {problem}")]
     Text {
@@ -236,6 +241,9 @@ impl Soup {
         let count = self.points.len();
         if count > 0 && self.faces.is_empty() {
             return Err(MeshError::PointCloud { count }.into());
+        }
+        if self.missing_end && options.repair == Repair::NONE {
+            return Err(ReadError::MissingEnd);
         }
         let (mut mesh, mut repairs) = Mesh::from_faces_welded(self.points, self.faces, weld, options)?;
         let origins: Vec<usize> = mesh.node_origins().map(|node| node as usize).collect_vec();
