@@ -19,9 +19,9 @@ pub(super) fn combine<S: Simd>(lines: [&[f64]; 4], n: [f64; 4]) -> [f64; 12] {
     sums
 }
 
-/// One point out of four, the first twelve numbers of a line.
+/// One point out of four.
 #[inline(always)]
-pub(super) fn contract<S: Simd, const N: usize>(line: &[f64; N], n: [f64; 4]) -> [f64; 3] {
+pub(super) fn contract<S: Simd>(line: &[f64; 12], n: [f64; 4]) -> [f64; 3] {
     let mut point = [0.0; 3];
     for k in 0..3 {
         let low = fma::<S>(n[1], line[3 + k], n[0] * line[k]);

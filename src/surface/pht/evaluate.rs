@@ -159,12 +159,12 @@ impl Batch<'_> {
                 let lines = [0, 1, 2, 3].map(|r| &net[12 * r..][..12]);
                 let (n_u, n_v) = (bernstein(x.x), bernstein(x.y));
                 let line = combine::<S>(lines, n_u);
-                out[..3].copy_from_slice(&contract::<S, _>(&line, n_v));
+                out[..3].copy_from_slice(&contract::<S>(&line, n_v));
                 if SLOPES {
                     let across = combine::<S>(lines, bernstein_slopes(x.x, inverse_size.x));
-                    out[3..6].copy_from_slice(&contract::<S, _>(&across, n_v));
+                    out[3..6].copy_from_slice(&contract::<S>(&across, n_v));
                     let slopes = bernstein_slopes(x.y, inverse_size.y);
-                    out[6..9].copy_from_slice(&contract::<S, _>(&line, slopes));
+                    out[6..9].copy_from_slice(&contract::<S>(&line, slopes));
                 }
             }
         }
