@@ -345,18 +345,20 @@ fn component(
         return over_found(body, &found, options, control)?.ok_or_else(|| open_body(body));
     }
     let rounds_edges = found.all.regions(&body.mesh).regions.len() > 1;
-    let over_edges = |control: &mut Control| over_found(body, &found, options, control);
     let rounded = |control: &mut Control| {
         let mut made = smooth(body, options, control)?;
         made.report.rounds_edges = rounds_edges;
-        Ok(Some(made))
+        Ok(made)
     };
-    let none = |_: &mut Control| Ok(None);
-    let ways: [Way<Component>; 2] = match options.layout.kind {
-        // the cube's edges lie anywhere
-        LayoutKind::Cube => [(0.0, &none), (1.0, &rounded)],
-        _ if are_texture(&found.all, options) => [(0.5, &rounded), (0.5, &over_edges)],
-        _ => [(0.5, &over_edges), (0.5, &rounded)],
+    // the cube's edges lie anywhere
+    if options.layout.kind == LayoutKind::Cube {
+        return rounded(control);
+    }
+    let over_edges = |control: &mut Control| over_found(body, &found, options, control);
+    let rounded = |control: &mut Control| rounded(control).map(Some);
+    let ways: [Way<Component>; 2] = match are_texture(&found.all, options) {
+        true => [(0.5, &rounded), (0.5, &over_edges)],
+        false => [(0.5, &over_edges), (0.5, &rounded)],
     };
     let better = |made: Component, best: Component| {
         if is_better_both_ways(&best.report.fit, &made.report.fit) { best } else { made }
