@@ -86,7 +86,27 @@ pub fn rocker(count: usize, seed: u64) -> Result<Mesh, MeshError> {
         let body = smooth_least(ENDS.into_iter().map(arm).chain([hub]), 0.15);
         -smooth_least([-body, across - HOLE].into_iter(), 0.1)
     };
-    implicit(shape, DVec3::new(2.2, 1.0, 0.6), count, 9.0, seed)
+    let mesh = implicit(shape, DVec3::new(2.2, 1.0, 0.6), count, 9.0, seed)?;
+    evened(mesh, shape)
+}
+
+/// The mesh with its nodes amid their neighbours, on the surface: no triangle is thin or turned over.
+fn evened(mesh: Mesh, f: impl Fn(DVec3) -> f64) -> Result<Mesh, MeshError> {
+    const SWEEPS: usize = 5;
+    /// Step of central differences, in diagonals: small beside any cell.
+    const SHARE: f64 = 1e-5;
+    let step = SHARE * mesh.diagonal();
+    let mut points = mesh.points().to_vec();
+    for _ in 0..SWEEPS {
+        let amid = |node: u32| {
+            let (sum, count) = mesh.neighbours(node).fold((DVec3::ZERO, 0.0), |(sum, count), beside| {
+                (sum + points[beside as usize], count + 1.0)
+            });
+            projected(&f, sum / count, step)
+        };
+        points = (0..points.len() as u32).map(amid).collect();
+    }
+    Mesh::new(points, mesh.triangles().to_vec())
 }
 
 /// The least of some numbers, rounded off over `width` where they are nearly equal.

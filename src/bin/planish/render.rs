@@ -1,19 +1,19 @@
 //! `planish render`.
 
 use crate::output::{self, write_png};
-use crate::picture::View;
-use crate::picture::{RenderOptions, render, render_model};
+use crate::picture::{Picture, RenderOptions, View, render, render_mesh, render_model};
 use crate::{Failure, Given, Outcome};
 use clap::Args;
 use planish::Control;
+use planish::control::Pool;
 use planish::export::native::{self, Saved};
 use planish::mesh::{MeshOptions, read};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub(crate) struct RenderArguments {
-    /// Saved surface or model (.planish).
-    surface: PathBuf,
+    /// Saved surface or model (.planish), or a mesh (OFF, OBJ, PLY, STL).
+    file: PathBuf,
     /// The picture to write.
     #[arg(long, value_name = "PNG")]
     out: PathBuf,
@@ -23,10 +23,10 @@ pub(crate) struct RenderArguments {
     /// Draw the parameter plane instead of the surface.
     #[arg(long)]
     plane: bool,
-    /// Draw the knot lines, or the edges of a model.
+    /// Draw the knot lines, the edges of a model, or those of a mesh's triangles.
     #[arg(long)]
     knots: bool,
-    /// Draw the trims.
+    /// Draw the trims, free edges of a model, or the border of a mesh.
     #[arg(long)]
     trims: bool,
     /// Stripe the surface by equal brightness: they are as smooth as its tangent planes.
@@ -48,10 +48,6 @@ pub(crate) struct RenderArguments {
 
 pub(crate) fn run(arguments: &RenderArguments, given: &Given) -> Result<Outcome, Failure> {
     output::check_name(&arguments.out, output::PICTURES)?;
-    let saved = native::load_any_file(&arguments.surface)?;
-    let is_model = matches!(saved, Saved::Model(_));
-    given.refuse("net", !is_model, "is not used for a model: it has no control net of its own")?;
-    given.refuse("net", !arguments.plane, "is not used with --plane: a control net lies in space")?;
     let mesh = match &arguments.deviation {
         Some(path) => Some(read(path, &MeshOptions::default())?.0),
         None => None,
@@ -69,21 +65,37 @@ pub(crate) fn run(arguments: &RenderArguments, given: &Given) -> Result<Outcome,
         combs: arguments.combs,
         control_net: arguments.net,
     };
-    if matches!(saved, Saved::Model(_)) && (options.isophotes || options.combs) {
-        return Err(Failure::new("isophotes and combs are drawn of surfaces: a model has none"));
-    }
     let control = Control::default();
-    let picture = match &saved {
-        Saved::Surface(surface) => render(surface.as_surface(), &options, control.pool())?,
-        Saved::Model(_) if options.plane => {
-            return Err(Failure::new("a model has no parameter plane: leave out --plane"));
-        }
-        Saved::Model(model) => render_model(model, &options, control.pool())?,
-        Saved::Curve(_) => return Err(Failure::new("a curve cannot be drawn, only surfaces and models")),
+    let picture = match output::is_saved(&arguments.file) {
+        true => of_saved(&arguments.file, &options, given, control.pool())?,
+        false => of_mesh(&arguments.file, &options, given)?,
     };
     write_png(&picture, &arguments.out)?;
     output::print(format_args!("written  {}\n", arguments.out.display()))?;
     Ok(Outcome::Done)
+}
+
+fn of_saved(path: &Path, options: &RenderOptions, given: &Given, pool: &Pool) -> Result<Picture, Failure> {
+    match native::load_any_file(path)? {
+        Saved::Surface(surface) => {
+            given.refuse("net", !options.plane, "is not used with --plane: a control net lies in space")?;
+            Ok(render(surface.as_surface(), options, pool)?)
+        }
+        Saved::Model(model) => {
+            for option in ["net", "plane", "isophotes", "combs"] {
+                given.refuse(option, false, "is not used for a model: it is drawn of one surface")?;
+            }
+            Ok(render_model(&model, options, pool)?)
+        }
+        Saved::Curve(_) => Err(Failure::new("a curve cannot be drawn, only surfaces, models and meshes")),
+    }
+}
+
+fn of_mesh(path: &Path, options: &RenderOptions, given: &Given) -> Result<Picture, Failure> {
+    for option in ["deviation", "net", "plane", "isophotes", "combs"] {
+        given.refuse(option, false, "is not used for a mesh: it is drawn of what was fitted")?;
+    }
+    Ok(render_mesh(&read(path, &MeshOptions::default())?.0, options))
 }
 
 fn size(text: &str) -> Result<(usize, usize), Failure> {

@@ -55,6 +55,8 @@ enum Shape {
     Gear,
     /// A plate with round ends and a slot.
     SlottedPlate,
+    /// A rocker arm: closed and smooth, with a hole through its hub.
+    Rocker,
     /// A closed wing whose skins are 40 strips, with labels: `label` of the faces of a PLY file.
     WingStrips,
     /// Rows of points round a dustpan.
@@ -84,6 +86,8 @@ impl Shape {
 
 /// Nodes of machine parts, about.
 const PART_NODES: usize = 3000;
+/// Nodes of smooth solids, about.
+const SOLID_NODES: usize = 6000;
 
 pub(crate) fn run(arguments: &SampleArguments, given: &Given) -> Result<Outcome, Failure> {
     given.refuse("seed", arguments.shape.is_jittered(), "is not used: this shape has no jitter")?;
@@ -106,6 +110,7 @@ pub(crate) fn run(arguments: &SampleArguments, given: &Given) -> Result<Outcome,
         Shape::SteppedShaft => machine::stepped_shaft(PART_NODES, seed).map(|part| part.mesh),
         Shape::Gear => machine::gear(PART_NODES, seed).map(|part| part.mesh),
         Shape::SlottedPlate => machine::slotted_plate(PART_NODES, seed).map(|part| part.mesh),
+        Shape::Rocker => samples::rocker(SOLID_NODES, seed),
         Shape::WingStrips => return write_strips(&samples::wing_strips(seed)?, &arguments.out),
         Shape::DustpanRows => return write_rows(&samples::rows::dustpan(), false, &arguments.out),
         Shape::WaveRows => return write_rows(&samples::rows::wave(), false, &arguments.out),

@@ -135,6 +135,23 @@ pub(crate) fn render_model(model: &Model, options: &RenderOptions, pool: &Pool) 
     Ok(picture)
 }
 
+/// Draws the facets of a mesh; their edges where knot lines are asked for, the border where trims are.
+pub(crate) fn render_mesh(mesh: &Mesh, options: &RenderOptions) -> Picture {
+    let view = options.view.unwrap_or_else(|| View::facing(mesh));
+    let mut picture = Picture::new(options.width, options.height, &view, mesh);
+    picture.draw_mesh(mesh, None, (0.0, 0.0));
+    let place = |node: u32| mesh.points()[node as usize];
+    if options.knot_lines {
+        for &[a, b, c] in mesh.triangles() {
+            picture.draw_line(&[place(a), place(b), place(c), place(a)], KNOT_INK);
+        }
+    }
+    if options.trims {
+        mesh.boundary_edges().for_each(|edge| picture.draw_line(&edge.map(place), TRIM_INK));
+    }
+    picture
+}
+
 /// A surface where it lies, or its parameter plane.
 struct Scene<'a> {
     surface: &'a dyn Surface,
