@@ -77,8 +77,8 @@ fn main() {
     let mesh = control_mesh();
     println!("{} control points, {} faces", mesh.points().len(), mesh.triangles().len());
     println!(
-        "{:12} {:>6} {:>9} {:>9} {:>12} {:>12} {:>12} {:>9}",
-        "mode", "degree", "functions", "build ms", "random/s", "with Su, Sv", "divided/s", "move ms"
+        "| mode | degree | functions | construction, ms | random | with first derivatives | divided | vertex moved, ms |\n\
+         |---|---|---|---|---|---|---|---|"
     );
     for mode in [D1rcMode::Reproducing, D1rcMode::Paper] {
         for degree in 1..=3 {
@@ -93,8 +93,7 @@ fn fans() {
         counts = vec![10_000, 20_000, 40_000, 100_000];
     }
     println!(
-        "{:>9} {:>6} {:>6} {:>9} {:>9} {:>14}",
-        "count", "rings", "degree", "functions", "build s", "tip us a point"
+        "| neighbours | rings | degree | functions | construction, s | a point near the tip, us |\n|---|---|---|---|---|---|"
     );
     for (rings, degree) in [(1, 1), (1, 2), (1, 3), (2, 3)] {
         for &count in &counts {
@@ -111,7 +110,7 @@ fn fans() {
             surface.eval_rows(&uv, 0, &mut [0.0; 3000]);
             let point = start.elapsed().as_secs_f64() / uv.len() as f64;
             let functions = surface.space().configurations().len();
-            println!("{count:>9} {rings:>6} {degree:>6} {functions:>9} {build:>9.2} {:>14.1}", 1e6 * point);
+            println!("| {count} | {rings} | {degree} | {functions} | {build:.2} | {:.1} |", 1e6 * point);
         }
     }
 }
@@ -156,25 +155,22 @@ fn run(mesh: &Mesh, options: &D1rcOptions) {
     let vertex = (mesh.points().len() / 2) as u32;
     let region: Vec<usize> =
         surface.influence(vertex).expect("it exists").into_iter().map(|face| face as usize).collect();
-    let moved = if options.mode == D1rcMode::Paper {
-        f64::NAN
-    } else {
+    let moved = (options.mode != D1rcMode::Paper).then(|| {
         seconds(|| {
             let point = mesh.points()[vertex as usize] + 0.01 * glam::DVec3::Z;
             surface.set_control_points(&[vertex], &point.to_array()).expect("it is finite");
             divide(&surface, &region, &faces);
         })
-    };
+    });
     println!(
-        "{:12} {:>6} {:>9} {:>9.1} {:>12.0} {:>12.0} {:>12.0} {:>9.2}  ({} faces)",
-        format!("{:?}", options.mode),
+        "| {:?} | {} | {} | {:.1} | {:.0} | {:.0} | {:.0} | {} |",
+        options.mode,
         options.degree,
         surface.space().configurations().len(),
         1e3 * build,
         POINTS as f64 / values,
         POINTS as f64 / tangents,
         count as f64 / divided,
-        1e3 * moved,
-        region.len(),
+        moved.map_or(String::new(), |moved| format!("{:.2} ({} faces)", 1e3 * moved, region.len())),
     );
 }

@@ -1,14 +1,16 @@
 //! Edge collapse of mesh files: seconds, and the distance of the nodes from the coarser mesh.
 //!
-//! `cargo bench --bench decimate -- [--share S] [--sharp-angle DEGREES] FILE...`
+//! `cargo bench --bench decimate -- [--share S] [--sharp-angle DEGREES] [--field NODES] FILE...`: a field is a height field with
+//! waves and noise.
 
 use planish::Control;
-use planish::mesh::{DecimateOptions, MeshOptions, read};
+use planish::mesh::{DecimateOptions, Mesh, MeshOptions, read};
 use planish::query::triangles::TriangleTree;
+use planish::samples::{Random, grid};
 use std::path::Path;
 
 fn main() {
-    let (mut share, mut sharp_angle, mut files) = (0.1, None, Vec::new());
+    let (mut share, mut sharp_angle, mut meshes) = (0.1, None, Vec::new());
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
         let mut number = || -> f64 {
@@ -19,15 +21,18 @@ fn main() {
             "--bench" => {}
             "--share" => share = number(),
             "--sharp-angle" => sharp_angle = Some(number().to_radians()),
-            _ => files.push(argument),
+            "--field" => meshes.push(("height field".to_owned(), field(number() as usize))),
+            _ => {
+                let (mesh, _) =
+                    read(Path::new(&argument), &MeshOptions::default()).expect("the file is a mesh");
+                meshes.push((argument, mesh));
+            }
         }
     }
     println!(
-        "{:28} {:>8} {:>8} {:>7} {:>8} {:>9} {:>9} {:>9}",
-        "mesh", "nodes", "left", "sharp", "seconds", "nodes/s", "max", "rms"
+        "| mesh | nodes | left | sharp edges | seconds | nodes a second | max | rms |\n|---|---|---|---|---|---|---|---|"
     );
-    for file in files {
-        let (mesh, _) = read(Path::new(&file), &MeshOptions::default()).expect("the file is a mesh");
+    for (name, mesh) in meshes {
         let count = mesh.points().len();
         let target_count = (share * count as f64) as usize;
         let options =
@@ -38,8 +43,8 @@ fn main() {
             mesh.points().iter().filter_map(|&point| tree.nearest(point)).map(|near| near.distance);
         let (max, squares) = distances.fold((0.0_f64, 0.0), |(max, sum), d| (max.max(d), sum + d * d));
         println!(
-            "{:28} {count:8} {:8} {:7} {:8.3} {:9.0} {:9.2e} {:9.2e}",
-            file.rsplit('/').next().unwrap_or(&file),
+            "| {} | {count} | {} | {} | {:.3} | {:.0} | {:.1e} | {:.1e} |",
+            name.rsplit('/').next().unwrap_or(&name),
             coarse.piece.nodes.len(),
             coarse.sharp_edges.len(),
             coarse.report.seconds,
@@ -48,4 +53,15 @@ fn main() {
             (squares / count as f64).sqrt() / mesh.diagonal(),
         );
     }
+}
+
+/// A height field over a jittered grid of about so many nodes, with waves, and noise of a tenth of an edge.
+fn field(nodes: usize) -> Mesh {
+    let side = (nodes as f64).sqrt() as usize;
+    let (places, triangles) = grid([side, side], 0.2, 1, |_| true);
+    let mut random = Random::new(2);
+    let mut height =
+        |x: f64, y: f64| 0.1 * (9.0 * x).sin() * (7.0 * y).cos() + 0.1 / side as f64 * random.signed();
+    let points = places.iter().map(|p| p.extend(height(p.x, p.y))).collect();
+    Mesh::new(points, triangles).expect("a grid is a mesh")
 }

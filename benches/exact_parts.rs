@@ -1,6 +1,7 @@
 //! Machine parts as models: what becomes of 200 seeded ones, clean and under noise, and how long the samples take.
 //!
-//! `cargo bench --bench exact_parts [-- count [noise,.. [folder]]]`; the parts and their STEP files go to the folder.
+//! `cargo bench --bench exact_parts [-- count [noise,.. [folder]]]`; the parts and their STEP files go to the folder. `-- samples`:
+//! how long the samples take alone.
 
 use planish::Control;
 use planish::control::{Pool, Watch};
@@ -22,6 +23,9 @@ const SLOW: f64 = 10.0;
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
+    if arguments.first().is_some_and(|first| first == "samples") {
+        return samples();
+    }
     let count: u64 = arguments.first().map_or(200, |count| count.parse().expect("a number of parts"));
     let folder = arguments.get(2).map(Path::new);
     match arguments.get(1) {

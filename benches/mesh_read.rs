@@ -20,10 +20,11 @@ fn main() -> Result<(), planish::Error> {
     let build = median(|| drop(Mesh::new(points.to_vec(), triangles.to_vec())));
     let weld = median(|| drop(read_bytes(&bytes, Format::Ply, &options.with_weld_distance(1e-6))));
     println!("{} triangles, {} nodes, {} MB", triangles.len(), points.len(), bytes.len() / 1_000_000);
-    println!("file to mesh     {seconds:.3} s");
-    println!("bytes to mesh    {parse:.3} s");
-    println!("arrays to mesh   {build:.3} s");
-    println!("bytes, welded    {weld:.3} s");
+    println!("| from | to | seconds |\n|---|---|---|");
+    println!("| a file | a mesh | {seconds:.3} |");
+    println!("| bytes | a mesh | {parse:.3} |");
+    println!("| arrays | a mesh | {build:.3} |");
+    println!("| bytes | a mesh, nodes joined | {weld:.3} |");
     Ok(())
 }
 

@@ -13,16 +13,14 @@ const RUNS: usize = 5;
 fn main() {
     let mesh = bumpy_sheet(317, 316);
     println!("{} nodes, {} triangles", mesh.points().len(), mesh.triangles().len());
+    println!("| threads | harmonic, s | mean value, s | a stretch step, s |\n|---|---|---|---|");
     for threads in [1, 2] {
         let mean_value = ParameterizeOptions::MEAN_VALUE.with_border(Border::Circle);
         let harmonic =
             median(|| seconds(&mesh, &ParameterizeOptions::HARMONIC.with_border(Border::Circle), threads));
         let first = median(|| seconds(&mesh, &mean_value, threads));
         let with_step = median(|| seconds(&mesh, &mean_value.with_stretch_steps(1), threads));
-        println!(
-            "{threads} threads: harmonic {harmonic:.3} s, mean value {first:.3} s, stretch step {:.3} s",
-            with_step - first
-        );
+        println!("| {threads} | {harmonic:.3} | {first:.3} | {:.3} |", with_step - first);
     }
 }
 

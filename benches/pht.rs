@@ -1,7 +1,7 @@
 //! PHT fits: coefficients, levels, errors, held-out errors, seconds, peak memory; conversion, evaluation.
 //!
-//! `cargo bench --bench pht -- points DATA`, `meshes DATA`, `convert DATA`, `evaluate` or `one FILE TOLERANCE [HELD]`, DATA the
-//! folder of shapes. Peak memory is that of a process, so each fit runs in one of its own.
+//! `cargo bench --bench pht -- points DATA`, `convert DATA`, `evaluate` or `one FILE TOLERANCE [HELD]`, DATA the folder of
+//! shapes. Peak memory is that of a process, so each fit runs in one of its own.
 
 use glam::DVec2;
 use planish::Control;
@@ -28,12 +28,11 @@ fn main() {
             one(file, tolerance.parse().expect("a tolerance"), held.first())
         }
         ["points", folder] => points(folder),
-        ["meshes", folder] => meshes(folder),
         ["convert", folder] => convert(folder),
         ["evaluate"] => evaluate(),
-        _ => println!(
-            "cargo bench --bench pht -- points|meshes|convert DATA | evaluate | one FILE TOLERANCE [HELD]"
-        ),
+        _ => {
+            println!("cargo bench --bench pht -- points|convert DATA | evaluate | one FILE TOLERANCE [HELD]")
+        }
     }
 }
 
@@ -46,8 +45,8 @@ fn apart(arguments: &[&str]) {
 
 fn print_head() {
     println!(
-        "| data | tolerance | control points | cells | deepest level | max | rms | held out | between | facets | map, s | fit, s | \
-         MB | stop |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"
+        "| data | tolerance | control points | cells | deepest level | max | rms | held out | seconds | MB | stop |\n\
+         |---|---|---|---|---|---|---|---|---|---|---|"
     );
 }
 
@@ -62,22 +61,6 @@ fn points(folder: &str) {
         apart(&[&at("rough_4k_noise.f64"), tolerance]);
     }
     apart(&[&at("rough_4k.f64"), "1e-3"]);
-}
-
-fn meshes(folder: &str) {
-    print_head();
-    for name in [
-        "maxface_disk_4k.off",
-        "camelhead_disk_11k.off",
-        "neon_side_holes_16k.off",
-        "mannequin_disk_13k.off",
-        "igea_disk_43k.ply",
-        "airplane_holes_8k.off",
-    ] {
-        for tolerance in ["1e-2", "1e-3"] {
-            apart(&[&format!("{folder}/{name}"), tolerance]);
-        }
-    }
 }
 
 /// The shortest of some runs, in milliseconds, and what the last one made.
@@ -117,19 +100,23 @@ fn convert(folder: &str) {
     let fit = tensor::fit_mesh(&mesh, &options, &mut Control::new(2)).expect("a fit");
     let (tensor, diagonal) = (fit.surface, fit.report.diagonal);
     let spans = [92, 90];
-    println!("tensor fit: {} control points", tensor.coefficient_count());
+    println!("{} control points of the tensor fit", tensor.coefficient_count());
+    println!(
+        "| tolerance | control points | distance | ms | smallest uniform grid | its control points |\n|---|---|---|---|---|---|"
+    );
     for share in [0.35e-2, 1.1e-2] {
         let options = ConvertOptions { tolerance: share * diagonal, ..ConvertOptions::default() };
         let (milliseconds, pht) =
             fastest(5, || PhtSurface::from_tensor(&tensor, &options).expect("limits suffice"));
         let uniform =
             (1..200).find(|&count| distance(&uniform(&tensor, count), &tensor, spans) <= options.tolerance);
+        let [grid, points] = uniform.map_or(["none up to 199 x 199".to_owned(), String::new()], |count| {
+            [format!("{count} x {count}"), (4 * (count + 1) * (count + 1)).to_string()]
+        });
         println!(
-            "within {share:.4}: {} control points, measured {:.5}, {milliseconds:.1} ms; smallest uniform grid {:?} with {:?}",
+            "| {share} | {} | {:.5} | {milliseconds:.1} | {grid} | {points} |",
             pht.coefficient_count(),
             distance(&pht, &tensor, spans) / diagonal,
-            uniform,
-            uniform.map(|count| 4 * (count + 1) * (count + 1)),
         );
     }
     let fit = fit_mesh(
@@ -148,11 +135,9 @@ fn convert(folder: &str) {
         let result = simple.simplify(2e-3 * diagonal).expect("a tolerance");
         (simple, result)
     });
-    println!(
-        "simplify {cells} cells, {before} control points within 2e-3: {} left, {milliseconds:.1} ms",
-        simple.0.coefficient_count()
-    );
-    println!("| sigma | patches | control points | milliseconds |\n|---|---|---|---|");
+    println!("\n| cells | control points | after simplification within 2e-3 | ms |\n|---|---|---|---|");
+    println!("| {cells} | {before} | {} | {milliseconds:.1} |", simple.0.coefficient_count());
+    println!("\n| sigma | patches | control points | ms |\n|---|---|---|---|");
     for sigma in 0..8 {
         let (milliseconds, patches) = fastest(5, || pht.to_tensor_patches(sigma).expect("finite numbers"));
         let poles: usize = patches.iter().map(Surface::coefficient_count).sum();
@@ -199,16 +184,18 @@ fn evaluate() {
     let uv: Vec<DVec2> = (0..count).map(|_| DVec2::new(random.unit(), random.unit())).collect();
     let million = |milliseconds: f64| count as f64 / milliseconds / 1e3;
     println!("{} cells", surface.mesh().leaf_count());
-    for (order, name) in ["values", "first derivatives", "second derivatives"].into_iter().enumerate() {
+    println!("| at random places | million points a second | farthest from the patches |\n|---|---|---|");
+    for (order, name) in
+        ["values", "with first derivatives", "with second derivatives"].into_iter().enumerate()
+    {
         let mut out = vec![0.0; count * 3 * derivative_rows(order)];
         let (milliseconds, ()) = fastest(5, || surface.eval_rows(&uv, order, &mut out));
-        println!("{name}: {:.1} million points a second", million(milliseconds));
         let width = 3 * derivative_rows(order);
         let off = uv.iter().zip(out.chunks_exact(width)).step_by(97).map(|(&uv, row)| {
             let exact = surface.patch(surface.patch_at(uv)).eval(uv);
             row.iter().zip(exact).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
         });
-        println!("  from the patches: {:.1e}", off.fold(0.0, f64::max));
+        println!("| {name} | {:.1} | {:.1e} |", million(milliseconds), off.fold(0.0, f64::max));
     }
     project();
 }
@@ -224,11 +211,8 @@ fn project() {
     let projector = Projector::new(&surface).expect("patches");
     let pool = Pool::new(1);
     let (milliseconds, _) = fastest(2, || projector.project(&points, &ProjectOptions::default(), &pool));
-    println!(
-        "projection of points near a fit of {} cells: {:.0} points a second",
-        surface.mesh().leaf_count(),
-        1e3 * count as f64 / milliseconds
-    );
+    println!("\n| cells of a fit | points near it projected a second |\n|---|---|");
+    println!("| {} | {:.0} |", surface.mesh().leaf_count(), 1e3 * count as f64 / milliseconds);
 }
 
 /// Rows of u, v, x, y, z as little-endian doubles.
@@ -294,17 +278,14 @@ fn row(name: &str, value: f64, fit: &PhtFit, held: Option<f64>) {
     let r = &fit.report;
     let relative = |error: f64| error / r.diagonal;
     println!(
-        "| {name} | {value:.1e} | {} | {} | {} | {:.2e} | {:.2e} | {} | {:.2e} | {:.2e} | {:.2} | {:.3} | {} | {:?} |",
+        "| {name} | {value:.1e} | {} | {} | {} | {:.2e} | {:.2e} | {} | {:.3} | {} | {:?} |",
         r.coefficient_count,
         r.cell_count,
         r.deepest_level,
         relative(r.max_error),
         relative(r.rms_error),
         held.map_or(String::new(), |held| format!("{held:.2e}")),
-        relative(r.max_interior_error),
-        relative(r.facet_sagitta),
-        r.parameterize_seconds,
-        r.seconds - r.parameterize_seconds,
+        r.seconds,
         peak_megabytes(),
         r.stop,
     );

@@ -35,13 +35,12 @@ fn surface(cells: usize) -> TensorSurface {
 }
 
 fn main() {
-    println!("{:>8} {:>10} {:>10} {:>14} {:>8}", "cells", "distance", "points", "points/s", "spread");
-    println!("the last column: how many times faster a start makes it");
+    println!(
+        "| cells | distance | points | points a second | slowest / fastest run | with a start, times as fast |\n|---|---|---|---|---|---|"
+    );
     for cells in [64, 16] {
         let surface = surface(cells);
-        let start = Instant::now();
         let projector = Projector::new(&surface).expect("a tensor surface has patches");
-        println!("{:>8} index built in {:.1} ms", cells, 1e3 * start.elapsed().as_secs_f64());
         for (distance, count) in
             [(0.0, 100_000), (1e-3, 100_000), (1e-2, 50_000), (1e-1, 20_000), (1.0, 5_000)]
         {
@@ -51,7 +50,7 @@ fn main() {
             let guessed = ProjectOptions { guesses: Some(&near), ..ProjectOptions::default() };
             let (with_start, _) = timed(|| run(&projector, &points, &guessed));
             println!(
-                "{cells:>8} {distance:>10.0e} {count:>10} {:>14.0} {spread:>8.2} {:>12.2}",
+                "| {cells} x {cells} | {distance:.0e} | {count} | {:.0} | {spread:.2} | {:.2} |",
                 count as f64 / median,
                 median / with_start
             );
@@ -77,7 +76,7 @@ fn starts(projector: &Projector, points: &[f64]) -> Vec<DVec2> {
 
 /// What trims cost, on fits of meshes with holes: the nodes, and points at distances up to two diagonals.
 fn trimmed() {
-    println!("| fit | points | us inside | us whole | ratio |\n|---|---|---|---|---|");
+    println!("\n| fit | points | us inside | us whole | ratio |\n|---|---|---|---|---|");
     for (name, mesh) in holed() {
         let tolerance = Tolerance { value: 1e-2, ..Tolerance::default() };
         let options = TensorOptions { tolerance, ..TensorOptions::default() };

@@ -49,10 +49,11 @@ fn main() {
     }
     seconds.sort_by(f64::total_cmp);
     println!(
-        "{SURFACES} surfaces, {nodes} nodes, {coefficients} coefficients: {met} met {TOLERANCE:e}, {missed} reported a miss"
+        "| surfaces | nodes | tolerance | coefficients | met | missed and told | all, s | a fit, s | slowest, s |\n\
+         |---|---|---|---|---|---|---|---|---|"
     );
     println!(
-        "{:.1} s in all, a fit {:.3} s in the median, {:.2} s at most",
+        "| {SURFACES} | {nodes} | {TOLERANCE:e} | {coefficients} | {met} | {missed} | {:.0} | {:.3} | {:.2} |",
         start.elapsed().as_secs_f64(),
         seconds[seconds.len() / 2],
         seconds[seconds.len() - 1]

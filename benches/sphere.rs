@@ -27,14 +27,14 @@ fn main() {
         }
     }
     println!(
-        "{:28} {:>8} {:>8} {:>9} {:>8} {:>6} {:>8} {:>6} {:>6}",
-        "mesh", "nodes", "seconds", "nodes/s", "energy", "folds", "slivers", "5 %", "95 %"
+        "| mesh | nodes | seconds | nodes a second | energy | folds | slivers | area, 5 % | area, 95 % |\n\
+         |---|---|---|---|---|---|---|---|---|"
     );
     for (name, mesh) in meshes {
         let map = map_to_sphere(&mesh, &SphereOptions::default(), &mut Control::new(threads));
         let report = map.expect("the mesh is a sphere").report;
         println!(
-            "{:28} {:8} {:8.3} {:9.0} {:8.4} {:6} {:8} {:6.3} {:6.3}",
+            "| {} | {} | {:.3} | {:.0} | {:.4} | {} | {} | {:.3} | {:.3} |",
             name.rsplit('/').next().unwrap_or(&name),
             mesh.points().len(),
             report.seconds,

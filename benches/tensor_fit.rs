@@ -1,4 +1,5 @@
-//! Fits of meshes and of scattered samples: coefficients, errors at the data and between them, normals, seconds.
+//! Fits of meshes and of scattered samples: coefficients, errors at the data and between them, normals, how far the surface
+//! strays, seconds.
 //!
 //! `cargo bench --bench tensor_fit -- [--tolerance T] [--given-parameters] [--only WORD] FILE...`
 //!
@@ -6,7 +7,8 @@
 //! doubles (`.f64`, tolerance absolute with `--absolute`), followed by `held:FILE` for places not given. The lines are those of docs/measured.md.
 //!
 //! `angle` is the root of the mean square of the angle, at triangle centroids, between the normal of the surface
-//! and the mesh's: those of nodes are weighted by area and averaged over one ring.
+//! and the mesh's: those of nodes are weighted by area and averaged over one ring. `astray` is how far the surface leaves the
+//! box of the mesh, anywhere over its domain, also where there are no data.
 
 use glam::{DVec2, DVec3};
 use planish::Control;
@@ -50,9 +52,9 @@ fn main() {
         }
     }
     println!(
-        "| data | count | tolerance | fit | grid | coefficients | max | rms | between | facets | angle | held out | seconds | stop |"
+        "| data | count | tolerance | fit | grid | coefficients | max | rms | between | facets | angle | astray | held out | map, s | \
+         fit, s | stop |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"
     );
-    println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
     for (file, held) in files {
         match (file.strip_suffix(".f64"), held) {
             (None, _) => mesh_lines(&file, &settings),
@@ -76,22 +78,9 @@ fn mesh_lines(file: &str, settings: &Settings) {
     }
     for &value in &settings.tolerances {
         let tolerance = Tolerance { value, scale: settings.scale };
-        let line = |fit: &str, surface: &dyn Surface, uv: &[DVec2], report: &FitReport| {
-            let grid = if report.cell_count > 0 {
-                format!("{} cells", report.cell_count)
-            } else {
-                format!("{} x {}", report.grid_u, report.grid_v)
-            };
-            print_line(
-                file,
-                mesh.points().len(),
-                value,
-                fit,
-                &grid,
-                report,
-                Some(angle(&mesh, surface, uv)),
-                None,
-            );
+        let line = |fit: &'static str, surface: &dyn Surface, uv: &[DVec2], report: &FitReport| {
+            let (angle, astray) = (Some(angle(&mesh, surface, uv)), Some(astray(&mesh, surface)));
+            Line { file, count: mesh.points().len(), value, fit, report, angle, astray, held: None }.print();
         };
         for (name, knots) in KNOTS.into_iter().filter(|(name, _)| settings.wants(name)) {
             let options = TensorOptions { tolerance, knots, ..TensorOptions::default() };
@@ -121,41 +110,54 @@ fn sample_lines(file: &str, held: Option<&str>, settings: &Settings) {
                 Err(error) => println!("{file} {name}: {error}"),
                 Ok(fit) => {
                     let held = held.as_ref().map(|(uv, values)| held_error(&fit.surface, uv, values));
-                    let grid = format!("{} x {}", fit.report.grid_u, fit.report.grid_v);
-                    print_line(file, uv.len(), value, name, &grid, &fit.report, None, held);
+                    let (count, report) = (uv.len(), &fit.report);
+                    Line { file, count, value, fit: name, report, angle: None, astray: None, held }.print();
                 }
             }
         }
     }
 }
 
-/// One row of the table.
-#[allow(clippy::too_many_arguments)]
-fn print_line(
-    file: &str,
+/// One row of the table; errors are not yet parts of the diagonal.
+struct Line<'a> {
+    file: &'a str,
     count: usize,
-    tolerance: f64,
-    fit: &str,
-    grid: &str,
-    r: &FitReport,
+    /// The tolerance.
+    value: f64,
+    fit: &'static str,
+    report: &'a FitReport,
     angle: Option<f64>,
+    astray: Option<f64>,
     held: Option<f64>,
-) {
-    let name = file.rsplit('/').next().unwrap_or(file);
-    let relative = |error: f64| format!("{:.2e}", error / r.diagonal);
-    let angle = angle.map_or(String::new(), |angle| format!("{angle:.2}"));
-    let held = held.map_or(String::new(), relative);
-    println!(
-        "| {name} | {count} | {tolerance:.0e} | {fit} | {grid} | {} | {} | {} | {} | {} | {angle} | {held} | {:.2} | {:?} {:.0e} |",
-        r.coefficient_count,
-        relative(r.max_error),
-        relative(r.rms_error),
-        relative(r.max_interior_error),
-        relative(r.facet_sagitta),
-        r.seconds - r.parameterize_seconds,
-        r.stop,
-        r.smoothing,
-    );
+}
+
+impl Line<'_> {
+    fn print(&self) {
+        let &Self { file, count, value, fit, report: r, .. } = self;
+        let name = file.rsplit('/').next().unwrap_or(file);
+        let relative = |error: f64| format!("{:.2e}", error / r.diagonal);
+        let grid = match r.cell_count {
+            0 => format!("{} x {}", r.grid_u, r.grid_v),
+            count => format!("{count} cells"),
+        };
+        // samples have no triangles to look between
+        let between = self.angle.map_or([String::new(), String::new()], |_| {
+            [relative(r.max_interior_error), relative(r.facet_sagitta)]
+        });
+        println!(
+            "| {name} | {count} | {value:.0e} | {fit} | {grid} | {} | {} | {} | {} | {} | {} | {} | {:.2} | {:.2} | {:?} |",
+            r.coefficient_count,
+            relative(r.max_error),
+            relative(r.rms_error),
+            between.join(" | "),
+            self.angle.map_or(String::new(), |angle| format!("{angle:.1}")),
+            self.astray.map_or(String::new(), |astray| format!("{:.2}", astray / r.diagonal)),
+            self.held.map_or(String::new(), relative),
+            r.parameterize_seconds,
+            r.seconds - r.parameterize_seconds,
+            r.stop,
+        );
+    }
 }
 
 /// Rows of u v x y z.
@@ -175,6 +177,22 @@ fn held_error(surface: &dyn Surface, uv: &[DVec2], values: &[f64]) -> f64 {
     let distance = |(a, b): (&[f64], &[f64])| DVec3::from_slice(a).distance(DVec3::from_slice(b));
     let errors = rows.chunks_exact(3).zip(values.chunks_exact(3)).map(distance);
     errors.zip(uv).filter(|(_, uv)| domain.contains(**uv)).map(|(error, _)| error).fold(0.0, f64::max)
+}
+
+/// How far the surface leaves the box of the mesh.
+fn astray(mesh: &Mesh, surface: &dyn Surface) -> f64 {
+    const PLACES: usize = 401;
+    let domain = surface.domain();
+    let places = |from: f64, to: f64| -> Vec<f64> {
+        (0..PLACES).map(|k| from + (to - from) * k as f64 / (PLACES - 1) as f64).collect()
+    };
+    let (u, v) = (places(domain.min.x, domain.max.x), places(domain.min.y, domain.max.y));
+    let mut rows = vec![0.0; 3 * PLACES * PLACES];
+    surface.eval_grid(&u, &v, &mut rows);
+    let bounds = mesh.bounds();
+    let (low, high) = (DVec3::from_slice(&bounds.min), DVec3::from_slice(&bounds.max));
+    let beyond = |p: DVec3| p.distance(p.clamp(low, high));
+    rows.chunks_exact(3).map(|row| beyond(DVec3::from_slice(row))).fold(0.0, f64::max)
 }
 
 /// The root mean square angle between the normals of surface and mesh, in degrees.

@@ -1,16 +1,19 @@
 """Turns what the comparisons print into Markdown tables.
 
-Lines are fields between tabs: `line` TEXT, `agree` NET KNOTS JOB WHO DIFFERENCE, `found` JOB WHO COUNTS...,
-`rate` NET KNOTS JOB WHO MEDIAN LEAST LARGEST in million points a second, `table` TITLE, `row` CELLS... (the first
-one is the head), `ratio` JOB WHO TIMES: how many times as fast or as small we are.
+Lines are fields between tabs: `line` TEXT, `part` NAME (what follows belongs to it; what comes before, to all), `agree` NET
+KNOTS JOB WHO DIFFERENCE, `found` JOB WHO COUNTS..., `rate` NET KNOTS JOB WHO MEDIAN LEAST LARGEST in million points a second,
+`table` TITLE, `row` CELLS... (the first one is the head), `ratio` JOB WHO TIMES: how many times as fast or as small we are.
 
-Usage: tables.py [--record PAGE] <RESULTS      (in the page the ratios of this kind of processor are put in place)
+Usage: tables.py [--record] <RESULTS      (the parts, and the ratios of this kind of processor, go into docs/measured.md)
 """
 
 import argparse
 import re
 import sys
 from pathlib import Path
+
+sys.path.append(str(Path(__file__).resolve().parents[2] / "tools/docs"))
+import measured  # noqa: E402
 
 # Million points a second, for the nets 65x17, 200x200 and 1000x1000.
 GOALS = {
@@ -21,9 +24,7 @@ GOALS = {
     "grid": (None, None, 76),
 }
 NETS = ["65x17", "200x200", "1000x1000"]
-# Between them the ratios stand in the page.
-HEAD = ["processor", "job", "beside", "times", "run"]
-MARKS = "<!-- ratios by processor -->\n", "<!-- end of ratios -->\n"
+RATIOS = ["processor", "job", "beside", "times", "run"]
 
 
 def number(value):
@@ -38,117 +39,132 @@ def row_of(cells):
     return "| " + " | ".join(cells) + " |"
 
 
-def head_of(cells):
-    return f"{row_of(cells)}\n|" + "---|" * len(cells)
+def table_of(head, rows):
+    return "\n".join([row_of(head), "|" + "---|" * len(head), *map(row_of, rows)])
 
 
-def print_row(cells):
-    print(row_of(cells))
+class Part:
+    """What one comparison printed."""
 
+    def __init__(self, name):
+        self.name = name
+        self.lines, self.races, self.found, self.tables = [], {}, {}, []
+        self.farthest = 0.0, ""
+        # how many times as fast or as small we are, by job and peer
+        self.times = {}
 
-def print_head(cells):
-    print()
-    print(head_of(cells))
-
-
-def print_evaluation(races, times):
-    names = ["SISL", "OpenCASCADE", "FITPACK"]
-    print_head(["net", "knots", "job", "planish", *names, "ours / fastest peer", "goal"])
-    for (net, knots, job), runs in races.items():
-        if job not in GOALS:
-            continue
-        cells = {"SISL": "-", "OCCT": "-", "FITPACK": "-"}
-        ratios = []
-        for process in runs:
-            ours = process["planish"]
-            for family in cells:
-                peers = {who: rate for who, rate in process.items() if who.startswith(family)}
-                if peers:
-                    best = max(peers, key=lambda who: peers[who][0])
-                    form = best.removeprefix(family).strip()
-                    cells[family] = f"{cell(peers[best])} {form}"
-                    ratios.append(ours[0] / peers[best][0])
-        ours, goal = runs[0]["planish"], GOALS[job][NETS.index(net)]
-        met = "-" if goal is None else f"{number(goal)}, {'met' if ours[0] >= goal else 'missed'}"
-        key = f"{job}, {net}", "the fastest of " + ", ".join(names)
-        times[key] = min([times.get(key, ratios[0]), *ratios])
-        print_row([net, knots, job, cell(ours), *cells.values(), number(min(ratios)), met])
-
-
-def print_projection(races, found, times):
-    print_head(["job", "who", "thousand points a second", "ours / peer", "distances"])
-    for (_, _, job), runs in races.items():
-        if job in GOALS:
-            continue
-        for who, rate in runs[0].items():
-            ratio = ""
-            if who != "planish":
-                times[job, who] = runs[0]["planish"][0] / rate[0]
-                ratio = number(times[job, who])
-            thousands = cell([1000 * value for value in rate])
-            print_row([job, who, thousands, ratio, found.get((job, who), "")])
-
-
-def rows_of(machine, run, times):
-    return {(machine, job, who): row_of([machine, job, who, number(value), run]) for (job, who), value in times.items()}
-
-
-def recorded(page, rows):
-    """The page with rows of the same processor, job and peer replaced, and the others added."""
-    before, rest = page.split(MARKS[0])
-    table, after = rest.split(MARKS[1])
-    old = [line for line in table.splitlines()[2:] if line]
-    all_rows = {tuple(cell.strip() for cell in line.split("|")[1:4]): line for line in old} | rows
-    # a stable sort: of one processor the rows stay in their order
-    lines = [line for _, line in sorted(all_rows.items(), key=lambda item: item[0][0])]
-    return before + MARKS[0] + "\n".join([head_of(HEAD), *lines]) + "\n" + MARKS[1] + after
-
-
-def main():
-    arguments = argparse.ArgumentParser()
-    arguments.add_argument("--record", type=Path)
-    page = arguments.parse_args().record
-    races, found, farthest, blocks, times, lines = {}, {}, (0.0, ""), [], {}, []
-    for text in sys.stdin:
-        kind, *fields = text.rstrip("\n").split("\t")
+    def add(self, kind, fields):
         if kind == "line":
-            lines.append(fields[0])
-            print(f"* {fields[0]}")
+            self.lines.append(fields[0])
         elif kind == "agree":
-            farthest = max(farthest, (float(fields[-1]), " ".join(fields[:-1])))
+            self.farthest = max(self.farthest, (float(fields[-1]), " ".join(fields[:-1])))
         elif kind == "found":
-            found[fields[0], fields[1]] = ", ".join(fields[2:])
+            self.found[fields[0], fields[1]] = ", ".join(fields[2:])
         elif kind == "rate":
-            runs = races.setdefault(tuple(fields[:3]), [])
+            runs = self.races.setdefault(tuple(fields[:3]), [])
             if fields[3] == "planish":  # the first of its process
                 runs.append({})
             runs[-1][fields[3]] = [float(value) for value in fields[4:]]
         elif kind == "ratio":
-            times[fields[0], fields[1]] = float(fields[2])
+            self.times[fields[0], fields[1]] = float(fields[2])
         elif kind == "table":
-            blocks.append((fields[0], []))
+            self.tables.append((fields[0], []))
         elif kind == "row":
-            blocks[-1][1].append(fields)
+            self.tables[-1][1].append(fields)
         else:
-            sys.exit(f"tables: no such line: {text}")
-    if any(job in GOALS for _, _, job in races):
-        print(f"\nLargest difference of results: {farthest[0]:.1e} ({farthest[1]}).")
-        print_evaluation(races, times)
-    if found:
-        print_projection(races, found, times)
-    for title, (head, *rows) in blocks:
-        print(f"\n{title}")
-        print_head(head)
-        for row in rows:
-            print_row(row)
-    if times:
-        patterns = r"machine: (.*?\)),", r"planish \S+ at (\S+),", r"except for fits: (\S+),"
-        machine, version, day = (re.search(pattern, "\n".join(lines))[1] for pattern in patterns)
-        rows = rows_of(machine, f"{version}, {day}", times)
-        print_head(HEAD)
-        print("\n".join(rows.values()))
-        if page:
-            page.write_text(recorded(page.read_text(), rows))
+            sys.exit(f"tables: no such line: {kind} {fields}")
+
+    def text(self):
+        """In Markdown; fills in the ratios of races."""
+        blocks = ["\n".join(f"* {line}" for line in self.lines)]
+        if any(job in GOALS for _, _, job in self.races):
+            blocks.append(f"Largest difference of results: {self.farthest[0]:.1e} ({self.farthest[1]}).")
+            blocks.append(self.evaluation())
+        if self.found:
+            blocks.append(self.projection())
+        for title, (head, *rows) in self.tables:
+            blocks += [f"{title}:", table_of(head, rows)]
+        return "\n\n".join(block for block in blocks if block) + "\n"
+
+    def evaluation(self):
+        names = ["SISL", "OpenCASCADE", "FITPACK"]
+        rows = []
+        for (net, knots, job), runs in self.races.items():
+            if job not in GOALS:
+                continue
+            cells = {"SISL": "-", "OCCT": "-", "FITPACK": "-"}
+            ratios = []
+            for process in runs:
+                ours = process["planish"]
+                for family in cells:
+                    peers = {who: rate for who, rate in process.items() if who.startswith(family)}
+                    if peers:
+                        best = max(peers, key=lambda who: peers[who][0])
+                        form = best.removeprefix(family).strip()
+                        cells[family] = f"{cell(peers[best])} {form}"
+                        ratios.append(ours[0] / peers[best][0])
+            ours, goal = runs[0]["planish"], GOALS[job][NETS.index(net)]
+            met = "-" if goal is None else f"{number(goal)}, {'met' if ours[0] >= goal else 'missed'}"
+            key = f"{job}, {net}", "the fastest of " + ", ".join(names)
+            self.times[key] = min([self.times.get(key, ratios[0]), *ratios])
+            rows.append([net, knots, job, cell(ours), *cells.values(), number(min(ratios)), met])
+        return table_of(["net", "knots", "job", "planish", *names, "ours / fastest peer", "goal"], rows)
+
+    def projection(self):
+        rows = []
+        for (_, _, job), runs in self.races.items():
+            if job in GOALS:
+                continue
+            for who, rate in runs[0].items():
+                ratio = ""
+                if who != "planish":
+                    self.times[job, who] = runs[0]["planish"][0] / rate[0]
+                    ratio = number(self.times[job, who])
+                thousands = cell([1000 * value for value in rate])
+                rows.append([job, who, thousands, ratio, self.found.get((job, who), "")])
+        return table_of(["job", "who", "thousand points a second", "ours / peer", "distances"], rows)
+
+
+def read(results):
+    """What belongs to all, and the parts."""
+    parts = [Part("")]
+    for text in results:
+        kind, *fields = text.rstrip("\n").split("\t")
+        if kind == "part":
+            parts.append(Part(fields[0]))
+        else:
+            parts[-1].add(kind, fields)
+    return parts[0], parts[1:]
+
+
+def ratios(page, machine, run, times):
+    """All ratios that the page has, those of this processor replaced, and the others of this run added."""
+    old = re.findall(r"^\| .*$", measured.between(page, "ratios by processor"), re.MULTILINE)[1:]
+    rows = {tuple(cells[:3]): cells for cells in ([cell.strip() for cell in line.split("|")[1:-1]] for line in old)}
+    rows |= {(machine, job, who): [machine, job, who, number(value), run] for (job, who), value in times.items()}
+    # a stable sort: of one processor the rows stay in their order
+    return table_of(RATIOS, sorted(rows.values(), key=lambda cells: cells[0])) + "\n"
+
+
+def main():
+    arguments = argparse.ArgumentParser()
+    arguments.add_argument("--record", action="store_true")
+    is_recorded = arguments.parse_args().record
+    common, parts = read(sys.stdin)
+    texts = {part.name: part.text() for part in parts}
+    print(common.text())
+    for name, text in texts.items():
+        print(f"{name}:\n\n{text}")
+    patterns = r"machine: (.*?\)),", r"planish \S+ at ([^,\s]+),", r"except for fits: (\S+),"
+    machine, version, day = (re.search(pattern, "\n".join(common.lines))[1] for pattern in patterns)
+    times = {key: value for part in parts for key, value in part.times.items()}
+    rows = ratios(measured.PAGE.read_text(), machine, f"{version}, {day}", times)
+    print(rows)
+    if is_recorded:
+        measured.put("peers", common.text())
+        for name, text in texts.items():
+            measured.put(f"peers, {name}", f"*At {version}, {day}.*\n\n{text}")
+        measured.put("ratios by processor", rows)
 
 
 if __name__ == "__main__":

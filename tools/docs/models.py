@@ -13,7 +13,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from measured import put
+from measured import put, where
 
 MESHES = {
     "igea, 44,992 nodes": "igea_closed_45k.ply",
@@ -58,6 +58,7 @@ def line(cells):
 
 def main():
     tool, data = sys.argv[1:]
+    above = where()
     lines = [line(HEAD), "|" + "---|" * len(HEAD)]
     with tempfile.TemporaryDirectory() as folder:
         for name, file in MESHES.items():
@@ -66,7 +67,7 @@ def main():
                     made = fit(tool, Path(data, file), ["--tolerance", tolerance, *options], folder)
                     lines.append(line(row(name, tolerance, " ".join(options), made)))
                     print(lines[-1], flush=True)
-    put("closed models", "\n".join(lines) + "\n")
+    put("closed models", above + "\n".join(lines) + "\n")
 
 
 if __name__ == "__main__":
