@@ -99,7 +99,7 @@ pub fn tessellate_watched(
     plane.add_frame()?;
     plane.add_trims()?;
     plane.add_grid()?;
-    while plane.refine()? {}
+    plane.refine()?;
     plane.finish()
 }
 
@@ -119,7 +119,8 @@ struct Plane<'a> {
     /// From (u,v) to the stretched plane of the triangulation.
     stretch: DVec2,
     triangulation: ConstrainedDelaunayTriangulation<Point2<f64>>,
-    points: HashMap<FixedVertexHandle, DVec3>,
+    /// By vertex, as far as they have been asked for.
+    points: Vec<Option<DVec3>>,
     chord_error: f64,
     /// Vertices beyond the domain that belong to no triangle of the surface.
     frame: Vec<FixedVertexHandle>,
@@ -144,7 +145,7 @@ impl<'a> Plane<'a> {
             chord_tolerance,
             stretch: probe.stretch,
             triangulation: ConstrainedDelaunayTriangulation::new(),
-            points: HashMap::new(),
+            points: Vec::new(),
             chord_error: 0.0,
             frame: Vec::new(),
         })
@@ -227,17 +228,37 @@ impl<'a> Plane<'a> {
 
     fn point(&mut self, vertex: FixedVertexHandle) -> DVec3 {
         let uv = self.uv(self.triangulation.vertex(vertex).position());
-        let surface = self.surface;
-        memory::reserve_entry(&mut self.points);
-        *self.points.entry(vertex).or_insert_with(|| eval(surface, uv))
+        let number = vertex.index();
+        while self.points.len() <= number {
+            memory::push(&mut self.points, None);
+        }
+        *self.points[number].get_or_insert_with(|| eval(self.surface, uv))
     }
 
-    /// Halves all edges that need it. False when there are none.
-    fn refine(&mut self) -> Result<bool, TessellateError> {
+    /// Halves edges until none needs it.
+    ///
+    /// A new edge ends in a new vertex: those between older ones are measured once, and all at the end.
+    fn refine(&mut self) -> Result<(), TessellateError> {
+        let mut oldest = 0;
+        loop {
+            let before = self.triangulation.num_vertices();
+            self.halve_edges(oldest)?;
+            // middles that are all nodes already would come again in every further round
+            let has_new = self.triangulation.num_vertices() > before;
+            if !has_new && oldest == 0 {
+                return Ok(());
+            }
+            oldest = if has_new { before } else { 0 };
+        }
+    }
+
+    /// Halves all edges that need it with an end among the vertices from a number on.
+    fn halve_edges(&mut self, oldest: usize) -> Result<(), TessellateError> {
         let shortest = SHORTEST_EDGE * (self.surface.domain().size() * self.stretch).length();
         let edges: Vec<_> = self
             .triangulation
             .undirected_edges()
+            .filter(|edge| edge.vertices().iter().any(|vertex| vertex.index() >= oldest))
             .filter(|edge| edge.length_2() > shortest * shortest)
             .filter(|edge| {
                 let directed = edge.as_directed();
@@ -265,12 +286,7 @@ impl<'a> Plane<'a> {
             }
             self.chord_error = self.chord_error.max(sag);
         }
-        let before = self.triangulation.num_vertices();
-        for &(ends, uv) in &middles {
-            self.halve(ends, uv)?;
-        }
-        // middles that are all nodes already would come again in every further round
-        Ok(self.triangulation.num_vertices() > before)
+        middles.into_iter().try_for_each(|(ends, uv)| self.halve(ends, uv))
     }
 
     /// Makes the middle of an edge a node.
