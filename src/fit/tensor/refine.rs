@@ -18,7 +18,7 @@ const STAGNANT_ROUNDS: usize = 4;
 
 /// Coarse grids see nothing of short waves, and their error stays the same from one to the next. Only with more
 /// than one unknown for this many data is a standstill one.
-const DATA_PER_UNKNOWN: f64 = 4.0;
+pub(super) const DATA_PER_UNKNOWN: f64 = 4.0;
 
 /// Errors below this share of the data's diagonal are rounding: some hundred operations on numbers of that size.
 const ROUNDING: f64 = 1e-13;

@@ -1,6 +1,7 @@
 //! The fit on one grid: least squares at a fixed smoothing, the ladder of smoothings, the measure.
 
 use super::candidate::Candidate;
+use super::refine::DATA_PER_UNKNOWN;
 use super::tame::Emptiness;
 use super::{Ends, FitError, Method, Problem, SMOOTHING_LADDER};
 use crate::control::{Pool, Watch};
@@ -148,10 +149,11 @@ impl<'a> LeastSquares<'a> {
         [self.basis.u.grid, self.basis.v.grid]
     }
 
-    /// The calmest fit that meets the tolerance, or the closest one if none does.
+    /// The calmest fit that meets the tolerance; if none does, the closest one, or a calmer one where that swings between
+    /// the data.
     ///
-    /// The closest is tried first: where it misses by more than the others could make good, they are not
-    /// tried at all.
+    /// The closest is tried first: where it misses by more than the others could make good, they are tried only where it
+    /// swings.
     fn fit_ladder(&self) -> Result<Candidate, FitError> {
         let asked = self.problem.options.smoothing;
         if asked > 0.0 {
@@ -163,7 +165,7 @@ impl<'a> LeastSquares<'a> {
         // more smoothing lowers a maximum now and then, by a little
         const WORTH_TRYING: f64 = 1.1;
         if closest.errors.demand > WORTH_TRYING * tolerance {
-            return Ok(closest);
+            return self.calmed(closest);
         }
         for &smoothing in calmer {
             let candidate = self.fit(smoothing, None)?;
@@ -172,6 +174,31 @@ impl<'a> LeastSquares<'a> {
             }
         }
         Ok(closest)
+    }
+
+    /// A fit that misses the tolerance, or calmer ones as long as they are nearer where it is farthest: between the data. A
+    /// grid of far fewer unknowns than data does not swing there.
+    fn calmed(&self, closest: Candidate) -> Result<Candidate, FitError> {
+        if DATA_PER_UNKNOWN * closest.coefficient_count as f64 <= self.problem.uv.len() as f64 {
+            return Ok(closest);
+        }
+        let excess = |candidate: &Candidate| {
+            self.problem.interior_errors(&candidate.surface, self.pool).max_smooth_excess
+        };
+        let mut best = closest;
+        let mut between = excess(&best);
+        for &smoothing in SMOOTHING_LADDER.iter().rev().skip(1) {
+            if between <= best.errors.demand {
+                break;
+            }
+            let calmer = self.fit(smoothing, None)?;
+            let calmer_between = excess(&calmer);
+            if calmer.errors.demand.max(calmer_between) >= between {
+                break;
+            }
+            (best, between) = (calmer, calmer_between);
+        }
+        Ok(best)
     }
 
     fn fit(&self, smoothing: f64, tension: Option<&Tension>) -> Result<Candidate, FitError> {
