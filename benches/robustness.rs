@@ -1,15 +1,17 @@
 //! 500 seeded surfaces from plane to wavy, with holes and notches, 500 to 20,000 nodes: all met, or truthfully
 //! reported. Prints the totals.
 //!
-//! `cargo bench --bench robustness`
+//! `cargo bench --bench robustness [-- folder]`; meshes that miss go to the folder.
 
 use glam::DVec2;
 use planish::Control;
+use planish::export::mesh::{Encoding, write};
 use planish::fit::report::{Remarks, Tolerance};
 use planish::fit::tensor::{TensorOptions, fit_mesh};
-use planish::mesh::Mesh;
+use planish::mesh::{Format, Mesh};
 use planish::samples::{Random, grid};
 use std::f64::consts::TAU;
+use std::path::Path;
 use std::time::Instant;
 
 const SURFACES: u64 = 500;
@@ -18,6 +20,7 @@ const TOLERANCE: f64 = 1e-3;
 fn main() {
     let (mut met, mut missed, mut nodes, mut coefficients) = (0, 0, 0, 0);
     let mut seconds = Vec::new();
+    let folder = std::env::args().skip(1).find(|argument| !argument.starts_with("--"));
     let start = Instant::now();
     for seed in 0..SURFACES {
         let mesh = surface(seed);
@@ -33,6 +36,10 @@ fn main() {
         assert_eq!(report.flipped_count, 0, "seed {seed} folds");
         if report.remarks.has(Remarks::TOLERANCE_NOT_MET) {
             missed += 1;
+            if let Some(folder) = &folder {
+                let path = Path::new(folder).join(format!("sheet-{seed}.obj"));
+                write(&mesh, &path, Format::Obj, Encoding::Text).expect("the folder can be written");
+            }
             println!(
                 "seed {seed}: {} nodes, {}x{}, {:.2e} of the diagonal",
                 mesh.points().len(),
