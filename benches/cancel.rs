@@ -69,7 +69,7 @@ fn main() {
         drop(deviation(&surface, &sheet, &options, control.pool()));
     });
     row("tessellate", &|control| {
-        let options = TessellateOptions { chord_tolerance: 1e-6, ..TessellateOptions::default() };
+        let options = TessellateOptions { chord_tolerance: 1e-5, ..TessellateOptions::default() };
         drop(tessellate_watched(&surface, &options, control.pool().watch()));
     });
     row("pht_from", &|control| {
