@@ -15,8 +15,15 @@ fn run(name: &str, section: &str, signal: Option<&str>) -> Output {
     std::fs::write(folder.join("paths"), include_str!("../scripts/paths")).unwrap();
     let path = folder.join("test");
     std::fs::write(&path, format!("{head}\nsection \"work\"\n{section}\nhas_finished=yes\n")).unwrap();
-    let mut bash = Command::new("bash");
-    let child = bash.arg(&path).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    // nohup, and a shell in the background, have signals ignored, which nobody below them can take back
+    let mut bash = Command::new("env");
+    let child = bash
+        .args(["--default-signal", "bash"])
+        .arg(&path)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
     if let Some(signal) = signal {
         sleep(Duration::from_millis(500));
         let killed = Command::new("kill").args([format!("-{signal}"), child.id().to_string()]).status();
