@@ -20,6 +20,7 @@ use planish::query::deviation::{DeviationOptions, deviation};
 use planish::query::project::{ProjectOptions, Projector};
 use planish::query::tessellate::{TessellateOptions, tessellate_watched};
 use planish::samples::{franke, grid};
+use planish::surface::d1rc::{D1rcOptions, D1rcSurface};
 use planish::surface::pht::{ConvertOptions, PhtSurface};
 use planish::surface::tensor::TensorSurface;
 use std::ops::ControlFlow;
@@ -38,7 +39,10 @@ fn main() {
     let surface =
         fit_tensor(&sheet, &TensorOptions::default().with_tolerance(tolerance), &mut Control::new(2));
     let surface: TensorSurface = surface.expect("a sheet can be fitted").surface;
-    let pht = PhtSurface::from_tensor(&surface, &ConvertOptions::default()).expect("it converts");
+    let fine_conversion = ConvertOptions { tolerance: 1e-7, ..ConvertOptions::default() };
+    let pht = PhtSurface::from_tensor(&surface, &fine_conversion).expect("it converts");
+    let d1rc =
+        D1rcSurface::from_mesh(&sheet, &D1rcOptions::default(), &[], &[]).expect("a sheet is a control mesh");
     let points: Vec<f64> = sheet.points().iter().flat_map(|p| (*p * 1.01).to_array()).collect();
 
     println!("| call | nodes | processor ms | asked | at | ended |\n|---|---|---|---|---|---|");
@@ -68,13 +72,11 @@ fn main() {
         let options = DeviationOptions { measure_back: true, ..DeviationOptions::default() };
         drop(deviation(&surface, &sheet, &options, control.pool()));
     });
-    row("tessellate", &|control| {
-        let options = TessellateOptions { chord_tolerance: 1e-5, ..TessellateOptions::default() };
-        drop(tessellate_watched(&surface, &options, control.pool().watch()));
-    });
+    let chords = |chord_tolerance| TessellateOptions { chord_tolerance, ..TessellateOptions::default() };
+    row("tessellate", &|control| drop(tessellate_watched(&surface, &chords(1e-5), control.pool().watch())));
+    row("tessellate d1rc", &|control| drop(tessellate_watched(&d1rc, &chords(1e-4), control.pool().watch())));
     row("pht_from", &|control| {
-        let options = ConvertOptions { tolerance: 1e-7, ..ConvertOptions::default() };
-        drop(PhtSurface::from_tensor_watched(&surface, &options, control.pool().watch()));
+        drop(PhtSurface::from_tensor_watched(&surface, &fine_conversion, control.pool().watch()));
     });
     row("pht_simplify", &|control| drop(pht.clone().simplify_watched(1e-3, control.pool().watch())));
 }

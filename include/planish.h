@@ -1315,7 +1315,7 @@ typedef struct planish_mesh_write_options {
 } planish_mesh_write_options;
 
 /**
- * Hears how far a call is and may end it. It is asked at least every 50 ms.
+ * Hears how far a call is and may end it. It is asked at least every 50 ms while other threads do the work.
  *
  * fraction: how much is done, 0 to 1; it never falls.
  * error:    while a surface is fitted the largest error so far in model units; in calls that only parameterize a mesh
@@ -1325,8 +1325,8 @@ typedef struct planish_mesh_write_options {
  * progress, such as a factorization, has ended.
  *
  * It is called on the thread that made the call. With thread_count 1 that thread does the work too and asks between its
- * steps. It must not throw or longjmp: a C++ exception that leaves it
- * ends the process. It may call the library, but not change or destroy what the call was given.
+ * steps. It must not throw or longjmp: a C++ exception that leaves it ends the process. It may call the library, but not
+ * change or destroy what the call was given.
  */
 typedef int32_t (*planish_progress)(double fraction, double error, void *user);
 

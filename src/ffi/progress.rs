@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicI32, AtomicU32, Ordering};
 // the numbers that callers see; tools/header follows the name
 pub use crate::control::Stage as planish_stage;
 
-/// Hears how far a call is and may end it. It is asked at least every 50 ms.
+/// Hears how far a call is and may end it. It is asked at least every 50 ms while other threads do the work.
 ///
 /// fraction: how much is done, 0 to 1; it never falls.
 /// error:    while a surface is fitted the largest error so far in model units; in calls that only parameterize a mesh
@@ -20,8 +20,8 @@ pub use crate::control::Stage as planish_stage;
 /// progress, such as a factorization, has ended.
 ///
 /// It is called on the thread that made the call. With thread_count 1 that thread does the work too and asks between its
-/// steps. It must not throw or longjmp: a C++ exception that leaves it
-/// ends the process. It may call the library, but not change or destroy what the call was given.
+/// steps. It must not throw or longjmp: a C++ exception that leaves it ends the process. It may call the library, but not
+/// change or destroy what the call was given.
 pub type planish_progress =
     Option<unsafe extern "C-unwind" fn(fraction: f64, error: f64, user: *mut c_void) -> i32>;
 

@@ -130,7 +130,8 @@ pub(super) fn solve(
             let part = |(part, uv): (usize, &[DVec2])| {
                 let weights = &samples.weights[first + CHUNK * part..];
                 let (mut rows, mut blend) = (Rows::default(), Vec::new());
-                for (&uv, weight) in uv.iter().zip(weights) {
+                // a cancelled call throws its rows away
+                for (&uv, weight) in uv.iter().zip(weights).take_while(|_| watch.check().is_ok()) {
                     surface.vertex_weights(uv, &mut blend);
                     rows.push(blend.iter().map(|&(vertex, share)| (vertex, weight.sqrt() * share)));
                 }

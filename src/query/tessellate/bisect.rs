@@ -16,7 +16,7 @@
 
 use super::error::TessellateError;
 use super::tessellation::{Tessellation, distance_to_segment, least_angle};
-use crate::control::Watch;
+use crate::control::{Cancelled, Watch};
 use crate::memory::{self, CollectVec};
 use crate::mesh::Mesh;
 use crate::surface::Facets;
@@ -44,15 +44,15 @@ pub(super) fn tessellate_facets(
     fineness: &Fineness,
     watch: &Watch,
 ) -> Result<Tessellation, TessellateError> {
-    let mut division = Division::new(surface, fineness)?;
+    let mut division = Division::new(surface, fineness, watch)?;
     for _ in 0..MOST_ROUNDS {
-        division.measure(watch)?;
-        if !division.mark() {
+        division.measure()?;
+        if !division.mark()? {
             break;
         }
         division.divide()?;
     }
-    division.measure(watch)?;
+    division.measure()?;
     division.finish()
 }
 
@@ -82,6 +82,7 @@ const NONE: u32 = u32::MAX;
 struct Division<'a> {
     surface: &'a dyn Facets,
     fineness: &'a Fineness,
+    watch: &'a Watch,
     tolerance: f64,
     uv: Vec<DVec2>,
     points: Vec<DVec3>,
@@ -99,7 +100,11 @@ fn edges([a, b, c]: [u32; 3]) -> [[u32; 2]; 3] {
 }
 
 impl<'a> Division<'a> {
-    fn new(surface: &'a dyn Facets, fineness: &'a Fineness) -> Result<Self, TessellateError> {
+    fn new(
+        surface: &'a dyn Facets,
+        fineness: &'a Fineness,
+        watch: &'a Watch,
+    ) -> Result<Self, TessellateError> {
         let facets = surface.triangles();
         if facets.is_empty() {
             return Err(TessellateError::Empty);
@@ -108,6 +113,7 @@ impl<'a> Division<'a> {
         let mut numbers = memory::filled(NONE, surface.places().len());
         let (mut uv, mut points, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
         for (facet, corners) in facets.iter().enumerate() {
+            watch.check_at(facet)?;
             let mut row = [0.0; 9];
             let places = corners.map(|corner| surface.places()[corner as usize]);
             surface.eval_on_facet(facet, &places, &mut row);
@@ -127,7 +133,8 @@ impl<'a> Division<'a> {
             .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), &p: &DVec3| (min.min(p), max.max(p)));
         let asked = fineness.chord_tolerance;
         let tolerance = if asked > 0.0 { asked } else { CHORD_SHARE * around.0.distance(around.1) };
-        let division = Self { surface, fineness, tolerance, uv, points, triangles, middles: HashMap::new() };
+        let middles = HashMap::new();
+        let division = Self { surface, fineness, watch, tolerance, uv, points, triangles, middles };
         division.check_count()?;
         Ok(division)
     }
@@ -140,9 +147,9 @@ impl<'a> Division<'a> {
     }
 
     /// Evaluates the middles of what is new.
-    fn measure(&mut self, watch: &Watch) -> Result<(), TessellateError> {
+    fn measure(&mut self) -> Result<(), TessellateError> {
         for index in 0..self.triangles.len() {
-            watch.check()?;
+            self.watch.check_at(index)?;
             let Triangle { nodes, facet, error } = self.triangles[index];
             if !error.is_nan() {
                 continue;
@@ -169,11 +176,12 @@ impl<'a> Division<'a> {
     }
 
     /// Marks the edges to divide; false if there are none.
-    fn mark(&mut self) -> bool {
+    fn mark(&mut self) -> Result<bool, Cancelled> {
         let longest_allowed =
             if self.fineness.max_edge_length > 0.0 { self.fineness.max_edge_length } else { f64::INFINITY };
         let mut is_any = false;
-        for Triangle { nodes, error, .. } in &self.triangles {
+        for (index, Triangle { nodes, error, .. }) in self.triangles.iter().enumerate() {
+            self.watch.check_at(index)?;
             for edge in edges(*nodes) {
                 let middle = self.middles.get_mut(&edge).expect("measured");
                 let is_far = middle.error > self.tolerance || *error > self.tolerance;
@@ -185,7 +193,8 @@ impl<'a> Division<'a> {
         let mut has_grown = is_any;
         while has_grown {
             has_grown = false;
-            for triangle in &self.triangles {
+            for (index, triangle) in self.triangles.iter().enumerate() {
+                self.watch.check_at(index)?;
                 let around = edges(triangle.nodes);
                 let longest = around[self.longest(triangle.nodes)];
                 if around.iter().any(|edge| self.middles[edge].is_marked) && !self.middles[&longest].is_marked
@@ -195,7 +204,7 @@ impl<'a> Division<'a> {
                 }
             }
         }
-        is_any
+        Ok(is_any)
     }
 
     /// Which edge of a triangle is the longest; of equally long ones the same from both sides.
@@ -212,6 +221,7 @@ impl<'a> Division<'a> {
     fn divide(&mut self) -> Result<(), TessellateError> {
         let mut divided = memory::with_capacity(2 * self.triangles.len());
         for index in 0..self.triangles.len() {
+            self.watch.check_at(index)?;
             let triangle = self.triangles[index];
             let first = self.longest(triangle.nodes);
             let [a, b, c] = [0, 1, 2].map(|k| triangle.nodes[(first + k) % 3]);

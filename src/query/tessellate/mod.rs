@@ -20,8 +20,8 @@ use crate::options::with_fields;
 use crate::surface::Surface;
 use bisect::{Fineness, tessellate_facets};
 use glam::{DVec2, DVec3};
-use spade::handles::FixedVertexHandle;
-use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation, mitigate_underflow};
+use spade::handles::{FixedVertexHandle, UndirectedEdgeHandle};
+use spade::{CdtEdge, ConstrainedDelaunayTriangulation, Point2, Triangulation, mitigate_underflow};
 use std::collections::HashMap;
 pub(crate) use tessellation::{distance_to_segment, least_angle};
 
@@ -110,6 +110,8 @@ const START_LINES: usize = 9;
 /// An edge is not halved once it is this short against the domain: a fold or pole of the surface would go on
 /// for ever.
 const SHORTEST_EDGE: f64 = 1e-7;
+
+type Edge<'a> = UndirectedEdgeHandle<'a, Point2<f64>, (), CdtEdge<()>, ()>;
 
 struct Plane<'a> {
     surface: &'a dyn Surface,
@@ -254,24 +256,14 @@ impl<'a> Plane<'a> {
 
     /// Halves all edges that need it with an end among the vertices from a number on.
     fn halve_edges(&mut self, oldest: usize) -> Result<(), TessellateError> {
-        let shortest = SHORTEST_EDGE * (self.surface.domain().size() * self.stretch).length();
-        let edges: Vec<_> = self
-            .triangulation
-            .undirected_edges()
-            .filter(|edge| edge.vertices().iter().any(|vertex| vertex.index() >= oldest))
-            .filter(|edge| edge.length_2() > shortest * shortest)
-            .filter(|edge| {
-                let directed = edge.as_directed();
-                [directed.face(), directed.rev().face()].iter().any(|face| {
-                    face.as_inner().is_some_and(|face| {
-                        let center = face.center();
-                        !face.vertices().iter().any(|vertex| self.frame.contains(&vertex.fix()))
-                            && self.is_kept(DVec2::new(center.x, center.y) / self.stretch)
-                    })
-                })
-            })
-            .map(|edge| edge.vertices().map(|vertex| vertex.fix()))
-            .collect_vec();
+        let mut edges = Vec::new();
+        for (k, edge) in self.triangulation.undirected_edges().enumerate() {
+            self.watch.check_at(k)?;
+            let vertices = edge.vertices().map(|vertex| vertex.fix());
+            if vertices.iter().any(|vertex| vertex.index() >= oldest) && self.may_be_halved(edge) {
+                memory::push(&mut edges, vertices);
+            }
+        }
         let mut middles = Vec::new();
         self.chord_error = 0.0;
         for [a, b] in edges {
@@ -287,6 +279,20 @@ impl<'a> Plane<'a> {
             self.chord_error = self.chord_error.max(sag);
         }
         middles.into_iter().try_for_each(|(ends, uv)| self.halve(ends, uv))
+    }
+
+    /// Whether an edge is long enough and belongs to a triangle of the surface.
+    fn may_be_halved(&self, edge: Edge<'_>) -> bool {
+        let shortest = SHORTEST_EDGE * (self.surface.domain().size() * self.stretch).length();
+        let directed = edge.as_directed();
+        edge.length_2() > shortest * shortest
+            && [directed.face(), directed.rev().face()].iter().any(|face| {
+                face.as_inner().is_some_and(|face| {
+                    let center = face.center();
+                    !face.vertices().iter().any(|vertex| self.frame.contains(&vertex.fix()))
+                        && self.is_kept(DVec2::new(center.x, center.y) / self.stretch)
+                })
+            })
     }
 
     /// Makes the middle of an edge a node.
