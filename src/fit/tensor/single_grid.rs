@@ -149,23 +149,24 @@ impl<'a> LeastSquares<'a> {
         [self.basis.u.grid, self.basis.v.grid]
     }
 
-    /// The calmest fit that meets the tolerance; if none does, the closest one, or a calmer one where that swings between
-    /// the data.
-    ///
-    /// The closest is tried first: where it misses by more than the others could make good, they are tried only where it
-    /// swings.
+    /// The calmest fit that meets the tolerance at the data, or the closest one if none does; a calmer one where that
+    /// swings between them.
     fn fit_ladder(&self) -> Result<Candidate, FitError> {
         let asked = self.problem.options.smoothing;
-        if asked > 0.0 {
-            return self.fit(asked, None);
-        }
+        if asked > 0.0 { self.fit(asked, None) } else { self.calmed(self.at_the_data()?) }
+    }
+
+    /// The calmest fit that meets the tolerance at the data, or the closest one if none does.
+    ///
+    /// The closest is tried first: where it misses by more than the others could make good, they are not tried.
+    fn at_the_data(&self) -> Result<Candidate, FitError> {
         let (closest, calmer) = SMOOTHING_LADDER.split_last().expect("the ladder has steps");
         let closest = self.fit(*closest, None)?;
         let tolerance = self.problem.goal.tolerance;
         // more smoothing lowers a maximum now and then, by a little
         const WORTH_TRYING: f64 = 1.1;
         if closest.errors.demand > WORTH_TRYING * tolerance {
-            return self.calmed(closest);
+            return Ok(closest);
         }
         for &smoothing in calmer {
             let candidate = self.fit(smoothing, None)?;
@@ -176,27 +177,32 @@ impl<'a> LeastSquares<'a> {
         Ok(closest)
     }
 
-    /// A fit that misses the tolerance, or calmer ones as long as they are nearer where it is farthest: between the data. A
-    /// grid of far fewer unknowns than data does not swing there.
-    fn calmed(&self, closest: Candidate) -> Result<Candidate, FitError> {
-        if DATA_PER_UNKNOWN * closest.coefficient_count as f64 <= self.problem.uv.len() as f64 {
-            return Ok(closest);
+    /// A fit, or of it and calmer ones the one that is nearest where it is farthest, if that is between the data and beyond
+    /// the tolerance. A grid of far fewer unknowns than data does not swing there.
+    fn calmed(&self, nearest: Candidate) -> Result<Candidate, FitError> {
+        if DATA_PER_UNKNOWN * nearest.coefficient_count as f64 <= self.problem.uv.len() as f64 {
+            return Ok(nearest);
         }
-        let excess = |candidate: &Candidate| {
-            self.problem.interior_errors(&candidate.surface, self.pool).max_smooth_excess
+        let farthest = |candidate: &Candidate| {
+            let between = self.problem.interior_errors(&candidate.surface, self.pool).max_smooth_excess;
+            between.max(candidate.errors.demand)
         };
-        let mut best = closest;
-        let mut between = excess(&best);
-        for &smoothing in SMOOTHING_LADDER.iter().rev().skip(1) {
-            if between <= best.errors.demand {
+        let (mut least, smoothing) = (farthest(&nearest), nearest.smoothing);
+        let calmer = SMOOTHING_LADDER.iter().rev().filter(|&&calmer| calmer > smoothing);
+        let mut best = nearest;
+        for &smoothing in calmer {
+            if least <= best.errors.demand.max(self.problem.goal.tolerance) {
                 break;
             }
-            let calmer = self.fit(smoothing, None)?;
-            let calmer_between = excess(&calmer);
-            if calmer.errors.demand.max(calmer_between) >= between {
+            let candidate = self.fit(smoothing, None)?;
+            // still calmer ones are farther from the data
+            if candidate.errors.demand >= least {
                 break;
             }
-            (best, between) = (calmer, calmer_between);
+            let distance = farthest(&candidate);
+            if distance < least {
+                (best, least) = (candidate, distance);
+            }
         }
         Ok(best)
     }
