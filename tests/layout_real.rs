@@ -1,4 +1,4 @@
-//! Layouts of real meshes: patches and energies of `theory/closed.md` 3, and no folds.
+//! Layouts of real meshes: patches and energies of a prototype, and no folds.
 //!
 //! Skips, and says so, where the shared meshes are not at hand; seeded shapes are in the module's own tests.
 

@@ -1,4 +1,4 @@
-//! Real disk meshes: no map folds, and each stretches as `theory/parameterization.md` 8 has it.
+//! Real disk meshes: no map folds, and each stretches as little as in a prototype.
 //!
 //! Skips, and says so, where the shared meshes are not at hand.
 

@@ -1,4 +1,4 @@
-//! Real closed meshes on the sphere: no folds, and the energies of `theory/closed.md` 3 and 8.
+//! Real closed meshes on the sphere: no folds, and the energies of a prototype.
 //!
 //! Skips, and says so, where the shared meshes are not at hand; seeded shapes are in the module's own tests.
 

@@ -1,4 +1,4 @@
-//! Layouts made for meshes, with the places of their nodes: `theory/closed.md` 3.
+//! Layouts made for meshes, with the places of their nodes.
 //!
 //! A closed mesh of genus 0 may become a cube: its nodes go on to the sphere and from there on to the cube's faces. Any
 //! mesh, closed or with a border, has a base complex (`complex`), whose patches follow the shape.

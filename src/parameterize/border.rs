@@ -1,6 +1,6 @@
 //! Where the boundary loop goes: circle, or square with bulged sides.
 //!
-//! `parameterization.md` 2.3. Nodes are spaced by chord length on each piece. The sides of a square
+//! Nodes are spaced by chord length on each piece. The sides of a square
 //! bulge outwards by a parabola, so that the border is strictly convex and triangles between nodes
 //! of one side keep a positive area:
 //! ```text

@@ -6,7 +6,7 @@
 //! ```text
 //! sum_j w_ij (u_i - u_j) = sum_j (cot_t R_t + cot_t' R_t') (x_i - x_j) / 2
 //! ```
-//! On nearly developable sheets with notches and holes nothing is better (`parameterization.md` 4); on deep shapes
+//! On nearly developable sheets with notches and holes nothing is better; on deep shapes
 //! triangles flip. So the result is a candidate only: it is taken if no triangle flips, no two pieces of the
 //! boundary cross, and the stretch is less.
 

@@ -1,9 +1,8 @@
 //! Where a mesh gets its (u,v) from.
 //!
 //! W. Tutte, "How to draw a graph" (1963); M. Floater, "Mean value coordinates" (2003);
-//! S. Yoshizawa et al., "A fast and simple stretch-minimizing mesh parameterization" (2004). What was
-//! measured and decided stands in `theory/parameterization.md`, what is done with given parameters
-//! in `theory/ferguson.md` 6.
+//! S. Yoshizawa et al., "A fast and simple stretch-minimizing mesh parameterization" (2004). What we
+//! changed stands in docs/theory.md, "Where meshes get their (u,v)".
 //!
 //! [`parameterize`] maps a disk, possibly with holes, onto a circle or a square with bulged sides:
 //! fans close the holes, every interior node becomes the weighted mean of its neighbours, and the
@@ -134,7 +133,7 @@ pub fn parameterize(
 }
 
 /// The same, with more parameter area where `node_weights` are large: they multiply the stretch
-/// that steps work against (`parameterization.md` 5, error-driven map). One positive number a node.
+/// that steps work against (an error-driven map). One positive number a node.
 pub fn parameterize_weighted(
     mesh: &Mesh,
     options: &ParameterizeOptions,

@@ -10,7 +10,7 @@ pub enum Method {
     #[default]
     MeanValue,
     /// Cotangents: the conformal map of a flat sheet. Obtuse angles make weights negative, and
-    /// triangles may then flip (`parameterization.md` 4: three on a mannequin's head); the report
+    /// triangles may then flip (three on a mannequin's head); the report
     /// counts them.
     Harmonic,
 }
@@ -36,7 +36,7 @@ pub enum Border {
     Kept,
 }
 
-/// How a mesh gets its parameters: `parameterization.md` 9.
+/// How a mesh gets its parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ParameterizeOptions {
     /// Weights of the first map. Default: mean value.

@@ -1,6 +1,6 @@
 //! The mesh as the map sees it: holes closed by fans, neighbours listed, fixed nodes known.
 //!
-//! `parameterization.md` 2.1: every loop but the border gets one node at its centroid and a fan of
+//! Every loop but the border gets one node at its centroid and a fan of
 //! triangles. Weights and stretch use the fans; they are never returned.
 
 use super::ParameterizeError;

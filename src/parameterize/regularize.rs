@@ -1,6 +1,6 @@
 //! Evening out parameters that came with the mesh.
 //!
-//! `ferguson.md` 6: interior nodes become mean values of their neighbours, boundary nodes keep their
+//! J. Dannenhoffer and R. Haimes (2009): interior nodes become mean values of their neighbours, boundary nodes keep their
 //! (u,v) or slide along the boundary until its spacing is proportional to length in space. That
 //! repairs squeezed parameters and spoils good ones, so the default tests before and after: the
 //! largest singular value of d(x,y,z)/d(u,v) on the worst triangle over the median triangle.

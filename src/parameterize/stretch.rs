@@ -1,8 +1,8 @@
 //! Stretch of a map: how far it is from keeping lengths, and how to weigh against it.
 //!
 //! P. Sander et al., "Texture mapping progressive meshes" (2001); S. Yoshizawa, A. Belyaev,
-//! H.-P. Seidel, "A fast and simple stretch-minimizing mesh parameterization" (2004);
-//! `parameterization.md` 3. With the singular values G >= g of d(x,y,z)/d(u,v) on a triangle and
+//! H.-P. Seidel, "A fast and simple stretch-minimizing mesh parameterization" (2004).
+//! With the singular values G >= g of d(x,y,z)/d(u,v) on a triangle and
 //! the areas A3 (space), A2 (parameters):
 //! ```text
 //! sigma^2 = (G^2 + g^2)/2,   E = sqrt(sum A3 sigma^2 / sum A3) sqrt(sum A2 / sum A3) >= 1

@@ -418,7 +418,7 @@ fn sliding_regularization_evens_a_fuselage() {
         regularize(&mesh, &options, &mut Control::new(1)).unwrap()
     };
     let slid = run(Boundary::Slide);
-    // `ferguson.md` 10: given 31.5, fixed 28.1, sliding 1.03; diagonals there are random
+    // by a prototype: given 31.5, fixed 28.1, sliding 1.03; diagonals there are random
     assert!((slid.report.unevenness_before / 31.5 - 1.0).abs() < 0.05, "{:?}", slid.report);
     assert!(slid.report.replaced && slid.report.unevenness_after < 1.1, "{:?}", slid.report);
     assert_eq!(slid.report.flipped_triangles + slid.report.degenerate_triangles, 0);

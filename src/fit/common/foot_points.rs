@@ -1,7 +1,7 @@
 //! Parameter correction: data move towards their foot points on the surface.
 //!
 //! J. Hoschek, "Intrinsic parametrization for approximation", Comput. Aided Geom. Des. 5 (1988), 27-31;
-//! the rule that keeps triangles from folding: `parameterization.md` 5.
+//! the rule that keeps triangles from folding is our own.
 
 use crate::control::Pool;
 use crate::geometry::safe_scale;

@@ -1,6 +1,6 @@
 //! Fields on the nodes of one surface, fitted again and again.
 //!
-//! The least squares of [`super::tensor`] on a fixed grid (`ferguson.md` 4 and 9) are linear in the values:
+//! The least squares of [`super::tensor`] on a fixed grid are linear in the values:
 //! ```text
 //! (N^T W N + (mu/12) E) c = N^T W x
 //! ```

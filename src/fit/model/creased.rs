@@ -1,5 +1,5 @@
 //! Parts with sharp edges: patches over the curved regions of a mesh, one face for each plane, the same curves between
-//! them (`theory/creases.md`).
+//! them (docs/theory.md, models of many patches).
 //!
 //! ```text
 //! regions between features, some of them planes

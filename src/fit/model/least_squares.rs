@@ -1,4 +1,4 @@
-//! Least squares over all samples of all patches in the free unknowns of a smooth space: `closed.md` 4.
+//! Least squares over all samples of all patches in the free unknowns of a smooth space.
 //!
 //! ```text
 //! minimize  sum_n w_n |S(q_n,u_n,v_n) - P_n|^2 + smoothing sum_cells plate energy of the unit cell

@@ -1,6 +1,6 @@
 //! What is fitted: nodes or points, and the middles of triangles.
 //!
-//! With more coefficients than nodes the nodes alone say nothing (`parameterization.md` 6). The middle of a
+//! With more coefficients than nodes the nodes alone say nothing. The middle of a
 //! triangle of a shape is taken where a smooth surface would have it, above the facet.
 
 use crate::control::{Pool, Watch};

@@ -1,4 +1,4 @@
-//! Least squares over all samples in the jets of the basis vertices: `pht.md` 4.
+//! Least squares over all samples in the jets of the basis vertices.
 //!
 //! ```text
 //! minimize  sum_n w_n |S(u_n,v_n) - P_n|^2 + smoothing sum_cells plate energy of the unit cell

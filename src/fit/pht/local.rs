@@ -1,4 +1,4 @@
-//! Jets from polynomials fitted to the data around a place: `pht.md` 4.
+//! Jets from polynomials fitted to the data around a place.
 //!
 //! The paper's quadratic fits know nothing of the size of cells: one around each datum, carried to the vertices by
 //! linear interpolation. Weighted cubics around each vertex, over a circle as large as the cells there, do. Both

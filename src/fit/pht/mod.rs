@@ -1,8 +1,7 @@
 //! PHT-splines within a tolerance, from meshes and scattered points: cells are split where the error is too large.
 //!
 //! J. Deng et al., "Polynomial splines over hierarchical T-meshes", Graph. Models 70 (2008), section 5.2, with
-//! other estimators of the jets than the paper's (`pht.md` 4) and parameter correction
-//! (`parameterization.md` 8).
+//! other estimators of the jets than the paper's and parameter correction (docs/theory.md, PHT-splines).
 //!
 //! ```text
 //! repeat   estimate the jets at the basis vertices

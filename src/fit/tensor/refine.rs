@@ -45,7 +45,7 @@ impl Round {
     }
 }
 
-/// Grids of growing size (`ferguson.md` 5).
+/// Grids of growing size, doubled where the error asks: Dannenhoffer and Haimes (2009).
 impl Rounds for Problem<'_> {
     type Round = Round;
     type Error = FitError;

@@ -1,4 +1,4 @@
-//! The border of an open mesh, on its way to the border of a layout (`theory/creases.md` 11.1, 11.2).
+//! The border of an open mesh, on its way to the border of a layout.
 //!
 //! ```text
 //!   b --- a         A cone over each loop closes the mesh; its triangles are a void that gets no quads. Nodes of the

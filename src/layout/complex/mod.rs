@@ -1,5 +1,5 @@
-//! The base complex of a mesh of any genus, closed or with a border, as a layout: `theory/closed.md` 3 and, for borders,
-//! `theory/creases.md` 11.2.
+//! The base complex of a mesh of any genus, closed or with a border, as a layout (docs/theory.md, models of
+//! many patches).
 //!
 //! 0. Edges of a mesh with few nodes for so many patches are halved (`Mesh::halved`).
 //! 1. Edge collapses leave a few triangles, and track where each node lies on them (`base`, `flatten`, `border`).

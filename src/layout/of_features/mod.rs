@@ -1,4 +1,4 @@
-//! Layouts of meshes with sharp edges: `theory/creases.md` 11.1, 11.2 and 11.4.
+//! Layouts of meshes with sharp edges (docs/theory.md, models of many patches).
 //!
 //! Only some regions between the features get patches; planes and other exact faces do not. Each region is an open
 //! surface by itself. Patches of two regions meet along a chain in the same edges:

@@ -1,4 +1,4 @@
-//! Features of a mesh: edges where the surface is not smooth, as chains between corners (`theory/creases.md` 11.1).
+//! Features of a mesh: edges where the surface is not smooth, as chains between corners.
 //!
 //! ```text
 //!   c --- x --- x --- x .. o        c  corner: not exactly two feature edges, or a turn

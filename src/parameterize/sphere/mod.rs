@@ -1,7 +1,7 @@
 //! Maps of closed meshes of genus 0 on to the unit sphere, without folds by construction.
 //!
 //! E. Praun, H. Hoppe, "Spherical parametrization and remeshing", SIGGRAPH 2003: coarse to fine, each node enters where
-//! no triangle turns over; energy, levels and limits of our own: `theory/closed.md` 3.
+//! no triangle turns over; energy, levels and limits of our own.
 //!
 //! 1. Half-edge collapses lead to a tetrahedron (`hierarchy`), whose map is the regular one.
 //! 2. Nodes come back in the reverse order. The place of a node is one from which all edges of its ring are seen from

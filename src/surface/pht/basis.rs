@@ -1,6 +1,6 @@
 //! Control points, basis functions in Bezier form, and the operators that make one from the other on a leaf.
 //!
-//! Deng et al. 2008, section 4.2; `pht.md` 2. At a vertex with the widths `du1, du2, dv1, dv2`, one third of the
+//! Deng et al. 2008, section 4.2. At a vertex with the widths `du1, du2, dv1, dv2`, one third of the
 //! cells to the left, right, below and above and 0 beyond the border, four functions have the jets in the rows
 //! of b, and zero jets at all other basis vertices:
 //! ```text

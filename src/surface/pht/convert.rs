@@ -1,6 +1,6 @@
 //! From tensor surfaces to PHT-splines.
 //!
-//! Deng et al. 2008, section 5.4; `pht.md` 3. The jets are exact derivatives of the (homogeneous) surface. Over
+//! Deng et al. 2008, section 5.4. The jets are exact derivatives of the (homogeneous) surface. Over
 //! all of its knot lines a surface of degree 3 at most is reproduced; within a tolerance cells are split from
 //! one on until samples agree, and the error falls with the fourth power of their size.
 

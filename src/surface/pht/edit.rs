@@ -1,4 +1,4 @@
-//! Cross insertion and removal: `pht.md` 3.
+//! Cross insertion and removal (Deng et al. 2008).
 //!
 //! A split stores the jets that the leaf's patch has at its middle and at those of its edge middles that become
 //! basis vertices; a T-vertex of a neighbour there becomes a crossing with exactly the jet it had. Nothing

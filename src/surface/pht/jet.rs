@@ -1,6 +1,6 @@
 //! Jets: the record (f, f_u, f_v, f_uv) that a spline has at a vertex, and what cells make of four of them.
 //!
-//! A bicubic patch is fixed by the jets of its corners (`pht.md` 1). Along a line of constant v the pairs
+//! A bicubic patch is fixed by the jets of its corners. Along a line of constant v the pairs
 //! (f, f_u) and (f_v, f_uv) are cubics fixed by their ends, so a jet anywhere in a cell takes three
 //! interpolations: along both edges in u, then between them in v.
 //! ```text

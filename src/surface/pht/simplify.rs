@@ -1,6 +1,6 @@
 //! Simplification: crosses are removed while the surface stays near the original.
 //!
-//! Deng et al. 2008, section 5.1; `pht.md` 3. Levels are processed from fine to coarse, the cells of a level in
+//! Deng et al. 2008, section 5.1. Levels are processed from fine to coarse, the cells of a level in
 //! the order of their deviation. The deviation is that from the original surface: a coarse patch cut at the
 //! original leaves has ordinates that differ from the original ones by at least what the patches do.
 //!

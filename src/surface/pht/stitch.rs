@@ -1,4 +1,4 @@
-//! Two surfaces that shall meet with common tangents along an edge: `pht.md` 3.
+//! Two surfaces that shall meet with common tangents along an edge.
 //!
 //! Both edges get the same vertices, by splits on the coarser side, and the same jets there: the means of the
 //! positions and of the derivatives along the edge, and of those across it with the sense in which the surfaces

@@ -1,6 +1,6 @@
 //! Exact tensor product surfaces out of a PHT-spline: the whole, or few patches over parts of even fineness.
 //!
-//! Deng et al. 2008, section 5.3; `pht.md` 3. A rectangle of cells is a tensor surface over all coordinates of
+//! Deng et al. 2008, section 5.3. A rectangle of cells is a tensor surface over all coordinates of
 //! its vertices, with double knots inside: the control points are the ordinates 0 and 1 of the first interval,
 //! then 2 and 1 around each line, then 2 and 3 of the last, which the jets at the crossings of the lines give.
 

@@ -1,7 +1,7 @@
 //! Linear combinations of tensor surfaces: a shape and its displacements, modes and their factors.
 //!
 //! Splines over one domain are a vector space once they are written over common knots: degrees are raised and knots
-//! inserted until all nets agree, then control points are added (`ferguson.md` 4, "displaced surface").
+//! inserted until all nets agree, then control points are added.
 
 use super::{Axis, TensorError, TensorSurface};
 use crate::failure::{Classify, ErrorKind};

@@ -1,6 +1,6 @@
 //! The equations of the paper itself: values by differentiating with slopes held, slopes by spline sweeps.
 //!
-//! J. Dannenhoffer and R. Haimes (2009), equations 7 to 16, corrected as in `ferguson.md` 9. Unknowns at each knot
+//! J. Dannenhoffer and R. Haimes (2009), equations 7 to 16, corrected (docs/theory.md). Unknowns at each knot
 //! are the value x and the slopes Xu, Xv, Xuv in cell units. With r_n the residual of datum n, row (i, j) says
 //! ```text
 //! sum_n phi_ij(n) r_n + mu (bending along i + bending along j) = 0,    phi_ij a value function

@@ -1,6 +1,7 @@
 //! Bicubic splines on uniform grids: their bases, energies, normal equations, and the equations of the paper.
 //!
-//! What surfaces, curves and fields on such grids have in common (`ferguson.md` 4 to 9).
+//! What surfaces, curves and fields on such grids have in common: J. Dannenhoffer and R. Haimes,
+//! "Generation of Spline Approximations to Tessellations" (2009), and least squares instead of its equations.
 
 pub(in crate::fit) mod energy;
 pub(in crate::fit) mod ferguson;
@@ -21,8 +22,8 @@ pub enum Method {
     Ferguson,
 }
 
-/// Smoothing weights tried on each grid, from the calmest to the closest. `ferguson.md` 7: the first limits the
-/// accuracy of fine grids, the last fills holes badly when data are noisy.
+/// Smoothing weights tried on each grid, from the calmest to the closest: the first limits the accuracy of
+/// fine grids, the last fills holes badly when data are noisy.
 pub const SMOOTHING_LADDER: [f64; 4] = [1e-3, 1e-4, 1e-5, 1e-6];
 
 /// Most knots along one direction that may be asked for.

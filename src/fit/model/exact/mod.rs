@@ -1,4 +1,4 @@
-//! Models of exact faces: planes and cylinders that meet in lines, circles and ellipses (`theory/creases.md`).
+//! Models of exact faces: planes and cylinders that meet in lines, circles and ellipses.
 //!
 //! ```text
 //! features -> regions -> carriers -> directions made parallel and square

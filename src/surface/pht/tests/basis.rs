@@ -242,7 +242,7 @@ fn dominant(size: usize, map: impl Fn(&[f64]) -> Vec<f64>) -> f64 {
     growth
 }
 
-/// `pht.md` 2, decay and its cure: refined again and again around one vertex, the functions of the paper become
+/// Decay and its cure: refined again and again around one vertex, the functions of the paper become
 /// parallel, those with the widths of their supports do not.
 #[test]
 fn support_sized_functions_stay_apart_beside_finer_cells() {
