@@ -125,7 +125,8 @@ fn what_is_missed_is_missed_by_no_more_than_could_be_had() {
             let options = TensorOptions { tolerance, knots: Knots::Uniform, ..TensorOptions::default() };
             let report = tensor::fit_mesh(&mesh, &options, &mut Control::new(2)).unwrap().report;
             let away = report.max_error / report.diagonal;
-            // there is a surface within 1e-2, whatever is asked
+            // there is a surface within 1e-2, whatever is asked; that holds for these sheets, not for all: what counts is the
+            // larger of the errors at the nodes and between them, and a finger of 4 on 60 nodes a side ends at 1.03e-2
             assert!(away <= 1e-2, "a finger of {height}, {side} nodes a side, within {value}: {away}");
         }
     }
