@@ -19,7 +19,7 @@ class Planish(CMakePackage):
 
     depends_on("c", type="build")
     depends_on("fortran", type="build", when="+fortran")
-    depends_on("rust@1.95:", type="build")
+    depends_on("rust@1.88:", type="build")
     depends_on("cmake@3.22:", type="build")
 
     def cmake_args(self):

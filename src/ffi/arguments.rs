@@ -342,7 +342,8 @@ pub(super) unsafe fn path<'a>(at: *const c_char, name: &'static str) -> Argument
 /// `at` is NULL or points to `size` writable bytes.
 pub(super) unsafe fn write_text(text: &str, at: *mut c_char, size: usize) -> usize {
     if !at.is_null() && size > 0 {
-        let len = text.floor_char_boundary(size - 1);
+        let fits = text.len().min(size - 1);
+        let len = (0..=fits).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0);
         // SAFETY: len < size, and the caller's promise.
         unsafe {
             std::ptr::copy_nonoverlapping(text.as_ptr(), at.cast(), len);
