@@ -14,14 +14,22 @@ impl Problem<'_> {
         self.between(pool.watch()).measure(surface, pool)
     }
 
-    /// What is known between the data.
-    pub(super) fn between(&self, watch: &Watch) -> Between {
-        match self.mesh_data() {
+    /// What is known between the data. It is made on one thread: others may wait for it.
+    pub(super) fn between(&self, watch: &Watch) -> &Between {
+        self.between.get_or_init(|| match self.mesh_data() {
             Some(data) => Between::nodes(&data, self.dim, &self.standards, watch),
             None => {
                 Between::scattered(&self.uv, self.values, self.dim, &self.data_box, &self.standards, watch)
             }
+        })
+    }
+
+    /// Gives the data other parameters; returns those of before.
+    pub(super) fn move_data(&mut self, uv: Vec<DVec2>) -> Vec<DVec2> {
+        if uv != self.uv {
+            self.between.take();
         }
+        std::mem::replace(&mut self.uv, uv)
     }
 
     /// The mesh with its values and present parameters.

@@ -28,6 +28,7 @@ pub use options::{Knots, TensorOptions};
 
 use super::common::checks::{check_parameters, check_unused, check_values};
 use super::common::errors::{DataErrors, data_errors};
+use super::common::interior::Between;
 use super::common::neighbours::triangles_between;
 use super::common::outliers::{self, Cloud};
 use super::common::partial::{self, is_on_triangles, is_partial};
@@ -46,6 +47,7 @@ use crate::surface::tensor::TensorSurface;
 use crate::surface::{Domain, Region};
 use glam::DVec2;
 use lines::Lines;
+use std::sync::OnceLock;
 use std::time::Instant;
 
 /// A fitted tensor surface with all that is known of it.
@@ -209,8 +211,10 @@ struct Problem<'a> {
     /// Rows of `dim` numbers, as given.
     values: &'a [f64],
     dim: usize,
-    /// Parameters of the data; correction sweeps move them.
+    /// Parameters of the data; correction sweeps move them, by [`Self::move_data`].
     uv: Vec<DVec2>,
+    /// What is known between the data, once it has been asked for.
+    between: OnceLock<Between>,
     /// The box of `uv` as it was at first.
     data_box: Domain,
     /// The energy asked for, or the plate where that leaves the surface undetermined.
@@ -262,6 +266,7 @@ impl<'a> Problem<'a> {
             values,
             dim,
             uv,
+            between: OnceLock::new(),
             data_box,
         })
     }

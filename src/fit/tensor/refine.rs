@@ -96,7 +96,7 @@ impl Rounds for Problem<'_> {
 impl Problem<'_> {
     pub(super) fn run(mut self, control: &mut Control) -> Result<TensorFit, FitError> {
         let outcome = rounds::run(&mut self, control)?;
-        self.uv = outcome.best.uv;
+        self.move_data(outcome.best.uv);
         let tame = self.tamed(outcome.best.candidate, control)?;
         Ok(self.finish(tame.into(), outcome.stop, outcome.passes, control))
     }
@@ -181,11 +181,11 @@ impl Problem<'_> {
                 break;
             }
             let moved = self.moved(&current, control.pool());
-            let before = std::mem::replace(&mut self.uv, moved);
+            let before = self.move_data(moved);
             let counts = current.counts();
             let refitted = control.watch(|pool, watch| self.fit_grid(counts, pool, watch))??;
             if refitted.errors.rms >= current.errors.rms {
-                self.uv = before;
+                self.move_data(before);
                 break;
             }
             current = refitted;

@@ -51,7 +51,7 @@ pub(super) struct NetFitter<'a> {
     withholds: bool,
     trims: Trims,
     /// None for many scattered data: those that are withheld tell of what lies between the others.
-    between: Option<Between>,
+    between: Option<&'a Between>,
     /// Of that, what is looked at while lines are taken out.
     sparse: Option<Between>,
     /// The coordinates of the data in each direction, in their order.
@@ -142,7 +142,7 @@ impl<'a> NetFitter<'a> {
             values: problem.frame.inward(problem.values),
             weight_sum: weights.iter().sum(),
             weights,
-            sparse: between.as_ref().map(|between| between.thinned(SPARSE_TRIANGLES)),
+            sparse: between.map(|between| between.thinned(SPARSE_TRIANGLES)),
             between,
             sorted: [sort(|uv| uv.x), sort(|uv| uv.y)],
             tension: Tension { multiple: 1.0, cut: CutCells::No },
@@ -362,14 +362,14 @@ impl<'a> NetFitter<'a> {
 
     /// Measures between the data.
     pub(super) fn measure_between(&self, net: &mut Net, pool: &Pool) {
-        if let (Some(between), true) = (&self.between, net.excess.is_empty()) {
+        if let (Some(between), true) = (self.between, net.excess.is_empty()) {
             net.excess = between.excess(&net.surface, pool);
         }
     }
 
     /// Places between the data, in the order of [`Net::excess`].
     pub(super) fn places_between(&self) -> &[DVec2] {
-        self.between.as_ref().map_or(&[], |between| &between.uv)
+        self.between.map_or(&[], |between| &between.uv)
     }
 }
 
