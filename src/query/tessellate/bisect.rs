@@ -169,6 +169,7 @@ impl<'a> Division<'a> {
                 let point = DVec3::from_slice(row);
                 let (error, length) = (distance_to_segment(point, a, b), a.distance(b));
                 let middle = Middle { uv, point, error, length, is_marked: false, node: NONE };
+                memory::reserve_entry(&mut self.middles);
                 self.middles.insert(edge, middle);
             }
         }
@@ -229,7 +230,8 @@ impl<'a> Division<'a> {
                 memory::push(&mut divided, triangle);
                 continue;
             };
-            let mut add = |nodes| divided.push(Triangle { nodes, facet: triangle.facet, error: f64::NAN });
+            let facet = triangle.facet;
+            let mut add = |nodes| memory::push(&mut divided, Triangle { nodes, facet, error: f64::NAN });
             match p {
                 Some(p) => [[a, m, p], [m, c, p]].into_iter().for_each(&mut add),
                 None => add([a, m, c]),

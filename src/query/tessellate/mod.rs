@@ -22,7 +22,6 @@ use bisect::{Fineness, tessellate_facets};
 use glam::{DVec2, DVec3};
 use spade::handles::{FixedVertexHandle, UndirectedEdgeHandle};
 use spade::{CdtEdge, ConstrainedDelaunayTriangulation, Point2, Triangulation, mitigate_underflow};
-use std::collections::HashMap;
 pub(crate) use tessellation::{distance_to_segment, least_angle};
 
 pub use bisect::CHORD_SHARE;
@@ -318,7 +317,7 @@ impl<'a> Plane<'a> {
     }
 
     fn finish(mut self) -> Result<Tessellation, TessellateError> {
-        let mut numbers: HashMap<FixedVertexHandle, u32> = HashMap::new();
+        let mut numbers = memory::filled(None, self.triangulation.num_vertices());
         let (mut points, mut uvs, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
         let mut smallest_angle = f64::INFINITY;
         let faces: Vec<_> = self
@@ -339,8 +338,7 @@ impl<'a> Plane<'a> {
             smallest_angle = smallest_angle.min(least_angle(corners));
             let mut triangle = [0; 3];
             for k in 0..3 {
-                memory::reserve_entry(&mut numbers);
-                triangle[k] = *numbers.entry(face[k]).or_insert_with(|| {
+                triangle[k] = *numbers[face[k].index()].get_or_insert_with(|| {
                     memory::push(&mut points, corners[k]);
                     memory::push(&mut uvs, place[k]);
                     points.len() as u32 - 1
